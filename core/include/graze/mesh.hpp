@@ -1,0 +1,133 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <graze/export.hpp>
+#include <graze/position_view.hpp>
+#include <graze/region_tree.hpp>
+#include <limits>
+#include <ranges>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// Topology and rest shape of a surface of triangles and quads, with its octree of regions. Immutable; share
+/// it between any number of objects and threads.
+///
+/// Vertex and face numbers are the caller's. Edges are numbered in the order in which they first appear
+/// walking the faces' corners, the corner pair (last, first) at the end of each face. A face that repeats a
+/// vertex is accepted; the pair of a vertex with itself is no edge. A vertex that no face uses is not part of
+/// the surface: it is never read and may hold anything.
+class GRAZE_API Mesh {
+ public:
+  /// Stands in `face_edges` where two consecutive corners are the same vertex.
+  static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
+
+  /// Positions and the corners of each face. Throws Error for no face, a corner that names no vertex, a used
+  /// vertex that is not finite or beyond 2^120, or a face of another number of corners than 3 or 4.
+  static Mesh from_triangles(PositionView rest, std::span<const std::array<std::uint32_t, 3>> triangles);
+  static Mesh from_quads(PositionView rest, std::span<const std::array<std::uint32_t, 4>> quads);
+  /// Triangles and quads mixed: `corners` holds the corners of all faces one after the other, `corner_counts`
+  /// how many each face has.
+  static Mesh from_polygons(PositionView rest, std::span<const std::uint32_t> corners,
+                            std::span<const std::uint32_t> corner_counts);
+  /// The same for counts of any other integer type.
+  template <std::ranges::sized_range Counts>
+  requires std::integral<std::ranges::range_value_t<Counts>> &&
+      (!std::convertible_to<const Counts&, std::span<const std::uint32_t>>)static Mesh
+      from_polygons(PositionView rest, std::span<const std::uint32_t> corners, const Counts& corner_counts) {
+    std::vector<std::uint32_t> counts;
+    counts.reserve(std::ranges::size(corner_counts));
+    for (const auto count : corner_counts) counts.push_back(static_cast<std::uint32_t>(count));
+    return from_polygons(rest, corners, std::span<const std::uint32_t>(counts));
+  }
+
+  [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_.size()); }
+  [[nodiscard]] std::uint32_t face_count() const {
+    return static_cast<std::uint32_t>(face_begin_.size()) - 1;
+  }
+  [[nodiscard]] std::uint32_t edge_count() const { return static_cast<std::uint32_t>(edges_.size()); }
+
+  /// Rest positions, one for each vertex, unused ones included.
+  [[nodiscard]] std::span<const Eigen::Vector3d> rest() const { return rest_; }
+
+  /// A face's corners as they came: 3 or 4.
+  [[nodiscard]] std::span<const std::uint32_t> face(std::uint32_t index) const {
+    return row(corners_, face_begin_, index);
+  }
+  /// The edge from each corner of a face to the next, `no_edge` where they are one vertex.
+  [[nodiscard]] std::span<const std::uint32_t> face_edges(std::uint32_t index) const {
+    return row(face_edges_, face_begin_, index);
+  }
+  /// An edge's two vertices, the lower first.
+  [[nodiscard]] std::array<std::uint32_t, 2> edge(std::uint32_t index) const { return edges_[index]; }
+
+  /// The vertices that share an edge with `vertex`, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> vertex_neighbours(std::uint32_t vertex) const {
+    return row(neighbours_, neighbour_begin_, vertex);
+  }
+  /// The faces that use `vertex`, ascending, each once.
+  [[nodiscard]] std::span<const std::uint32_t> vertex_faces(std::uint32_t vertex) const {
+    return row(vertex_faces_, vertex_face_begin_, vertex);
+  }
+  /// The faces that have `edge`, ascending, each once.
+  [[nodiscard]] std::span<const std::uint32_t> edge_faces(std::uint32_t edge) const {
+    return row(edge_faces_, edge_face_begin_, edge);
+  }
+  /// Whether any face uses `vertex`.
+  [[nodiscard]] bool is_used(std::uint32_t vertex) const { return !vertex_faces(vertex).empty(); }
+
+  /// The octree of regions, built with the mesh.
+  [[nodiscard]] const RegionTree& regions() const { return regions_; }
+
+  /// Bytes held, the region tree included.
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  Mesh() = default;
+
+  static std::span<const std::uint32_t> row(const std::vector<std::uint32_t>& values,
+                                            const std::vector<std::uint32_t>& begin, std::uint32_t index) {
+    return std::span(values).subspan(begin[index], begin[index + 1] - begin[index]);
+  }
+  void check_faces() const;
+  void check_rest() const;
+  void number_edges();
+  void list_incidence();
+
+  std::vector<Eigen::Vector3d> rest_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<std::uint32_t> face_begin_;
+  std::vector<std::uint32_t> face_edges_;
+  std::vector<std::array<std::uint32_t, 2>> edges_;
+  std::vector<std::uint32_t> neighbours_;
+  std::vector<std::uint32_t> neighbour_begin_;
+  std::vector<std::uint32_t> vertex_faces_;
+  std::vector<std::uint32_t> vertex_face_begin_;
+  std::vector<std::uint32_t> edge_faces_;
+  std::vector<std::uint32_t> edge_face_begin_;
+  RegionTree regions_;
+};
+
+/// What is odd about a mesh: nothing here is an error, all of it is accepted. Every list is ascending.
+struct MeshOddities {
+  std::vector<std::uint32_t> degenerate_faces;   ///< zero area at rest, or a repeated corner
+  std::vector<std::uint32_t> duplicate_faces;    ///< the same set of corners as an earlier face
+  std::vector<std::uint32_t> isolated_vertices;  ///< no face uses them
+  std::vector<std::uint32_t>
+      duplicate_vertices;  ///< used, and at the rest position of an earlier used vertex
+  std::vector<std::uint32_t> non_manifold_edges;  ///< more than two faces
+  std::vector<std::uint32_t> border_edges;        ///< one face: the surface is open there
+  std::vector<std::uint32_t> flipped_edges;       ///< two faces that run along it in the same direction
+
+  /// Every edge has exactly two faces.
+  [[nodiscard]] bool closed_manifold() const { return non_manifold_edges.empty() && border_edges.empty(); }
+};
+
+/// Lists what is odd about `mesh`.
+GRAZE_API MeshOddities find_oddities(const Mesh& mesh);
+
+}  // namespace graze

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <graze/accuracy.hpp>
+#include <graze/contact.hpp>
+#include <graze/export.hpp>
+#include <graze/region_tree.hpp>
+#include <graze/surface.hpp>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// What is asked of one pair of objects.
+struct PairQuery {
+  ContactDetail detail = ContactDetail::features;
+  AccuracyMode mode = AccuracyMode::exact;
+  double threshold = 0;             ///< strictly closer is a contact; margins included
+  double reach = 0;                 ///< at least `threshold`; pairs strictly closer are listed
+  double tolerance = 0;             ///< of AccuracyMode::within
+  std::span<const double> epsilon;  ///< AccuracyMode::paper's numbers for levels 1 to k-1; empty: eq. 3 and 6
+  /// Region pairs that may be tested; beyond it the answer is not complete.
+  std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
+  /// The same in time.
+  static constexpr std::chrono::steady_clock::time_point no_deadline =
+      std::chrono::steady_clock::time_point::max();
+  std::chrono::steady_clock::time_point deadline = no_deadline;
+};
+
+/// Work done for a pair, or for many.
+struct PairCounters {
+  std::uint64_t region_pairs_tested = 0;
+  std::uint64_t leaf_pairs_tested = 0;
+  std::uint64_t exact_decisions = 0;
+  /// Pairs of regions expanded, by level.
+  std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
+
+  void add(const PairCounters& other);
+};
+
+/// What is known of one pair of objects.
+struct PairAnswer {
+  bool in_contact = false;
+  bool listed = false;   ///< in contact, or nearer than the reach; otherwise nothing below means anything
+  bool complete = true;  ///< false where the work limit was reached: the bounds hold, contacts are empty
+  DistanceBounds distance;
+  Witness witness;
+  std::vector<Contact> contacts;  ///< sorted by (kind, feature a, feature b)
+};
+
+/// Answers queries about pairs of surfaces: DMV, DV and contact determination (paper, sections 3.2 and 3.3).
+/// Keeps its working memory from query to query. One thread at a time; any number of detectors may share the
+/// surfaces.
+class GRAZE_API PairDetector {
+ public:
+  PairDetector();
+  ~PairDetector();
+  PairDetector(PairDetector&&) noexcept;
+  PairDetector& operator=(PairDetector&&) noexcept;
+
+  /// Both surfaces are refitted: by `refit_vertices` for the details `regions` and `vertices`, by
+  /// `refit_faces` for the others. `answer` is overwritten, its memory used again; the work is added to
+  /// `counters`.
+  void detect(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer,
+              PairCounters& counters);
+
+  /// Bounds that need no search and no refit, for a pair whose turn does not come: an answer that is not
+  /// complete.
+  static void outer_bounds(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+/// Whether `detail` is about vertices, so that distances are between vertices and not between surfaces.
+constexpr bool is_about_vertices(ContactDetail detail) {
+  return detail == ContactDetail::regions || detail == ContactDetail::vertices;
+}
+
+}  // namespace graze

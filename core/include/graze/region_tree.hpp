@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <graze/export.hpp>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+class Mesh;
+
+/// One region R(level, j) of a mesh (paper, section 3.1): a range of the tree's vertex order, and its middle
+/// vertex.
+struct Region {
+  std::uint32_t level = 0;
+  std::uint32_t parent = 0;  ///< the root is its own parent
+  std::uint32_t first_child = 0;
+  std::uint32_t child_count = 0;   ///< 0 for a leaf
+  std::uint32_t first_vertex = 0;  ///< into RegionTree::vertices()
+  std::uint32_t vertex_count = 0;
+  std::uint32_t first_face = 0;  ///< into RegionTree::faces()
+  std::uint32_t face_count = 0;
+  std::uint32_t first_edge = 0;  ///< into RegionTree::edges()
+  std::uint32_t edge_count = 0;
+  std::uint32_t middle = 0;  ///< the middle vertex (eq. 1), a vertex of the mesh
+
+  [[nodiscard]] bool is_leaf() const { return child_count == 0; }
+};
+
+/// The octree of regions of a mesh's rest shape. Fixed once built: while the object deforms only radii and
+/// boxes change (they belong to a Surface). Region 0 is the whole mesh; regions are stored level by level,
+/// children of one parent together, so every child has a higher number than its parent.
+///
+/// The root box is the box of the used vertices' rest positions. A region of more than `leaf_capacity`
+/// vertices is cut into 8 equal boxes about its centre, computed relative to the root box's minimum; a vertex
+/// on a cut goes to the upper side; empty children are dropped; coincident vertices or depth `max_level` end
+/// it. A face belongs to the region of its first corner, an edge to that of its lower vertex, so that every
+/// feature has one owner.
+class GRAZE_API RegionTree {
+ public:
+  static constexpr std::uint32_t leaf_capacity = 30;
+  static constexpr std::uint32_t max_level = 40;
+
+  RegionTree() = default;
+  explicit RegionTree(const Mesh& mesh);
+
+  [[nodiscard]] std::span<const Region> regions() const { return regions_; }
+  [[nodiscard]] const Region& region(std::uint32_t index) const { return regions_[index]; }
+  /// The number of levels, L + 1: level 0 is the whole mesh, L the deepest.
+  [[nodiscard]] std::uint32_t level_count() const {
+    return static_cast<std::uint32_t>(level_begin_.size()) - 1;
+  }
+  /// The number of the first region of `level`; `level_count()` gives the number of regions.
+  [[nodiscard]] std::uint32_t level_begin(std::uint32_t level) const { return level_begin_[level]; }
+
+  /// All used vertices, faces and edges in tree order; every region owns a contiguous range of each.
+  [[nodiscard]] std::span<const std::uint32_t> vertices() const { return vertices_; }
+  [[nodiscard]] std::span<const std::uint32_t> faces() const { return faces_; }
+  [[nodiscard]] std::span<const std::uint32_t> edges() const { return edges_; }
+  [[nodiscard]] std::span<const std::uint32_t> vertices(const Region& region) const {
+    return vertices().subspan(region.first_vertex, region.vertex_count);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> faces(const Region& region) const {
+    return faces().subspan(region.first_face, region.face_count);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> edges(const Region& region) const {
+    return edges().subspan(region.first_edge, region.edge_count);
+  }
+
+  /// Bytes held.
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  std::vector<Region> regions_;
+  std::vector<std::uint32_t> level_begin_;
+  std::vector<std::uint32_t> vertices_;
+  std::vector<std::uint32_t> faces_;
+  std::vector<std::uint32_t> edges_;
+};
+
+}  // namespace graze

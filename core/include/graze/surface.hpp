@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <graze/box.hpp>
+#include <graze/export.hpp>
+#include <graze/mesh.hpp>
+#include <graze/position_view.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// A mesh at the positions it has now, and the bounds of its regions there. One thread changes it at a time;
+/// while none does, any number may read.
+class GRAZE_API Surface {
+ public:
+  /// At the mesh's rest shape, not yet refitted. Throws Error for a null mesh.
+  explicit Surface(std::shared_ptr<const Mesh> mesh);
+
+  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+  [[nodiscard]] const std::shared_ptr<const Mesh>& shared_mesh() const { return mesh_; }
+  /// One for each vertex; those of unused vertices mean nothing.
+  [[nodiscard]] std::span<const Eigen::Vector3d> positions() const { return positions_; }
+  [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t vertex) const { return positions_[vertex]; }
+  /// The box of the used vertices, and so of the faces.
+  [[nodiscard]] const Box& box() const { return box_; }
+
+  /// What came of reading positions.
+  struct ReadResult {
+    static constexpr std::uint32_t no_vertex = Mesh::no_edge;
+    /// The first used vertex that is not finite or has a coordinate beyond 2^120; then nothing was taken.
+    std::uint32_t bad_vertex = no_vertex;
+    Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
+    /// How far the used vertex that moved furthest did.
+    double displacement = 0;
+
+    [[nodiscard]] bool taken() const { return bad_vertex == no_vertex; }
+  };
+  /// Takes all of `view`, which has one position for each vertex, or nothing. Unused vertices are not read.
+  ReadResult set_positions(const PositionView& view);
+  /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
+  ReadResult set_pose(const std::array<double, 12>& rows);
+
+  /// Makes the bounds of all regions those of the present positions; cheap if they are already.
+  ///
+  /// Vertex bounds: a radius about the middle vertex (eq. 2) and a box, of the region's vertices. Surface
+  /// bounds: a box of the vertices and all corners of the faces and edges that the region owns.
+  void refit_vertices();
+  void refit_faces();
+  [[nodiscard]] bool vertices_are_fitted() const { return vertices_are_fitted_; }
+  [[nodiscard]] bool faces_are_fitted() const { return faces_are_fitted_; }
+
+  /// Of the last refit_vertices: eq. 2, one for each region.
+  [[nodiscard]] std::span<const double> radii() const { return radii_; }
+  [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
+  /// Of the last refit_vertices: eq. 3, one for each level.
+  [[nodiscard]] std::span<const double> level_radii() const { return level_radii_; }
+  /// Of the last refit_faces, one for each region.
+  [[nodiscard]] std::span<const Box> face_boxes() const { return face_boxes_; }
+
+  [[nodiscard]] const Eigen::Vector3d& middle(const Region& region) const {
+    return positions_[region.middle];
+  }
+
+  /// Bytes held; the mesh is not counted.
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  template <typename PositionOf>
+  ReadResult take(const PositionOf& position_of);
+
+  std::shared_ptr<const Mesh> mesh_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<Eigen::Vector3d>
+      incoming_;  ///< where positions are read to before all of them are known to be good
+  Box box_;
+  std::vector<double> radii_;
+  std::vector<double> level_radii_;
+  std::vector<Box> vertex_boxes_;
+  std::vector<Box> face_boxes_;
+  bool vertices_are_fitted_ = false;
+  bool faces_are_fitted_ = false;
+};
+
+}  // namespace graze

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <graze/box.hpp>
+#include <graze/surface.hpp>
+
+#include "region_pair.hpp"
+
+namespace graze {
+
+/// Factors that make a distance of a handful of rounded operations certain: each rounds by at most 2^-53 of
+/// its result, and below fewer than eight follow one another.
+inline constexpr double round_down = 1 - 0x1p-50;
+inline constexpr double round_up = 1 + 0x1p-50;
+
+/// At most the distance of any two points of the boxes; 0 where they overlap.
+inline double lower_distance(const Box& a, const Box& b) {
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double gap = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
+    squared += gap * gap;
+  }
+  return std::sqrt(squared) * round_down;
+}
+
+/// At least the distance of two points.
+inline double upper_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (b - a).norm() * round_up + 0x1p-537;  // squares below the smallest denormal vanish
+}
+
+/// At most the distance of any vertex within `radius_a` of `middle_a` and any within `radius_b` of
+/// `middle_b`, for radii that are rounded themselves.
+inline double lower_distance(const Eigen::Vector3d& middle_a, double radius_a,
+                             const Eigen::Vector3d& middle_b, double radius_b) {
+  const double radii = (radius_a + radius_b) * round_up + 0x1p-536;
+  return std::max(0.0, ((middle_b - middle_a).norm() * round_down - radii) * round_down);
+}
+
+/// The certified bound of method.md, section 2: no vertices of two regions are nearer. The better of the
+/// spheres about the middle vertices (eq. 2) and the boxes; both surfaces are refitted by vertices.
+inline double vertex_lower_distance(const Surface& a, const Surface& b, const RegionPair& pair) {
+  const Region& region_a = a.mesh().regions().region(pair.a);
+  const Region& region_b = b.mesh().regions().region(pair.b);
+  return std::max(
+      lower_distance(a.vertex_boxes()[pair.a], b.vertex_boxes()[pair.b]),
+      lower_distance(a.middle(region_a), a.radii()[pair.a], b.middle(region_b), b.radii()[pair.b]));
+}
+
+}  // namespace graze

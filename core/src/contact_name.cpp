@@ -1,0 +1,90 @@
+#include "contact_name.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "ratio.hpp"
+
+namespace graze {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <typename Number>
+Ratio<Number> squared(const SurfacePair& pair, const ContactName& name) {
+  if (name.meeting == Meeting::pierced) return {Number(0.0), Number(1.0)};
+  const Hulls hulls = hulls_of(pair, name);
+  return hull_distance_squared<Number>(hulls.a, hulls.b);
+}
+
+/// The square root of a quotient, to a relative error of a few 2^-53, whatever its exponent.
+double approximate_root(const Ratio<Exact>& square) {
+  const Exact::Scaled top = square.numerator.scaled();
+  const Exact::Scaled bottom = square.denominator.scaled();
+  double fraction = top.fraction / bottom.fraction;
+  int exponent = top.exponent - bottom.exponent;
+  if (exponent % 2 != 0) {
+    fraction *= 2;
+    --exponent;
+  }
+  return std::ldexp(std::sqrt(fraction), exponent / 2);
+}
+
+/// The sign of value² − square.
+int compare_square(double value, const Ratio<Exact>& square) {
+  const Exact exact(value);
+  return (exact * exact * square.denominator - square.numerator).sign();
+}
+
+}  // namespace
+
+Hulls hulls_of(const SurfacePair& pair, const ContactName& name) {
+  Hulls hulls{simplex_of(pair.a, name.a), simplex_of(pair.b, name.b)};
+  if (name.meeting == Meeting::parallel) (hulls.a.size <= hulls.b.size ? hulls.a : hulls.b).size = 1;
+  return hulls;
+}
+
+int compare_distances(const SurfacePair& pair, const ContactName& left, const ContactName& right) {
+  if (left.meeting == Meeting::pierced && right.meeting == Meeting::pierced) return 0;
+  return decide(pair.count, [&]<typename Number>(bool& unsure) {
+    return compare(squared<Number>(pair, left), squared<Number>(pair, right), unsure);
+  });
+}
+
+bool is_closer_than(const SurfacePair& pair, const ContactName& name, double limit) {
+  if (name.meeting == Meeting::pierced || limit == 0 || std::isinf(limit)) return limit > 0;
+  return decide(pair.count, [&]<typename Number>(bool& unsure) {
+    const Ratio<Number> square = squared<Number>(pair, name);
+    return sign(Number(limit) * Number(limit) * square.denominator - square.numerator, unsure) > 0;
+  });
+}
+
+double upper_distance(const SurfacePair& pair, const ContactName& name) {
+  const Ratio<Ball> square = squared<Ball>(pair, name);
+  const double top = (square.numerator.value + square.numerator.radius) * Ball::slack;
+  const double bottom = (square.denominator.value - square.denominator.radius) / Ball::slack;
+  const bool is_tight = square.numerator.radius <= square.numerator.value * 0x1p-42 &&
+                        square.denominator.radius <= square.denominator.value * 0x1p-42;
+  if (is_tight && std::isfinite(top) && bottom > 0) {
+    const double root = std::sqrt(top / bottom);
+    if (root > 0x1p-500 && std::isfinite(root)) return root * Ball::slack;
+  }
+  return rounded_distance(pair, name).upper;
+}
+
+DistanceBounds rounded_distance(const SurfacePair& pair, const ContactName& name) {
+  const Ratio<Exact> square = squared<Exact>(pair, name);
+  if (square.numerator.sign() == 0) return {0, 0};
+  DistanceBounds bounds;
+  bounds.lower = approximate_root(square);
+  while (compare_square(bounds.lower, square) > 0) bounds.lower = std::nextafter(bounds.lower, 0);
+  bounds.upper = bounds.lower;
+  while (compare_square(bounds.upper, square) < 0) {
+    bounds.lower = bounds.upper;
+    bounds.upper = std::nextafter(bounds.upper, infinity);
+  }
+  if (compare_square(bounds.upper, square) == 0) bounds.lower = bounds.upper;
+  return bounds;
+}
+
+}  // namespace graze

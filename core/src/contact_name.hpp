@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <graze/contact.hpp>
+#include <graze/surface.hpp>
+
+#include "arithmetic.hpp"
+#include "naming.hpp"
+
+namespace graze {
+
+/// The two surfaces of a query, and where its undecided questions are counted.
+struct SurfacePair {
+  const Surface& a;
+  const Surface& b;
+  DecisionCount& count;
+};
+
+inline ContactKind kind_of(const Feature& a, const Feature& b) {
+  const auto low = static_cast<unsigned>(std::min(a.kind, b.kind));
+  const auto high = static_cast<unsigned>(std::max(a.kind, b.kind));
+  return static_cast<ContactKind>(low == 0 ? high : low + high + 1);  // VV VE VF | EE EF | FF
+}
+
+/// How two features meet.
+enum class Meeting : std::uint8_t {
+  pierced,   ///< an edge or fold passes through the other's triangle: distance 0
+  closest,   ///< their closest points are one pair, inside both
+  parallel,  ///< their closest points are a stretch or an area
+};
+
+/// What a contact is called, and which pieces of its features realise it. Ordered as contacts are.
+struct ContactName {
+  ContactKind kind = ContactKind::VV;
+  FeaturePiece a;
+  FeaturePiece b;
+  Meeting meeting = Meeting::closest;
+
+  static ContactName of(const FeaturePiece& a, const FeaturePiece& b, Meeting meeting = Meeting::closest) {
+    return {kind_of(a.feature, b.feature), a, b, meeting};
+  }
+  friend bool operator==(const ContactName&, const ContactName&) = default;
+  /// By (kind, feature a, feature b), the key of a contact; pieces after that.
+  friend auto operator<=>(const ContactName& left, const ContactName& right) {
+    if (const auto order = left.kind <=> right.kind; order != 0) return order;
+    if (const auto order = left.a.feature <=> right.a.feature; order != 0) return order;
+    if (const auto order = left.b.feature <=> right.b.feature; order != 0) return order;
+    if (const auto order = left.meeting <=> right.meeting; order != 0) return order;
+    if (const auto order = left.a.piece <=> right.a.piece; order != 0) return order;
+    return left.b.piece <=> right.b.piece;
+  }
+  /// Whether both are the contact of the same two features.
+  [[nodiscard]] bool same_features(const ContactName& other) const {
+    return a.feature == other.a.feature && b.feature == other.b.feature;
+  }
+};
+
+/// Two simplices whose affine hulls are as far apart as the features of a name are: their pieces, but for
+/// parallel ones one point of the lower in place of it.
+struct Hulls {
+  Simplex a;
+  Simplex b;
+};
+Hulls hulls_of(const SurfacePair& pair, const ContactName& name);
+
+/// -1, 0 or 1 as the distance of `left` is less than, equal to or greater than that of `right`.
+int compare_distances(const SurfacePair& pair, const ContactName& left, const ContactName& right);
+
+/// Whether the distance is strictly below `limit`.
+bool is_closer_than(const SurfacePair& pair, const ContactName& name, double limit);
+
+/// At least the distance, by a relative error of some 2^-40 at most.
+double upper_distance(const SurfacePair& pair, const ContactName& name);
+
+/// The distance rounded down and up: the two are the same where it is a double.
+DistanceBounds rounded_distance(const SurfacePair& pair, const ContactName& name);
+
+}  // namespace graze

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "arithmetic.hpp"
+
+namespace graze {
+
+/// The unit vector along an exact vector, each component to a relative error of some 2^-50; nothing for zero.
+inline std::optional<Eigen::Vector3d> unit(const Vector<Exact>& vector) {
+  const std::array scaled{vector.x.scaled(), vector.y.scaled(), vector.z.scaled()};
+  std::optional<int> exponent;
+  for (const Exact::Scaled& part : scaled)
+    if (part.fraction != 0) exponent = std::max(exponent.value_or(part.exponent), part.exponent);
+  if (!exponent) return std::nullopt;
+  Eigen::Vector3d result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Exact::Scaled& part = scaled[static_cast<std::size_t>(axis)];
+    result[axis] =
+        part.fraction == 0 ? 0 : std::ldexp(part.fraction, std::max(part.exponent - *exponent, -2000));
+  }
+  return result.normalized();
+}
+
+/// The unit vector along `vector.operator()<Number>()`, within some 2^-44 of the true one; nothing where that
+/// is zero.
+template <typename VectorOf>
+std::optional<Eigen::Vector3d> unit_direction(DecisionCount& count, const VectorOf& vector) {
+  const Vector<Ball> ball = vector.template operator()<Ball>();
+  const Eigen::Vector3d middle(ball.x.value, ball.y.value, ball.z.value);
+  const double size = middle.norm();
+  const double radius = ball.x.radius + ball.y.radius + ball.z.radius;
+  if (size > 0x1p-450 && size < 0x1p450 && radius <= size * 0x1p-44) return middle / size;
+  ++count.exact;
+  return unit(vector.template operator()<Exact>());
+}
+
+}  // namespace graze

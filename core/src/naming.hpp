@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <graze/contact.hpp>
+#include <graze/surface.hpp>
+
+#include "arithmetic.hpp"
+
+namespace graze {
+
+/// Which flat piece of a feature a closest point lies in. A quad is two triangles, split from its first
+/// corner, that meet in its fold; every other feature is one piece.
+enum class Piece : std::uint8_t { first, second, fold };
+
+/// A flat piece of a feature: a vertex, an edge, a triangle of a face, or a quad's fold.
+struct FeaturePiece {
+  Feature feature;
+  Piece piece = Piece::first;
+
+  friend auto operator<=>(const FeaturePiece&, const FeaturePiece&) = default;
+};
+
+inline FeaturePiece vertex_piece(std::uint32_t index) {
+  return {{FeatureKind::vertex, index}, Piece::first};
+}
+inline FeaturePiece edge_piece(std::uint32_t index) {
+  return {{FeatureKind::edge, index}, Piece::first};
+}
+inline FeaturePiece face_piece(std::uint32_t index, Piece piece) {
+  return {{FeatureKind::face, index}, piece};
+}
+
+/// The corners of a piece: 1, 2 or 3 points of the surface.
+struct Simplex {
+  std::uint32_t size = 0;
+  std::array<std::uint32_t, 3> vertex{};
+  std::array<Eigen::Vector3d, 3> point;
+};
+Simplex simplex_of(const Surface& surface, const FeaturePiece& piece);
+
+/// How many triangles face `face` is made of.
+inline std::uint32_t triangle_count(const Mesh& mesh, std::uint32_t face) {
+  return static_cast<std::uint32_t>(mesh.face(face).size()) - 2;
+}
+
+/// What joins a quad's first and third corner: its fold, or the edge of the same face that joins the two.
+FeaturePiece diagonal_of(const Mesh& mesh, std::uint32_t face);
+
+/// The piece of segment or face in whose relative interior the point closest to `point` lies; a point that
+/// several share is named by the lowest dimension, then the lowest index. `segment` is an edge or a fold.
+FeaturePiece nearest_piece_of_segment(const Eigen::Vector3d& point, const Surface& surface,
+                                      const FeaturePiece& segment, DecisionCount& count);
+FeaturePiece nearest_piece_of_face(const Eigen::Vector3d& point, const Surface& surface, std::uint32_t face,
+                                   DecisionCount& count);
+
+/// The names of the closest points of two segments (edges or folds): one pair of pieces where the points are
+/// unique or lie in both interiors; for parallel segments the pair at each end of the common stretch.
+struct SegmentPairNames {
+  std::uint32_t size = 0;
+  std::array<std::array<FeaturePiece, 2>, 4> names;
+};
+SegmentPairNames nearest_pieces_of_segments(const Surface& surface_a, const FeaturePiece& segment_a,
+                                            const Surface& surface_b, const FeaturePiece& segment_b,
+                                            DecisionCount& count);
+
+/// Whether the four corners of a quad do not lie in one plane.
+bool is_folded(const Surface& surface, std::uint32_t face, DecisionCount& count);
+
+}  // namespace graze

@@ -1,0 +1,189 @@
+#include "overlap.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace graze {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+Points points_of(const Simplex& simplex) {
+  return {simplex.point.begin(), simplex.point.begin() + simplex.size};
+}
+
+template <typename Number>
+Vector<Number> direction_of(const Simplex& segment) {
+  return difference<Number>(segment.point[1], segment.point[0]);
+}
+
+template <typename Number>
+Vector<Number> normal_of(const Simplex& triangle) {
+  return cross(difference<Number>(triangle.point[1], triangle.point[0]),
+               difference<Number>(triangle.point[2], triangle.point[0]));
+}
+
+template <typename Number>
+bool is_zero(const Vector<Number>& vector, bool& unsure) {
+  return sign(dot(vector, vector), unsure) == 0;
+}
+
+/// Whether two parallel segments, projected on the first, share more than a point.
+template <typename Number>
+bool segments_overlap(const Simplex& a, const Simplex& b, bool& unsure) {
+  const Vector<Number> u = direction_of<Number>(a);
+  const Vector<Number> v = direction_of<Number>(b);
+  if (is_zero(u, unsure) || is_zero(v, unsure) || !is_zero(cross(u, v), unsure)) return false;
+  const Number length = dot(u, u);
+  const Number first = dot(u, difference<Number>(b.point[0], a.point[0]));
+  const Number second = dot(u, difference<Number>(b.point[1], a.point[0]));
+  const bool starts_before_end = sign(first - length, unsure) < 0 || sign(second - length, unsure) < 0;
+  const bool ends_after_start = sign(first, unsure) > 0 || sign(second, unsure) > 0;
+  return starts_before_end && ends_after_start;
+}
+
+/// Whether a line in the plane of a triangle (through `origin` along `along`) has all of `other` on its outer
+/// side or on it; with `open` only strictly outside counts. The inner side is that of `inner`.
+template <typename Number>
+bool separates(const Vector<Number>& plane_normal, const Eigen::Vector3d& origin, const Vector<Number>& along,
+               const Eigen::Vector3d& inner, const Simplex& other, bool open, bool& unsure) {
+  const Vector<Number> across = cross(plane_normal, along);
+  const int inner_side = sign(dot(across, difference<Number>(inner, origin)), unsure);
+  for (std::uint32_t i = 0; i < other.size; ++i) {
+    const int side = inner_side * sign(dot(across, difference<Number>(other.point[i], origin)), unsure);
+    if (side > 0 || (open && side == 0)) return false;
+  }
+  return true;
+}
+
+template <typename Number>
+bool a_side_separates(const Simplex& triangle, const Simplex& other, std::size_t fold_side, bool& unsure) {
+  const Vector<Number> normal = normal_of<Number>(triangle);
+  for (std::size_t side = 0; side < 3; ++side) {
+    const Eigen::Vector3d& from = triangle.point[side];
+    const Vector<Number> along = difference<Number>(triangle.point[(side + 1) % 3], from);
+    if (separates(normal, from, along, triangle.point[(side + 2) % 3], other, side == fold_side, unsure))
+      return true;
+  }
+  return false;
+}
+
+/// Whether a segment is parallel to a triangle's plane and passes over its inside: no separating line, which
+/// for a segment and a triangle could only run along a side or along the segment.
+template <typename Number>
+bool segment_overlaps_triangle(const Simplex& segment, const Simplex& triangle, std::size_t fold_side,
+                               bool& unsure) {
+  const Vector<Number> normal = normal_of<Number>(triangle);
+  const Vector<Number> u = direction_of<Number>(segment);
+  if (is_zero(normal, unsure) || is_zero(u, unsure) || sign(dot(normal, u), unsure) != 0) return false;
+  if (a_side_separates<Number>(triangle, segment, fold_side, unsure)) return false;
+  const Vector<Number> across = cross(normal, u);
+  bool before = false;
+  bool behind = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int side = sign(dot(across, difference<Number>(triangle.point[i], segment.point[0])), unsure);
+    const bool on_fold = side == 0 && fold_side < 3 && (i == fold_side || i == (fold_side + 1) % 3);
+    before = before || side < 0 || on_fold;
+    behind = behind || side > 0 || on_fold;
+  }
+  return before && behind;
+}
+
+template <typename Number>
+bool triangles_overlap(const Simplex& a, const Simplex& b, bool& unsure) {
+  const Vector<Number> normal_a = normal_of<Number>(a);
+  const Vector<Number> normal_b = normal_of<Number>(b);
+  if (is_zero(normal_a, unsure) || is_zero(normal_b, unsure) || !is_zero(cross(normal_a, normal_b), unsure))
+    return false;
+  return !a_side_separates<Number>(a, b, 3, unsure) && !a_side_separates<Number>(b, a, 3, unsure);
+}
+
+/// What is left of a convex polygon or segment inside the half space through `origin` with the normal
+/// `inward`.
+Points clip(const Points& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
+  Points kept;
+  const std::size_t sides = points.size() == 2 ? 1 : points.size();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double here = inward.dot(points[i] - origin);
+    if (here >= 0) kept.push_back(points[i]);
+    if (i >= sides) continue;
+    const Eigen::Vector3d& next = points[(i + 1) % points.size()];
+    const double there = inward.dot(next - origin);
+    if ((here > 0 && there < 0) || (here < 0 && there > 0))
+      kept.push_back(points[i] + (next - points[i]) * (here / (here - there)));
+  }
+  return kept;
+}
+
+Eigen::Vector3d plane_normal(const Simplex& triangle) {
+  return (triangle.point[1] - triangle.point[0])
+      .cross(triangle.point[2] - triangle.point[0])
+      .stableNormalized();
+}
+
+Points clip_to_triangle(Points points, const Simplex& triangle) {
+  const Eigen::Vector3d normal = plane_normal(triangle);
+  for (std::size_t side = 0; side < 3 && !points.empty(); ++side) {
+    const Eigen::Vector3d along = triangle.point[(side + 1) % 3] - triangle.point[side];
+    points = clip(points, triangle.point[side], normal.cross(along));
+  }
+  return points;
+}
+
+Points clip_to_segment(Points points, const Simplex& segment) {
+  const Eigen::Vector3d along = segment.point[1] - segment.point[0];
+  return clip(clip(points, segment.point[0], along), segment.point[1], -along);
+}
+
+/// The middle of a segment or the centroid of a polygon, with its length or area.
+std::pair<Eigen::Vector3d, double> middle_of(const Points& points) {
+  if (points.size() == 2) return {points[0] + (points[1] - points[0]) / 2, (points[1] - points[0]).norm()};
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  double area = 0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Eigen::Vector3d u = points[i] - points[0];
+    const Eigen::Vector3d v = points[i + 1] - points[0];
+    const double part = u.cross(v).norm() / 2;
+    offset += (u + v) / 3 * part;
+    area += part;
+  }
+  if (area > 0) return {points[0] + offset / area, area};
+  return {points[0], 0};
+}
+
+/// The point of the other, parallel piece straight across from `point`.
+Eigen::Vector3d across(const Eigen::Vector3d& point, const Simplex& other) {
+  const Eigen::Vector3d offset = point - other.point[0];
+  if (other.size == 3) {
+    const Eigen::Vector3d normal = plane_normal(other);
+    return point - normal * normal.dot(offset);
+  }
+  const Eigen::Vector3d along = other.point[1] - other.point[0];
+  return other.point[0] + along * (along.dot(offset) / along.squaredNorm());
+}
+
+}  // namespace
+
+std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, const Simplex& b,
+                                  std::size_t fold_side_b, DecisionCount& count) {
+  const bool overlaps = decide(count, [&]<typename Number>(bool& unsure) {
+    if (a.size == 2 && b.size == 2) return segments_overlap<Number>(a, b, unsure);
+    if (a.size == 2) return segment_overlaps_triangle<Number>(a, b, fold_side_b, unsure);
+    if (b.size == 2) return segment_overlaps_triangle<Number>(b, a, fold_side_a, unsure);
+    return triangles_overlap<Number>(a, b, unsure);
+  });
+  if (!overlaps) return std::nullopt;
+  // What is clipped is the lower one, so that the middle lies on it to rounding; straight across is on the
+  // other.
+  const bool a_is_low = a.size <= b.size;
+  const Simplex& low = a_is_low ? a : b;
+  const Simplex& high = a_is_low ? b : a;
+  const Points common =
+      high.size == 2 ? clip_to_segment(points_of(low), high) : clip_to_triangle(points_of(low), high);
+  if (common.empty()) return std::nullopt;  // an overlap so small that rounding lost it
+  const auto [middle, size] = middle_of(common);
+  const Eigen::Vector3d opposite = across(middle, high);
+  return a_is_low ? Overlap{middle, opposite, size} : Overlap{opposite, middle, size};
+}
+
+}  // namespace graze

@@ -1,0 +1,105 @@
+#include "paper.hpp"
+
+#include <algorithm>
+
+#include "bounds.hpp"
+#include "vertex_pairs.hpp"
+
+namespace graze {
+namespace {
+
+class Paper {
+ public:
+  Paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch, WorkMeter& meter,
+        std::vector<ContactName>& names)
+      : pair_(pair),
+        query_(query),
+        scratch_(scratch),
+        meter_(meter),
+        names_(names),
+        nearest_(pair, Ties::lowest, scratch.closest) {}
+
+  PaperFound run() {
+    found_.complete = dmv(
+        pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
+        [&](const RegionPair& regions, const Region& a, const Region& b) { return expand(regions, a, b); },
+        [&](const RegionPair&, const Region& a, const Region& b) { dv(a, b); });
+    std::sort(names_.begin(), names_.end());
+    names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+    return found_;
+  }
+
+ private:
+  /// Eq. 4: expand when the middle vertices are closer than the level's epsilon.
+  bool expand(const RegionPair& regions, const Region& a, const Region& b) {
+    const ContactName middles = ContactName::of(vertex_piece(a.middle), vertex_piece(b.middle));
+    nearest_.offer(middles);
+    if (is_closer_than(pair_, middles, epsilon(a, b))) return true;
+    found_.lower = std::min(found_.lower, vertex_lower_distance(pair_.a, pair_.b, regions));
+    return false;
+  }
+
+  /// The numbers given for levels 1 to k-1, the last of them for deeper levels; without numbers eq. 3 summed
+  /// as in eq. 6, each region by its own level.
+  [[nodiscard]] double epsilon(const Region& a, const Region& b) const {
+    if (query_.epsilon.empty()) return pair_.a.level_radii()[a.level] + pair_.b.level_radii()[b.level];
+    const std::size_t level = std::max<std::size_t>(1, std::max(a.level, b.level));
+    const std::size_t last = std::max<std::size_t>(1, query_.epsilon.size() - 1);
+    return query_.epsilon[std::min(level, last) - 1];
+  }
+
+  /// DV at two leaves: from their closest vertices (eq. 5) along the meshes' edges while the distance
+  /// shrinks.
+  void dv(const Region& leaf_a, const Region& leaf_b) {
+    ++meter_.counters().leaf_pairs_tested;
+    ContactName name = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaf_closest);
+    nearest_.offer(name);
+    const Eigen::Vector3d gap =
+        pair_.b.position(name.b.feature.index) - pair_.a.position(name.a.feature.index);
+    found_.lower = std::min(found_.lower, gap.norm() * round_down);
+    if (query_.detail == ContactDetail::vertices)
+      return add_close_vertices(pair_, leaf_a, leaf_b, query_.threshold, names_);
+    while (step_to_neighbour(name)) {
+    }
+    nearest_.offer(name);
+    if (is_closer_than(pair_, name, query_.threshold)) names_.push_back(name);
+  }
+
+  /// Moves both ends to the nearest of their neighbours and themselves; false where nothing is nearer.
+  bool step_to_neighbour(ContactName& name) {
+    ClosestSet around(pair_, Ties::lowest, scratch_.leaf_closest);
+    around.offer(name);
+    const std::uint32_t a = name.a.feature.index;
+    const std::uint32_t b = name.b.feature.index;
+    const auto offer = [&](std::uint32_t to_a, std::uint32_t to_b) {
+      if ((pair_.b.position(to_b) - pair_.a.position(to_a)).norm() * round_down <= around.upper())
+        around.offer(ContactName::of(vertex_piece(to_a), vertex_piece(to_b)));
+    };
+    for (const std::uint32_t to_a : pair_.a.mesh().vertex_neighbours(a)) {
+      offer(to_a, b);
+      for (const std::uint32_t to_b : pair_.b.mesh().vertex_neighbours(b)) offer(to_a, to_b);
+    }
+    for (const std::uint32_t to_b : pair_.b.mesh().vertex_neighbours(b)) offer(a, to_b);
+    const ContactName nearest = around.names().front();
+    if (compare_distances(pair_, nearest, name) >= 0) return false;
+    name = nearest;
+    return true;
+  }
+
+  const SurfacePair& pair_;
+  const PairQuery& query_;
+  PaperScratch& scratch_;
+  WorkMeter& meter_;
+  std::vector<ContactName>& names_;
+  ClosestSet nearest_;
+  PaperFound found_;
+};
+
+}  // namespace
+
+PaperFound find_as_in_paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch,
+                            WorkMeter& meter, std::vector<ContactName>& names) {
+  return Paper(pair, query, scratch, meter, names).run();
+}
+
+}  // namespace graze

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <graze/pair_query.hpp>
+#include <vector>
+
+#include "closest_set.hpp"
+#include "dmv.hpp"
+
+namespace graze {
+
+struct PaperScratch {
+  DmvScratch dmv;
+  std::vector<ContactName> closest;
+  std::vector<ContactName> leaf_closest;
+};
+
+/// What the paper's method found of a pair.
+struct PaperFound {
+  bool complete = true;
+  /// No vertices are nearer than this: the bounds of what was not expanded, and the distances of what was.
+  double lower = std::numeric_limits<double>::infinity();
+};
+
+/// The paper's method (sections 3.2 and 3.3): DMV with eq. 4's test, and at two leaves DV. Appends the names
+/// of its answer, sorted, each once: with `regions` where DV's walk ended below the threshold, with
+/// `vertices` all pairs of the leaves reached below it. `scratch.closest` holds the nearest pair of vertices
+/// that was met. Both surfaces are refitted by vertices.
+PaperFound find_as_in_paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch,
+                            WorkMeter& meter, std::vector<ContactName>& names);
+
+}  // namespace graze

@@ -1,0 +1,145 @@
+#include "parallel.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "measure.hpp"
+#include "overlap.hpp"
+
+namespace graze {
+namespace {
+
+using FeaturePair = std::pair<Feature, Feature>;
+
+/// The edges and faces that hold a feature, itself included.
+std::vector<Feature> holders_of(const Mesh& mesh, const Feature& feature) {
+  std::vector<Feature> holders;
+  const auto add_face = [&](std::uint32_t face) { holders.push_back({FeatureKind::face, face}); };
+  if (feature.kind == FeatureKind::face) {
+    add_face(feature.index);
+  } else if (feature.kind == FeatureKind::edge) {
+    holders.push_back(feature);
+    for (const std::uint32_t face : mesh.edge_faces(feature.index)) add_face(face);
+  } else {
+    for (const std::uint32_t face : mesh.vertex_faces(feature.index)) {
+      add_face(face);
+      for (const std::uint32_t edge : mesh.face_edges(face))
+        if (edge != Mesh::no_edge &&
+            (mesh.edge(edge)[0] == feature.index || mesh.edge(edge)[1] == feature.index))
+          holders.push_back({FeatureKind::edge, edge});
+    }
+  }
+  return holders;
+}
+
+std::vector<FeaturePair> holders_of(const SurfacePair& pair, const ContactName& name) {
+  std::vector<FeaturePair> pairs;
+  const std::vector<Feature> holders_b = holders_of(pair.b.mesh(), name.b.feature);
+  for (const Feature& a : holders_of(pair.a.mesh(), name.a.feature))
+    for (const Feature& b : holders_b) pairs.emplace_back(a, b);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+/// The flat pieces of an edge or face that can be parallel to another's, and which of their sides is the
+/// fold.
+struct SidedPiece {
+  FeaturePiece piece;
+  std::size_t fold_side = 3;
+};
+
+std::vector<SidedPiece> pieces_of(const Surface& surface, const Feature& feature, DecisionCount& count) {
+  if (feature.kind == FeatureKind::edge) return {{edge_piece(feature.index), 3}};
+  if (triangle_count(surface.mesh(), feature.index) == 1)
+    return {{face_piece(feature.index, Piece::first), 3}};
+  // The border between the triangles of a flat quad is inside it; a fold is a segment of its own.
+  const bool folded = is_folded(surface, feature.index, count);
+  std::vector<SidedPiece> pieces{{face_piece(feature.index, Piece::first), folded ? 3U : 2U},
+                                 {face_piece(feature.index, Piece::second), folded ? 3U : 0U}};
+  if (folded) pieces.push_back({face_piece(feature.index, Piece::fold), 3});
+  return pieces;
+}
+
+/// A parallel pair of features, its closest set's middle and where its pieces are.
+struct ParallelContact {
+  ContactName name;
+  Overlap overlap;
+};
+
+/// The closest set of two features that hold closest points, where it has a length or an area. Several pieces
+/// of a quad make one set, whose middle is that of all of them by size.
+std::optional<ParallelContact> parallel_contact(const SurfacePair& pair, const FeaturePair& features) {
+  std::optional<ParallelContact> found;
+  std::uint32_t dimension = 0;
+  for (const SidedPiece& a : pieces_of(pair.a, features.first, pair.count))
+    for (const SidedPiece& b : pieces_of(pair.b, features.second, pair.count)) {
+      const Simplex simplex_a = simplex_of(pair.a, a.piece);
+      const Simplex simplex_b = simplex_of(pair.b, b.piece);
+      const auto overlap = overlap_of(simplex_a, a.fold_side, simplex_b, b.fold_side, pair.count);
+      const std::uint32_t overlap_dimension = std::min(simplex_a.size, simplex_b.size);
+      if (!overlap || overlap_dimension < dimension) continue;
+      if (!found || overlap_dimension > dimension) {
+        found = {ContactName::of(a.piece, b.piece, Meeting::parallel), *overlap};
+        dimension = overlap_dimension;
+        continue;
+      }
+      const double size = found->overlap.size + overlap->size;
+      const double share = size > 0 ? overlap->size / size : 0;
+      found->overlap.middle_a += (overlap->middle_a - found->overlap.middle_a) * share;
+      found->overlap.middle_b += (overlap->middle_b - found->overlap.middle_b) * share;
+      found->overlap.size = size;
+    }
+  return found;
+}
+
+bool by_name(const ParallelContact& left, const ParallelContact& right) {
+  return left.name < right.name;
+}
+
+std::vector<ParallelContact> parallel_contacts(const SurfacePair& pair,
+                                               const std::vector<ContactName>& names) {
+  std::vector<FeaturePair> candidates;
+  for (const ContactName& name : names) {
+    const std::vector<FeaturePair> holders = holders_of(pair, name);
+    candidates.insert(candidates.end(), holders.begin(), holders.end());
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::vector<ParallelContact> found;
+  for (const FeaturePair& features : candidates)
+    if (auto contact = parallel_contact(pair, features)) found.push_back(*contact);
+  std::sort(found.begin(), found.end(), by_name);
+  return found;
+}
+
+/// Whether a parallel pair other than itself holds both features of `name`.
+bool gives_way(const SurfacePair& pair, const ContactName& name,
+               const std::vector<ParallelContact>& parallel) {
+  const FeaturePair self{name.a.feature, name.b.feature};
+  const std::vector<FeaturePair> holders = holders_of(pair, name);
+  return std::any_of(parallel.begin(), parallel.end(), [&](const ParallelContact& contact) {
+    const FeaturePair features{contact.name.a.feature, contact.name.b.feature};
+    return (features != self || name.meeting != Meeting::parallel) &&
+           std::binary_search(holders.begin(), holders.end(), features);
+  });
+}
+
+}  // namespace
+
+Contact closest_contact(const SurfacePair& pair, const std::vector<ContactName>& names) {
+  const std::vector<ParallelContact> parallel = parallel_contacts(pair, names);
+  const auto lowest_name = std::find_if(
+      names.begin(), names.end(), [&](const ContactName& name) { return !gives_way(pair, name, parallel); });
+  const auto lowest_parallel =
+      std::find_if(parallel.begin(), parallel.end(),
+                   [&](const ParallelContact& contact) { return !gives_way(pair, contact.name, parallel); });
+  const bool is_parallel = lowest_name == names.end() ||
+                           (lowest_parallel != parallel.end() && lowest_parallel->name < *lowest_name);
+  if (!is_parallel) return measure(pair, *lowest_name);
+  return measure_parallel(pair, lowest_parallel->name, lowest_parallel->overlap.middle_a,
+                          lowest_parallel->overlap.middle_b);
+}
+
+}  // namespace graze

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <graze/contact.hpp>
+#include <vector>
+
+#include "contact_name.hpp"
+
+namespace graze {
+
+/// `ContactDetail::closest` of two surfaces from all names at their least distance (sorted, at least one).
+///
+/// Features that are parallel to each other have a stretch or an area of closest points; where one holds a
+/// name's features it stands for that name, since those points are only its border: the area between a box
+/// and the table under it (FF) and not one corner of it (VF). Of what then is left the lowest (kind, feature
+/// a, feature b) is the contact, with the middle of its closest set.
+Contact closest_contact(const SurfacePair& pair, const std::vector<ContactName>& names);
+
+}  // namespace graze

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <array>
+#include <graze/box.hpp>
+#include <graze/mesh.hpp>
+#include <graze/region_tree.hpp>
+#include <numeric>
+
+#include "middle_vertex.hpp"
+#include "validate.hpp"
+
+namespace graze {
+namespace {
+
+/// A region's box relative to the root box's minimum.
+struct Cell {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d size;
+};
+
+class Builder {
+ public:
+  Builder(const Mesh& mesh, std::vector<Region>& regions, std::vector<std::uint32_t>& vertices)
+      : rest_(mesh.rest()), regions_(regions), vertices_(vertices) {
+    for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
+      if (mesh.is_used(vertex)) {
+        vertices_.push_back(vertex);
+        box_.add(rest_[vertex]);
+      }
+  }
+
+  /// Appends the regions level by level and the index at which each level begins.
+  void build(std::vector<std::uint32_t>& level_begin) {
+    regions_.push_back({.vertex_count = static_cast<std::uint32_t>(vertices_.size())});
+    cells_.push_back({Eigen::Vector3d::Zero(), box_.max - box_.min});
+    level_begin.push_back(0);
+    for (std::uint32_t begin = 0, end = 1; begin < end;) {
+      for (std::uint32_t index = begin; index < end; ++index) subdivide(index);
+      level_begin.push_back(end);
+      begin = end;
+      end = static_cast<std::uint32_t>(regions_.size());
+    }
+  }
+
+ private:
+  void subdivide(std::uint32_t index) {
+    const Region region = regions_[index];
+    const Cell cell = cells_[index];
+    if (region.vertex_count <= RegionTree::leaf_capacity || region.level == RegionTree::max_level ||
+        coincide(region))
+      return;
+    const Eigen::Vector3d half = cell.size / 2;
+    const Eigen::Vector3d centre = cell.origin + half;
+    const std::array<std::uint32_t, 9> begin = sort_into_octants(region, centre);
+    regions_[index].first_child = static_cast<std::uint32_t>(regions_.size());
+    for (std::size_t octant = 0; octant < 8; ++octant) {
+      const std::uint32_t count = begin[octant + 1] - begin[octant];
+      if (count == 0) continue;
+      regions_.push_back(
+          {.level = region.level + 1, .parent = index, .first_vertex = begin[octant], .vertex_count = count});
+      Eigen::Vector3d origin = cell.origin;
+      for (int axis = 0; axis < 3; ++axis)
+        if ((octant >> axis & 1U) != 0) origin[axis] = centre[axis];
+      cells_.push_back({origin, half});
+      ++regions_[index].child_count;
+    }
+  }
+
+  [[nodiscard]] bool coincide(const Region& region) const {
+    const auto members = std::span(vertices_).subspan(region.first_vertex, region.vertex_count);
+    return std::all_of(members.begin(), members.end(),
+                       [&](std::uint32_t vertex) { return rest_[vertex] == rest_[members.front()]; });
+  }
+
+  /// Sorts the region's vertices by octant, keeping their order within each, and returns where each octant
+  /// begins.
+  std::array<std::uint32_t, 9> sort_into_octants(const Region& region, const Eigen::Vector3d& centre) {
+    const auto members = std::span(vertices_).subspan(region.first_vertex, region.vertex_count);
+    const auto octant_of = [&](std::uint32_t vertex) {
+      const Eigen::Vector3d position = rest_[vertex] - box_.min;
+      std::size_t octant = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        if (position[axis] >= centre[axis]) octant |= std::size_t{1} << axis;
+      return octant;
+    };
+    std::array<std::uint32_t, 9> begin{};
+    for (const std::uint32_t vertex : members) ++begin[octant_of(vertex) + 1];
+    begin[0] = region.first_vertex;
+    for (std::size_t octant = 0; octant < 8; ++octant) begin[octant + 1] += begin[octant];
+    sorted_.assign(members.begin(), members.end());
+    std::array<std::uint32_t, 9> next = begin;
+    for (const std::uint32_t vertex : sorted_) vertices_[next[octant_of(vertex)]++] = vertex;
+    return begin;
+  }
+
+  std::span<const Eigen::Vector3d> rest_;
+  std::vector<Region>& regions_;
+  std::vector<std::uint32_t>& vertices_;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> sorted_;
+  Box box_;
+};
+
+/// The features of a mesh sorted by the place of their owning vertex in the tree's vertex order, with the
+/// range of each place: features of place i are order[begin[i], begin[i + 1]).
+struct Owned {
+  std::vector<std::uint32_t> order;
+  std::vector<std::uint32_t> begin;
+};
+
+template <typename OwnerOf>
+Owned sort_by_owner(std::uint32_t feature_count, std::size_t place_count, const OwnerOf& place_of_owner) {
+  Owned owned;
+  owned.begin.assign(place_count + 1, 0);
+  for (std::uint32_t feature = 0; feature < feature_count; ++feature)
+    ++owned.begin[place_of_owner(feature) + 1];
+  std::partial_sum(owned.begin.begin(), owned.begin.end(), owned.begin.begin());
+  owned.order.resize(feature_count);
+  std::vector<std::uint32_t> next = owned.begin;
+  for (std::uint32_t feature = 0; feature < feature_count; ++feature)
+    owned.order[next[place_of_owner(feature)]++] = feature;
+  return owned;
+}
+
+}  // namespace
+
+RegionTree::RegionTree(const Mesh& mesh) {
+  Builder(mesh, regions_, vertices_).build(level_begin_);
+
+  std::vector<std::uint32_t> place(mesh.vertex_count());
+  for (std::uint32_t i = 0; i < vertices_.size(); ++i) place[vertices_[i]] = i;
+  Owned owned_faces = sort_by_owner(mesh.face_count(), vertices_.size(),
+                                    [&](std::uint32_t face) { return place[mesh.face(face)[0]]; });
+  Owned owned_edges = sort_by_owner(mesh.edge_count(), vertices_.size(),
+                                    [&](std::uint32_t edge) { return place[mesh.edge(edge)[0]]; });
+  for (Region& region : regions_) {
+    const std::uint32_t end = region.first_vertex + region.vertex_count;
+    region.first_face = owned_faces.begin[region.first_vertex];
+    region.face_count = owned_faces.begin[end] - region.first_face;
+    region.first_edge = owned_edges.begin[region.first_vertex];
+    region.edge_count = owned_edges.begin[end] - region.first_edge;
+    region.middle = middle_vertex(mesh.rest(), vertices(region));
+  }
+  faces_ = std::move(owned_faces.order);
+  edges_ = std::move(owned_edges.order);
+  validate(*this, mesh);
+}
+
+std::size_t RegionTree::byte_count() const {
+  return regions_.capacity() * sizeof(Region) +
+         (level_begin_.capacity() + vertices_.capacity() + faces_.capacity() + edges_.capacity()) *
+             sizeof(std::uint32_t);
+}
+
+}  // namespace graze

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+#include <graze/error.hpp>
+#include <graze/surface.hpp>
+#include <utility>
+
+#include "limits.hpp"
+#include "validate.hpp"
+
+namespace graze {
+
+Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) {
+  if (mesh_ == nullptr) throw Error("surface: there is no mesh");
+  positions_.assign(mesh_->vertex_count(), Eigen::Vector3d::Zero());
+  incoming_ = positions_;
+  const auto rest = mesh_->rest();
+  take([&](std::uint32_t vertex) { return rest[vertex]; });
+}
+
+template <typename PositionOf>
+Surface::ReadResult Surface::take(const PositionOf& position_of) {
+  ReadResult result;
+  Box box;
+  double furthest_squared = 0;
+  const std::uint32_t count = mesh_->vertex_count();
+  for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
+    if (!mesh_->is_used(vertex)) continue;
+    const Eigen::Vector3d position = position_of(vertex);
+    if (!is_within_limits(position)) {
+      result.bad_vertex = vertex;
+      result.bad_position = position;
+      return result;
+    }
+    furthest_squared = std::max(furthest_squared, (position - positions_[vertex]).squaredNorm());
+    box.add(position);
+    incoming_[vertex] = position;
+  }
+  result.displacement = std::sqrt(furthest_squared);
+  positions_.swap(incoming_);
+  box_ = box;
+  vertices_are_fitted_ = false;
+  faces_are_fitted_ = false;
+  return result;
+}
+
+Surface::ReadResult Surface::set_positions(const PositionView& view) {
+  return take([&](std::uint32_t vertex) { return view[vertex]; });
+}
+
+Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
+  const auto rest = mesh_->rest();
+  return take([&](std::uint32_t vertex) {
+    const Eigen::Vector3d& p = rest[vertex];
+    const auto coordinate = [&](std::size_t row) {
+      const double* const r = &rows[row * 4];
+      return ((r[0] * p.x() + r[1] * p.y()) + r[2] * p.z()) + r[3];
+    };
+    return Eigen::Vector3d(coordinate(0), coordinate(1), coordinate(2));
+  });
+}
+
+void Surface::refit_vertices() {
+  if (vertices_are_fitted_) return;
+  const RegionTree& tree = mesh_->regions();
+  radii_.resize(tree.regions().size());
+  vertex_boxes_.resize(tree.regions().size());
+  level_radii_.assign(tree.level_count(), 0);
+  for (std::size_t index = 0; index < radii_.size(); ++index) {
+    const Region& region = tree.region(static_cast<std::uint32_t>(index));
+    double radius_squared = 0;
+    Box box;
+    for (const std::uint32_t vertex : tree.vertices(region)) {
+      radius_squared = std::max(radius_squared, (positions_[vertex] - middle(region)).squaredNorm());
+      box.add(positions_[vertex]);
+    }
+    radii_[index] = std::sqrt(radius_squared);
+    vertex_boxes_[index] = box;
+    level_radii_[region.level] = std::max(level_radii_[region.level], radii_[index]);
+  }
+  vertices_are_fitted_ = true;
+  validate(*this);
+}
+
+void Surface::refit_faces() {
+  if (faces_are_fitted_) return;
+  const RegionTree& tree = mesh_->regions();
+  face_boxes_.resize(tree.regions().size());
+  for (auto index = static_cast<std::uint32_t>(face_boxes_.size()); index-- > 0;) {
+    const Region& region = tree.region(index);
+    Box box;
+    // Children have higher numbers than their parent, so theirs are already those of now.
+    for (std::uint32_t child = 0; child < region.child_count; ++child)
+      box.add(face_boxes_[region.first_child + child]);
+    if (region.is_leaf()) {
+      for (const std::uint32_t vertex : tree.vertices(region)) box.add(positions_[vertex]);
+      for (const std::uint32_t face : tree.faces(region))
+        for (const std::uint32_t corner : mesh_->face(face)) box.add(positions_[corner]);
+      for (const std::uint32_t edge : tree.edges(region)) box.add(positions_[mesh_->edge(edge)[1]]);
+    }
+    face_boxes_[index] = box;
+  }
+  faces_are_fitted_ = true;
+  validate(*this);
+}
+
+std::size_t Surface::byte_count() const {
+  return sizeof(Surface) + (positions_.capacity() + incoming_.capacity()) * sizeof(Eigen::Vector3d) +
+         (radii_.capacity() + level_radii_.capacity()) * sizeof(double) +
+         (vertex_boxes_.capacity() + face_boxes_.capacity()) * sizeof(Box);
+}
+
+}  // namespace graze
