@@ -10,21 +10,6 @@
 
 namespace graze {
 
-/// Factors that make a distance of a handful of rounded operations certain: each rounds by at most 2^-53 of
-/// its result, and below fewer than eight follow one another.
-inline constexpr double round_down = 1 - 0x1p-50;
-inline constexpr double round_up = 1 + 0x1p-50;
-
-/// At most the distance of any two points of the boxes; 0 where they overlap.
-inline double lower_distance(const Box& a, const Box& b) {
-  double squared = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double gap = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
-    squared += gap * gap;
-  }
-  return std::sqrt(squared) * round_down;
-}
-
 /// At least the distance of two points.
 inline double upper_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (b - a).norm() * round_up + 0x1p-537;  // squares below the smallest denormal vanish

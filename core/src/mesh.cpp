@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <graze/error.hpp>
+#include <graze/floating_point_scope.hpp>
 #include <graze/mesh.hpp>
 #include <string>
 #include <unordered_map>
@@ -65,6 +66,7 @@ Mesh Mesh::from_quads(PositionView rest, std::span<const std::array<std::uint32_
 
 Mesh Mesh::from_polygons(PositionView rest, std::span<const std::uint32_t> corners,
                          std::span<const std::uint32_t> corner_counts) {
+  const FloatingPointScope scope;
   Mesh mesh;
   mesh.rest_ = copy_of(rest);
   mesh.corners_.assign(corners.begin(), corners.end());

@@ -1,5 +1,6 @@
 #include "normals.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "direction.hpp"

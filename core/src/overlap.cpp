@@ -1,5 +1,6 @@
 #include "overlap.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 

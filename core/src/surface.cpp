@@ -17,6 +17,10 @@ Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) {
   take([&](std::uint32_t vertex) { return rest[vertex]; });
 }
 
+bool Surface::is_within_limits(const Eigen::Vector3d& position) {
+  return graze::is_within_limits(position);
+}
+
 template <typename PositionOf>
 Surface::ReadResult Surface::take(const PositionOf& position_of) {
   ReadResult result;

@@ -28,6 +28,9 @@ class GRAZE_API Surface {
   /// The box of the used vertices, and so of the faces.
   [[nodiscard]] const Box& box() const { return box_; }
 
+  /// Whether a position can be worked with: finite, and no coordinate beyond 2^120.
+  [[nodiscard]] static bool is_within_limits(const Eigen::Vector3d& position);
+
   /// What came of reading positions.
   struct ReadResult {
     static constexpr std::uint32_t no_vertex = Mesh::no_edge;

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <graze/contact.hpp>
+#include <graze/export.hpp>
+#include <graze/object_id.hpp>
+#include <graze/region_tree.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// What has happened between two steps: `near` is not in contact, `began` is in contact and was not,
+/// `touching` is and was, `ended` is not and was.
+enum class PairPhase : std::uint8_t { near, began, touching, ended };
+
+/// One listed pair of objects; a was added before b.
+struct PairReport {
+  ObjectId a;
+  ObjectId b;
+  PairPhase phase = PairPhase::near;
+  bool complete = true;  ///< false: a budget ran out; bounds hold, the phase is the last one, no contacts
+  bool stale = false;    ///< one of the objects could not be read: these are the last values
+  DistanceBounds distance;
+  Witness witness;
+  std::size_t first_contact = 0;  ///< into FrameReport::contacts()
+  std::size_t contact_count = 0;
+};
+
+enum class DiagnosticKind : std::uint8_t {
+  stale_id,           ///< the id names no object (any more)
+  wrong_count,        ///< another number of positions than the mesh has vertices
+  null_memory,        ///< no memory given
+  misaligned_memory,  ///< memory or stride not aligned to its number type
+  wrong_motion,       ///< positions for a rigid or fixed object, or a pose for a deformable one
+  bad_pose,           ///< further than 1e-9 from a rotation, or not finite
+  not_finite,         ///< NaN or infinity in a used vertex
+  too_large,          ///< a coordinate of a used vertex beyond 2^120
+  broken_promise,     ///< a vertex moved further than max_displacement
+  bad_pair,           ///< a pair of an object with itself
+  bad_rule,           ///< a kind above 255, or a threshold that is negative or NaN
+};
+
+/// The enumerator's own name.
+GRAZE_API std::string_view to_string(DiagnosticKind kind);
+GRAZE_API std::string_view to_string(PairPhase phase);
+GRAZE_API std::string_view to_string(ContactKind kind);
+GRAZE_API std::string_view to_string(FeatureKind kind);
+GRAZE_API std::string_view to_string(Side side);
+
+/// Bad input to one object: what it was, and that the scene goes on.
+struct Diagnostic {
+  ObjectId object;
+  DiagnosticKind kind = DiagnosticKind::stale_id;
+  std::string message;
+};
+
+/// Counters and times of one step.
+struct StepStatistics {
+  std::uint64_t objects = 0;
+  std::uint64_t pairs_total = 0;     ///< n(n-1)/2
+  std::uint64_t pairs_filtered = 0;  ///< boxes within reach, taken out by layers, masks, motion or `ignore`
+  std::uint64_t pairs_tested = 0;    ///< given to DMV
+  std::uint64_t pairs_near = 0;      ///< listed in the report
+  std::uint64_t pairs_in_contact = 0;
+  std::uint64_t contacts = 0;
+  std::uint64_t region_pairs_tested = 0;
+  std::uint64_t leaf_pairs_tested = 0;
+  std::uint64_t exact_decisions = 0;  ///< questions that double could not decide
+  /// Region pairs expanded, by level.
+  std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
+  std::uint64_t object_bytes = 0;  ///< positions, boxes and radii of all objects; meshes are not counted
+  std::uint64_t report_bytes = 0;
+  double read_ms = 0;     ///< staged changes, positions, objects' boxes
+  double pairs_ms = 0;    ///< broad phase and filters
+  double refit_ms = 0;    ///< boxes and radii of the regions
+  double jobs_ms = 0;     ///< DMV, DV and contacts
+  double publish_ms = 0;  ///< the report
+  double step_ms = 0;     ///< all of them
+};
+
+/// The published answer of one step; immutable. Read it from any thread.
+class GRAZE_API FrameReport {
+ public:
+  /// 1 for the first step; 0 before it.
+  [[nodiscard]] std::uint64_t frame() const { return frame_; }
+  /// Sorted by the order in which a, then b, were added.
+  [[nodiscard]] std::span<const PairReport> pairs() const { return pairs_; }
+  /// The contacts of all pairs, in the pairs' order; within a pair by (kind, feature a, feature b).
+  [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
+  /// The contacts of one pair of this report.
+  [[nodiscard]] std::span<const Contact> contacts(const PairReport& pair) const {
+    return contacts().subspan(pair.first_contact, pair.contact_count);
+  }
+  [[nodiscard]] std::span<const Diagnostic> diagnostics() const { return diagnostics_; }
+  [[nodiscard]] const StepStatistics& statistics() const { return statistics_; }
+  /// Whether no budget cut any pair short.
+  [[nodiscard]] bool complete() const { return complete_; }
+
+ private:
+  friend class ReportBuilder;
+  std::uint64_t frame_ = 0;
+  bool complete_ = true;
+  std::vector<PairReport> pairs_;
+  std::vector<Contact> contacts_;
+  std::vector<Diagnostic> diagnostics_;
+  StepStatistics statistics_;
+};
+
+class ReportPool;
+
+/// Keeps one report alive, also after its scene. Copying, moving and destroying are wait-free. A handle
+/// belongs to one thread at a time; handles of one report may live on any number of threads.
+class GRAZE_API ReportHandle {
+ public:
+  ReportHandle() = default;
+  ReportHandle(const ReportHandle& other);
+  ReportHandle(ReportHandle&& other) noexcept
+      : pool_(std::exchange(other.pool_, nullptr)),
+        slot_(std::exchange(other.slot_, 0)),
+        report_(std::exchange(other.report_, nullptr)) {}
+  ReportHandle& operator=(ReportHandle other) noexcept {
+    std::swap(pool_, other.pool_);
+    std::swap(slot_, other.slot_);
+    std::swap(report_, other.report_);
+    return *this;
+  }
+  ~ReportHandle();
+
+  [[nodiscard]] const FrameReport& operator*() const { return *report_; }
+  [[nodiscard]] const FrameReport* operator->() const { return report_; }
+  [[nodiscard]] const FrameReport* get() const { return report_; }
+  [[nodiscard]] explicit operator bool() const { return report_ != nullptr; }
+
+ private:
+  friend class ReportPool;
+  ReportHandle(ReportPool* pool, std::uint32_t slot, const FrameReport* report)
+      : pool_(pool), slot_(slot), report_(report) {}
+
+  ReportPool* pool_ = nullptr;
+  std::uint32_t slot_ = 0;
+  const FrameReport* report_ = nullptr;
+};
+
+}  // namespace graze

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <graze/export.hpp>
+#include <graze/mesh.hpp>
+#include <graze/object_id.hpp>
+#include <graze/position_view.hpp>
+#include <graze/report.hpp>
+#include <graze/settings.hpp>
+#include <limits>
+#include <memory>
+
+namespace graze {
+
+/// n objects and the n(n-1)/2 pairs between them. Each `step` reads where the vertices are now and publishes
+/// which pairs are near, how near, and every contact.
+///
+/// Threads: every call but `step` may come from any thread at any time and is taken up by the next step, in
+/// the order in which the calls were made; `step` runs on one thread at a time. After construction only `add`
+/// and `step` throw; what is wrong with any other call is a Diagnostic in the next report.
+class GRAZE_API Scene {
+ public:
+  /// No promise: a vertex may have moved anywhere.
+  static constexpr double any_displacement = std::numeric_limits<double>::infinity();
+
+  /// Throws Error for a threshold that is negative or NaN, or paper accuracy with a detail other than
+  /// `regions` and `vertices`.
+  explicit Scene(const SceneSettings& settings = {});
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  [[nodiscard]] const SceneSettings& settings() const;
+
+  /// Adds an object at its mesh's rest shape. Throws Error for no mesh, a margin that is negative or not
+  /// finite, or a kind above 255.
+  ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings = {});
+  void remove(ObjectId object);
+  /// Objects added and not removed, by all calls made so far.
+  [[nodiscard]] std::size_t object_count() const;
+  [[nodiscard]] bool contains(ObjectId object) const;
+  /// The mesh and settings an object was added with; null and defaults for an id that names none.
+  [[nodiscard]] std::shared_ptr<const Mesh> mesh(ObjectId object) const;
+  [[nodiscard]] ObjectSettings object_settings(ObjectId object) const;
+
+  /// Places a rigid or fixed object: vertex = ((r0·x + r1·y) + r2·z) + t of its rest vertex (x, y, z), in
+  /// double.
+  void set_pose(ObjectId object, const Eigen::Isometry3d& pose) {
+    std::array<double, 12> rows;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column)
+        rows[static_cast<std::size_t>(row * 4 + column)] = pose.matrix()(row, column);
+    set_pose_rows(object, rows);
+  }
+  /// The same from the upper three rows of the 4x4 matrix, row by row.
+  void set_pose_rows(ObjectId object, const std::array<double, 12>& rows);
+
+  /// Copies the positions of a deformable object, one for each vertex of its mesh. `max_displacement`
+  /// promises how far any vertex is at most from where the last step saw it.
+  void set_positions(ObjectId object, PositionView positions, double max_displacement = any_displacement);
+
+  /// Reads a deformable object's positions from the caller's memory, without a copy, until it is unbound: it
+  /// may be written between steps only. With BindPolicy::when_told it is read in the next step and then after
+  /// `positions_changed`.
+  void bind_positions(ObjectId object, PositionView positions, BindPolicy policy = BindPolicy::every_step);
+  /// The object keeps the positions that the last step saw.
+  void unbind_positions(ObjectId object);
+  /// Bound memory has been written: no vertex is further than `max_displacement` from where the last step saw
+  /// it.
+  void positions_changed(ObjectId object, double max_displacement = any_displacement);
+
+  /// Takes one pair out, and puts it back.
+  void ignore(ObjectId a, ObjectId b);
+  void watch(ObjectId a, ObjectId b);
+
+  /// Thresholds for every pair of an object of `kind_a` and one of `kind_b`, in either order.
+  void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
+
+  /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
+  /// of this scene is running.
+  ReportHandle step();
+  /// The last published report; of frame 0 and empty before the first step. Wait-free.
+  [[nodiscard]] ReportHandle latest_report() const;
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace graze

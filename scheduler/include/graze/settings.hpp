@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <graze/accuracy.hpp>
+#include <graze/contact.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// How an object may move: `deformable` by positions, `rigid` and `fixed` by poses. Pairs of fixed objects
+/// are never looked at.
+enum class Motion : std::uint8_t { deformable, rigid, fixed };
+
+/// When bound memory is read: in every step, or only in the step after `Scene::positions_changed`.
+enum class BindPolicy : std::uint8_t { every_step, when_told };
+
+/// What a scene is told of an object when it is added.
+struct ObjectSettings {
+  std::string name;
+  Motion motion = Motion::deformable;
+  std::uint32_t layer = 1;  ///< a pair is looked at when each one's layer is in the other's mask
+  std::uint32_t collides_with = ~std::uint32_t{0};
+  double margin = 0;       ///< added to the threshold of every pair of this object
+  std::uint32_t kind = 0;  ///< 0 to 255, see Scene::set_rule
+  std::uint64_t user_data = 0;
+};
+
+/// Thresholds for a kind of pair, in place of the scene's own.
+struct PairRule {
+  double contact_distance = 0;
+  double range = 0;
+  std::vector<double> epsilon;  ///< in place of Accuracy::paper's numbers; empty: the scene's own
+};
+
+/// Settings of a scene, fixed when it is made. Distances are in the caller's units.
+struct SceneSettings {
+  double contact_distance = 0;  ///< strictly closer than this, plus both margins, is a contact
+  double range = 0;             ///< pairs closer than this are listed with their distance
+  ContactDetail detail = ContactDetail::features;
+  Accuracy accuracy = Accuracy::exact();
+  unsigned threads = 0;  ///< 0: as many as the machine has
+  /// A step's deadline for pairs; positions are always read and bounds refreshed first.
+  std::optional<std::chrono::microseconds> time_budget;
+  /// The same in region pairs, reproducibly.
+  std::optional<std::uint64_t> work_budget;
+};
+
+}  // namespace graze

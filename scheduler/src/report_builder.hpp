@@ -1,0 +1,41 @@
+#pragma once
+
+#include <graze/report.hpp>
+
+namespace graze {
+
+/// The one place that writes into a report, before it is published.
+class ReportBuilder {
+ public:
+  explicit ReportBuilder(FrameReport& report) : report_(report) {}
+
+  /// Empties the report and keeps its memory.
+  void begin(std::uint64_t frame) {
+    report_.frame_ = frame;
+    report_.complete_ = true;
+    report_.pairs_.clear();
+    report_.contacts_.clear();
+    report_.diagnostics_.clear();
+    report_.statistics_ = {};
+  }
+  /// Appends a pair and its contacts.
+  void add(PairReport pair, std::span<const Contact> contacts) {
+    pair.first_contact = report_.contacts_.size();
+    pair.contact_count = contacts.size();
+    report_.contacts_.insert(report_.contacts_.end(), contacts.begin(), contacts.end());
+    report_.pairs_.push_back(pair);
+    report_.complete_ = report_.complete_ && pair.complete;
+  }
+  void mark_incomplete() { report_.complete_ = false; }
+  std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
+  StepStatistics& statistics() { return report_.statistics_; }
+  [[nodiscard]] std::size_t byte_count() const {
+    return report_.pairs_.capacity() * sizeof(PairReport) + report_.contacts_.capacity() * sizeof(Contact) +
+           report_.diagnostics_.capacity() * sizeof(Diagnostic);
+  }
+
+ private:
+  FrameReport& report_;
+};
+
+}  // namespace graze

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <graze/report.hpp>
+#include <memory>
+
+namespace graze {
+
+/// The reports of one scene: one published, any number still held by handles, the rest to be used again.
+///
+/// `current_` holds the published slot and, in its low bits, how many handles were taken of it, so that
+/// taking one is a single fetch_add: no retry, no lock. A slot's `references` starts at `bias` when it is
+/// published, goes down by one with each handle destroyed, and when the slot is retired gets the number of
+/// handles taken added and the bias taken away; it is zero exactly when the slot is retired and no handle is
+/// left. Only the stepping thread looks for such slots and fills them again, so a reader that sleeps costs
+/// one slot and nobody waits for it.
+///
+/// The pool lives until its scene is gone and every handle is: `owners_` counts the scene and every retired
+/// slot that is still referenced.
+class ReportPool {
+ public:
+  /// With an empty report of frame 0 published.
+  static ReportPool* create() { return new ReportPool; }
+  /// The scene's end. Handles stay valid.
+  void close();
+
+  /// The published report. Wait-free, from any thread while the scene lives.
+  [[nodiscard]] ReportHandle latest() noexcept;
+
+  /// A report that nobody reads, to be filled. Stepping thread only. Throws Error when all slots are held.
+  [[nodiscard]] FrameReport& begin();
+  /// Publishes the report of the last `begin`.
+  ReportHandle publish() noexcept;
+
+  ReportPool(const ReportPool&) = delete;
+  ReportPool& operator=(const ReportPool&) = delete;
+
+ private:
+  friend class ReportHandle;
+
+  struct Slot {
+    FrameReport report;
+    std::atomic<std::int64_t> references{0};
+  };
+  static constexpr std::uint32_t chunk_size = 64;
+  static constexpr std::uint32_t chunk_capacity = 1024;
+  static constexpr int count_bits = 40;
+  static constexpr std::uint64_t count_mask = (std::uint64_t{1} << count_bits) - 1;
+  static constexpr std::int64_t bias = std::int64_t{1} << 50;
+  using Chunk = std::array<Slot, chunk_size>;
+
+  ReportPool();
+  ~ReportPool() = default;
+
+  Slot& slot(std::uint32_t index) { return (*chunks_[index / chunk_size])[index % chunk_size]; }
+  void add_reference(std::uint32_t index) noexcept {
+    slot(index).references.fetch_add(1, std::memory_order_relaxed);
+  }
+  void release(std::uint32_t index) noexcept;
+  void retire(std::uint64_t taken) noexcept;
+  void drop_owner() noexcept;
+
+  std::atomic<std::uint64_t> current_{0};
+  std::atomic<std::int64_t> owners_{1};
+  // A chunk is written before any slot of it is published, and read only through an index taken from
+  // `current_`.
+  std::array<std::unique_ptr<Chunk>, chunk_capacity> chunks_;
+  std::uint32_t slot_count_ = 0;
+  std::uint32_t filling_ = 0;
+};
+
+}  // namespace graze

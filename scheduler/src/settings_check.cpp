@@ -1,0 +1,56 @@
+#include "settings_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <graze/pair_query.hpp>
+
+namespace graze {
+namespace {
+
+bool is_distance(double value) {
+  return std::isfinite(value) && value >= 0;
+}
+
+/// A range may be infinite: then every pair is listed.
+bool is_range(double value) {
+  return value >= 0;
+}
+
+std::string not_a_distance(const char* what, double value) {
+  return std::string(what) + " is " + std::to_string(value) +
+         "; give a distance that is finite and not negative";
+}
+
+}  // namespace
+
+std::optional<std::string> problem_of(const SceneSettings& settings) {
+  if (!is_distance(settings.contact_distance))
+    return not_a_distance("scene: contact_distance", settings.contact_distance);
+  if (!is_range(settings.range)) return not_a_distance("scene: range", settings.range);
+  if (settings.accuracy.mode() == AccuracyMode::paper && !is_about_vertices(settings.detail))
+    return "scene: paper accuracy goes with the details `regions` and `vertices` only";
+  if (settings.time_budget && settings.time_budget->count() < 0) return "scene: time_budget is negative";
+  return std::nullopt;
+}
+
+std::optional<std::string> problem_of(const ObjectSettings& settings) {
+  const std::string object = "object '" + settings.name + "': ";
+  if (!is_distance(settings.margin)) return not_a_distance((object + "margin").c_str(), settings.margin);
+  if (settings.kind >= kind_count)
+    return object + "kind is " + std::to_string(settings.kind) + "; kinds are 0 to 255";
+  return std::nullopt;
+}
+
+std::optional<std::string> problem_of(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
+  const std::string kinds =
+      "rule of kinds " + std::to_string(kind_a) + " and " + std::to_string(kind_b) + ": ";
+  if (std::max(kind_a, kind_b) >= kind_count) return kinds + "kinds are 0 to 255";
+  if (!is_distance(rule.contact_distance))
+    return not_a_distance((kinds + "contact_distance").c_str(), rule.contact_distance);
+  if (!is_range(rule.range)) return not_a_distance((kinds + "range").c_str(), rule.range);
+  for (const double epsilon : rule.epsilon)
+    if (!is_distance(epsilon)) return not_a_distance((kinds + "an epsilon").c_str(), epsilon);
+  return std::nullopt;
+}
+
+}  // namespace graze
