@@ -296,13 +296,21 @@ SegmentPairNames nearest_pieces_of_segments(const Surface& surface_a, const Feat
 }
 
 bool is_folded(const Surface& surface, std::uint32_t face, DecisionCount& count) {
-  if (triangle_count(surface.mesh(), face) == 1) return false;
-  const auto corner = surface.mesh().face(face);
-  const auto point = [&](std::size_t i) { return surface.position(corner[i]); };
+  const Mesh& mesh = surface.mesh();
+  if (triangle_count(mesh, face) == 1 || diagonal_of(mesh, face).feature.kind != FeatureKind::face)
+    return false;
+  const auto corner = mesh.face(face);
+  const auto from_first = [&]<typename Number>(std::size_t i) {
+    return difference<Number>(surface.position(corner[i]), surface.position(corner[0]));
+  };
   return decide(count, [&]<typename Number>(bool& unsure) {
-    const Vector<Number> normal =
-        cross(difference<Number>(point(1), point(0)), difference<Number>(point(2), point(0)));
-    return sign(dot(normal, difference<Number>(point(3), point(0))), unsure) != 0;
+    const auto diagonal = from_first.template operator()<Number>(2);
+    const auto second = from_first.template operator()<Number>(1);
+    const auto fourth = from_first.template operator()<Number>(3);
+    const Vector<Number> normal = cross(second, diagonal);
+    if (sign(dot(normal, fourth), unsure) != 0) return true;
+    return sign(dot(normal, cross(fourth, diagonal)), unsure) >
+           0;  // in one plane, both on one side of the diagonal
   });
 }
 

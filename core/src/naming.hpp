@@ -11,7 +11,7 @@ namespace graze {
 
 /// Which flat piece of a feature a closest point lies in. A quad is two triangles, split from its first
 /// corner, that meet in its fold; every other feature is one piece.
-enum class Piece : std::uint8_t { first, second, fold };
+enum class Piece : std::uint8_t { fold, first, second };
 
 /// A flat piece of a feature: a vertex, an edge, a triangle of a face, or a quad's fold.
 struct FeaturePiece {
@@ -64,7 +64,8 @@ SegmentPairNames nearest_pieces_of_segments(const Surface& surface_a, const Feat
                                             const Surface& surface_b, const FeaturePiece& segment_b,
                                             DecisionCount& count);
 
-/// Whether the four corners of a quad do not lie in one plane.
+/// Whether a quad's diagonal is a fold: its corners do not lie in one plane, or do with both triangles on one side of the
+/// diagonal, so that they lie on each other and the diagonal is a border.
 bool is_folded(const Surface& surface, std::uint32_t face, DecisionCount& count);
 
 }  // namespace graze

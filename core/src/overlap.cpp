@@ -79,15 +79,13 @@ bool segment_overlaps_triangle(const Simplex& segment, const Simplex& triangle, 
   if (is_zero(normal, unsure) || is_zero(u, unsure) || sign(dot(normal, u), unsure) != 0) return false;
   if (a_side_separates<Number>(triangle, segment, fold_side, unsure)) return false;
   const Vector<Number> across = cross(normal, u);
-  bool before = false;
-  bool behind = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int side = sign(dot(across, difference<Number>(triangle.point[i], segment.point[0])), unsure);
-    const bool on_fold = side == 0 && fold_side < 3 && (i == fold_side || i == (fold_side + 1) % 3);
-    before = before || side < 0 || on_fold;
-    behind = behind || side > 0 || on_fold;
-  }
-  return before && behind;
+  std::array<int, 3> sides{};
+  for (std::size_t i = 0; i < 3; ++i)
+    sides[i] = sign(dot(across, difference<Number>(triangle.point[i], segment.point[0])), unsure);
+  const bool runs_along_fold = fold_side < 3 && sides[fold_side] == 0 && sides[(fold_side + 1) % 3] == 0;
+  const bool before = std::find(sides.begin(), sides.end(), -1) != sides.end();
+  const bool behind = std::find(sides.begin(), sides.end(), 1) != sides.end();
+  return runs_along_fold || (before && behind);
 }
 
 template <typename Number>

@@ -54,12 +54,12 @@ std::vector<SidedPiece> pieces_of(const Surface& surface, const Feature& feature
   if (feature.kind == FeatureKind::edge) return {{edge_piece(feature.index), 3}};
   if (triangle_count(surface.mesh(), feature.index) == 1)
     return {{face_piece(feature.index, Piece::first), 3}};
-  // The border between the triangles of a flat quad is inside it; a fold is a segment of its own.
-  const bool folded = is_folded(surface, feature.index, count);
-  std::vector<SidedPiece> pieces{{face_piece(feature.index, Piece::first), folded ? 3U : 2U},
-                                 {face_piece(feature.index, Piece::second), folded ? 3U : 0U}};
-  if (folded) pieces.push_back({face_piece(feature.index, Piece::fold), 3});
-  return pieces;
+  // The border between the triangles of a flat quad is inside it.
+  const bool border_is_inside =
+      diagonal_of(surface.mesh(), feature.index).feature.kind == FeatureKind::face &&
+      !is_folded(surface, feature.index, count);
+  return {{face_piece(feature.index, Piece::first), border_is_inside ? 2U : 3U},
+          {face_piece(feature.index, Piece::second), border_is_inside ? 0U : 3U}};
 }
 
 /// A parallel pair of features, its closest set's middle and where its pieces are.
@@ -70,19 +70,20 @@ struct ParallelContact {
 
 /// The closest set of two features that hold closest points, where it has a length or an area. Several pieces
 /// of a quad make one set, whose middle is that of all of them by size.
-std::optional<ParallelContact> parallel_contact(const SurfacePair& pair, const FeaturePair& features) {
+std::optional<ParallelContact> parallel_contact(const SurfacePair& pair, const FeaturePair& features,
+                                                const ContactName& nearest) {
   std::optional<ParallelContact> found;
-  std::uint32_t dimension = 0;
   for (const SidedPiece& a : pieces_of(pair.a, features.first, pair.count))
     for (const SidedPiece& b : pieces_of(pair.b, features.second, pair.count)) {
       const Simplex simplex_a = simplex_of(pair.a, a.piece);
       const Simplex simplex_b = simplex_of(pair.b, b.piece);
       const auto overlap = overlap_of(simplex_a, a.fold_side, simplex_b, b.fold_side, pair.count);
-      const std::uint32_t overlap_dimension = std::min(simplex_a.size, simplex_b.size);
-      if (!overlap || overlap_dimension < dimension) continue;
-      if (!found || overlap_dimension > dimension) {
-        found = {ContactName::of(a.piece, b.piece, Meeting::parallel), *overlap};
-        dimension = overlap_dimension;
+      if (!overlap) continue;
+      const ContactName name = ContactName::of(a.piece, b.piece, Meeting::parallel);
+      // One triangle of a bent quad may be parallel and further than the other.
+      if (compare_distances(pair, name, nearest) != 0) continue;
+      if (!found) {
+        found = {name, *overlap};
         continue;
       }
       const double size = found->overlap.size + overlap->size;
@@ -109,7 +110,7 @@ std::vector<ParallelContact> parallel_contacts(const SurfacePair& pair,
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   std::vector<ParallelContact> found;
   for (const FeaturePair& features : candidates)
-    if (auto contact = parallel_contact(pair, features)) found.push_back(*contact);
+    if (auto contact = parallel_contact(pair, features, names.front())) found.push_back(*contact);
   std::sort(found.begin(), found.end(), by_name);
   return found;
 }

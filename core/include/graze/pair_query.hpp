@@ -32,7 +32,7 @@ struct PairQuery {
 };
 
 /// Work done for a pair, or for many.
-struct PairCounters {
+struct GRAZE_API PairCounters {
   std::uint64_t region_pairs_tested = 0;
   std::uint64_t leaf_pairs_tested = 0;
   std::uint64_t exact_decisions = 0;

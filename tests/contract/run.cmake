@@ -1,0 +1,51 @@
+# Installs graze (core and scheduler) into a prefix of its own, and builds and runs the contract's program against it:
+# by its CMake package for several instruction sets, by pkg-config, and with graze as a subproject.
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+if(KIND STREQUAL "shared")
+  set(shared ON)
+else()
+  set(shared OFF)
+endif()
+set(prefix ${WORK}/prefix)
+file(REMOVE_RECURSE ${prefix})
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${WORK}/graze -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
+  -DBUILD_SHARED_LIBS=${shared} -DGRAZE_IO=OFF -DGRAZE_BUILD_TOOLS=OFF -DGRAZE_BUILD_TESTS=OFF
+  -DCMAKE_INSTALL_PREFIX=${prefix} -DCMAKE_INSTALL_LIBDIR=lib)
+run(${CMAKE_COMMAND} --build ${WORK}/graze)
+run(${CMAKE_COMMAND} --install ${WORK}/graze)
+
+set(flag_sets plain native)
+set(flags_plain "")
+set(flags_native "-march=native")
+file(STRINGS /proc/cpuinfo avx2 REGEX "^flags.* avx2( |$)" LIMIT_COUNT 1)
+if(avx2)
+  list(APPEND flag_sets avx2)
+  set(flags_avx2 "-mavx2")
+else()
+  message(STATUS "-mavx2 is left out: this processor cannot run it")
+endif()
+foreach(flags ${flag_sets})
+  set(build ${WORK}/program_${flags})
+  run(${CMAKE_COMMAND} -G Ninja -S ${PROGRAM} -B ${build} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
+    "-DCMAKE_CXX_FLAGS=${flags_${flags}}" "-DCMAKE_PREFIX_PATH=${prefix};${PREFIX_PATH}")
+  run(${CMAKE_COMMAND} --build ${build})
+  run(${build}/consumer)
+endforeach()
+
+set(ENV{PKG_CONFIG_PATH} ${prefix}/lib/pkgconfig)
+execute_process(COMMAND pkg-config --cflags --libs graze OUTPUT_VARIABLE pkg_flags OUTPUT_STRIP_TRAILING_WHITESPACE
+  COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(pkg_flags)
+run(${CXX} -std=c++20 -O1 ${PROGRAM}/consumer.cpp -o ${WORK}/consumer_by_pkg_config ${pkg_flags} -pthread)
+set(ENV{LD_LIBRARY_PATH} ${prefix}/lib)
+run(${WORK}/consumer_by_pkg_config)
+unset(ENV{LD_LIBRARY_PATH})
+
+run(${CMAKE_COMMAND} -G Ninja -S ${SUBPROJECT} -B ${WORK}/subproject -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
+  -DGRAZE=${SOURCE} -DPROGRAM=${PROGRAM} -DBUILD_SHARED_LIBS=${shared} -DGRAZE_IO=OFF)
+run(${CMAKE_COMMAND} --build ${WORK}/subproject)
+run(${WORK}/subproject/embedded)

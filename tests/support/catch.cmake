@@ -1,0 +1,25 @@
+# graze_add_test_program(<name> <source>...): a Catch2 program, v2 or v3, with one ctest test for each test case.
+# A test that prints a line "skipped: <why>" counts as skipped.
+
+find_package(Catch2 REQUIRED)
+list(APPEND CMAKE_MODULE_PATH ${Catch2_DIR})
+include(Catch)
+
+set(GRAZE_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
+  "Real meshes that some tests read; those tests are skipped where it is missing")
+
+if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
+  set(GRAZE_CATCH_MAIN Catch2::Catch2WithMain)
+else()
+  set(GRAZE_CATCH_MAIN graze_catch_main)
+  add_library(graze_catch_main STATIC ${CMAKE_CURRENT_LIST_DIR}/catch_main.cpp)
+  target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2)
+endif()
+
+function(graze_add_test_program name)
+  add_executable(${name} ${ARGN})
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
+  target_compile_definitions(${name} PRIVATE GRAZE_SHARED_DATA="${GRAZE_SHARED_DATA}")
+  target_link_libraries(${name} PRIVATE graze_options ${GRAZE_CATCH_MAIN})
+  catch_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
+endfunction()

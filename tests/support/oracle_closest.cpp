@@ -1,0 +1,42 @@
+#include <algorithm>
+
+#include "support/oracle_distance.hpp"
+#include "support/oracle_parallel.hpp"
+
+namespace graze::oracle {
+
+namespace {
+
+/// The contacts of `features` at exactly this distance, whatever the threshold.
+ExactContacts candidates_at(const ExactShape& a, const ExactShape& b, const Rational& distance_squared) {
+  ExactContacts contacts = collect_features(a, b, Limit::up_to(distance_squared));
+  std::erase_if(contacts,
+                [&](const auto& entry) { return entry.second.distance_squared != distance_squared; });
+  return contacts;
+}
+
+/// Whether a candidate is only an end or border of the closest set of another, parallel one.
+bool gives_way(const Name& name, const ExactShape& a, const ExactShape& b, const ExactContacts& parallel) {
+  return std::any_of(parallel.begin(), parallel.end(), [&](const auto& entry) {
+    const Name& larger = entry.first;
+    return name != larger && a.is_part(name.a, larger.a) && b.is_part(name.b, larger.b);
+  });
+}
+
+}  // namespace
+
+std::optional<Named> closest(const Shape& shape_a, const Shape& shape_b, double threshold) {
+  const ExactShape a(shape_a);
+  const ExactShape b(shape_b);
+  const Rational distance_squared = smallest_distance_squared(a, b);
+  if (!Limit::below(threshold).admits(distance_squared) && !is_pierced(a, b)) return std::nullopt;
+
+  ExactContacts candidates = collect_parallel(a, b, distance_squared);
+  const ExactContacts parallel = candidates;
+  candidates.merge(candidates_at(a, b, distance_squared));
+  for (const auto& [name, contact] : candidates)
+    if (!gives_way(name, a, b, parallel)) return rounded(name, contact);
+  return std::nullopt;
+}
+
+}  // namespace graze::oracle

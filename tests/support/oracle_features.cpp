@@ -1,0 +1,144 @@
+#include "support/oracle_features.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace graze::oracle {
+
+namespace {
+
+class Collector {
+ public:
+  Collector(const ExactShape& a, const ExactShape& b, const Limit& limit) : a_(a), b_(b), limit_(limit) {}
+
+  ExactContacts collect() {
+    pierce();
+    vertices_against_faces();
+    segments_against_segments();
+    return std::move(contacts_);
+  }
+
+ private:
+  /// Of two contacts of one name the nearer stays, on a tie the earlier.
+  void add(Feature a, Feature b, ExactContact contact) {
+    if (!contact.pierced && !limit_.admits(contact.distance_squared)) return;
+    const auto [place, is_new] = contacts_.try_emplace(name_of(a, b), contact);
+    if (!is_new && contact.distance_squared < place->second.distance_squared)
+      place->second = std::move(contact);
+  }
+
+  [[nodiscard]] static bool is_crease(const Segment& segment) { return segment.fold || segment.folded_over; }
+
+  void pierce() {
+    for (const Segment& segment : a_.segments) {
+      for (std::uint32_t face = 0; face < b_.faces.size(); ++face) {
+        if (const auto t = passes(a_, segment, b_, face)) {
+          const Point point = point_at(a_, segment, *t);
+          add(segment.owner, {FeatureKind::face, face}, {0, point, point, segment.is_edge()});
+        }
+      }
+    }
+    for (const Segment& segment : b_.segments) {
+      for (std::uint32_t face = 0; face < a_.faces.size(); ++face) {
+        if (const auto t = passes(b_, segment, a_, face)) {
+          const Point point = point_at(b_, segment, *t);
+          add({FeatureKind::face, face}, segment.owner, {0, point, point, segment.is_edge()});
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<Rational> passes(const ExactShape& shape, const Segment& segment,
+                                               const ExactShape& other, std::uint32_t face) const {
+    if (!segment.is_edge() && !is_crease(segment)) return std::nullopt;
+    if (gap_squared(segment.extent, other.faces[face].extent) > 0) return std::nullopt;
+    return crossing(shape, segment, other, face);
+  }
+
+  void vertices_against_faces() {
+    for (const std::uint32_t vertex : a_.used) {
+      for (std::uint32_t face = 0; face < b_.faces.size(); ++face) {
+        if (limit_.certainly_excludes(a_.point_extents[vertex], b_.faces[face].extent)) continue;
+        const Foot foot = foot_on_face(a_.points[vertex], b_, face);
+        add({FeatureKind::vertex, vertex}, foot.feature,
+            {foot.distance_squared, a_.points[vertex], foot.point, false});
+      }
+    }
+    for (const std::uint32_t vertex : b_.used) {
+      for (std::uint32_t face = 0; face < a_.faces.size(); ++face) {
+        if (limit_.certainly_excludes(b_.point_extents[vertex], a_.faces[face].extent)) continue;
+        const Foot foot = foot_on_face(b_.points[vertex], a_, face);
+        add(foot.feature, {FeatureKind::vertex, vertex},
+            {foot.distance_squared, foot.point, b_.points[vertex], false});
+      }
+    }
+  }
+
+  void segments_against_segments() {
+    for (const Segment& segment_a : a_.segments) {
+      for (const Segment& segment_b : b_.segments) {
+        if (!limit_.certainly_excludes(segment_a.extent, segment_b.extent))
+          add_segments(segment_a, segment_b);
+      }
+    }
+  }
+
+  void add_segments(const Segment& segment_a, const Segment& segment_b) {
+    const bool edges = segment_a.is_edge() && segment_b.is_edge();
+    if (!segment_a.is_edge() && !is_crease(segment_a)) return;
+    if (!segment_b.is_edge() && !is_crease(segment_b)) return;
+    if (const auto inner = inner_contact(a_, segment_a, b_, segment_b)) {
+      add_contact(*inner);
+    } else if (edges) {
+      for (const SegmentContact& contact : end_contacts(a_, segment_a, b_, segment_b)) add_contact(contact);
+    }
+  }
+
+  void add_contact(const SegmentContact& contact) {
+    add(contact.a.feature, contact.b.feature,
+        {contact.a.distance_squared, contact.a.point, contact.b.point, false});
+  }
+
+  const ExactShape& a_;
+  const ExactShape& b_;
+  const Limit& limit_;
+  ExactContacts contacts_;
+};
+
+}  // namespace
+
+Name name_of(Feature a, Feature b) {
+  using enum ContactKind;
+  static constexpr std::array<std::array<ContactKind, 3>, 3> kinds = {
+      {{VV, VE, VF}, {VE, EE, EF}, {VF, EF, FF}}};
+  return {kinds[static_cast<std::size_t>(a.kind)][static_cast<std::size_t>(b.kind)], a, b};
+}
+
+ExactContacts collect_features(const ExactShape& a, const ExactShape& b, const Limit& limit) {
+  return Collector(a, b, limit).collect();
+}
+
+Named rounded(const Name& name, const ExactContact& contact) {
+  return {name.kind,
+          name.a,
+          name.b,
+          round_sqrt(contact.distance_squared),
+          contact.distance_squared,
+          round(contact.point_a),
+          round(contact.point_b),
+          contact.pierced};
+}
+
+std::vector<Named> rounded(const ExactContacts& contacts) {
+  std::vector<Named> result;
+  result.reserve(contacts.size());
+  for (const auto& [name, contact] : contacts) result.push_back(rounded(name, contact));
+  return result;
+}
+
+std::vector<Named> features(const Shape& a, const Shape& b, double threshold) {
+  return rounded(collect_features(ExactShape(a), ExactShape(b), Limit::below(threshold)));
+}
+
+}  // namespace graze::oracle

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "support/oracle.hpp"
+
+namespace graze::oracle {
+
+/// A small generator of random numbers (splitmix64): the same numbers from every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t next();
+  /// 0 to count - 1; count > 0.
+  std::uint32_t below(std::uint32_t count);
+  /// In [low, high).
+  double between(double low, double high);
+  bool chance(double probability);
+
+ private:
+  std::uint64_t state_;
+};
+
+enum class Placement { apart, near, touching, interpenetrating };
+
+/// Two small shapes and a threshold. On a grid all coordinates and the threshold are small multiples of 1/4,
+/// which brings exact ties, parallel edges, coplanar and degenerate faces; otherwise coordinates are generic
+/// doubles.
+struct RandomScene {
+  Shape a, b;
+  double threshold = 0;
+  Placement placement = Placement::apart;
+  bool on_grid = false;
+};
+
+/// The scene of a seed. Even seeds are generic, odd ones on a grid; every four pairs of seeds go through the
+/// placements. Shapes have 1 to 12 faces, shared and unused vertices (these may hold NaN), open or closed.
+RandomScene random_scene(std::uint64_t seed);
+
+/// How often scenes reached each case, so that a test can assert that none was missed.
+struct Coverage {
+  std::array<std::size_t, 6> kinds{};          ///< contacts of `features`, by ContactKind
+  std::array<std::size_t, 6> closest_kinds{};  ///< contacts of `closest`, by ContactKind
+  std::size_t piercings = 0;                   ///< EF contacts where an edge pierces
+  std::size_t folds = 0;                       ///< EF and FF contacts on the fold of a quad
+  std::size_t degenerate_faces = 0;            ///< triangles of no area
+  std::size_t warped_quads = 0;
+  std::size_t parallel_edges = 0;  ///< scenes with parallel edges of a and b
+  std::size_t zero_distances = 0;  ///< contacts at distance 0 that are no piercing
+  std::size_t at_threshold = 0;    ///< scenes whose surfaces are apart by exactly the threshold
+  std::size_t without_contact = 0;
+
+  void count(const RandomScene& scene, const std::vector<Named>& features,
+             const std::optional<Named>& closest, const Pair& surface);
+};
+
+}  // namespace graze::oracle
