@@ -18,7 +18,7 @@ std::size_t bytes_of(const std::vector<T>& values) {
 /// Rows of values in compressed form: row i is values[begin[i], begin[i + 1]), ascending, each value once.
 class Rows {
  public:
-  explicit Rows(std::size_t count) : pairs_(), count_(count) {}
+  explicit Rows(std::size_t count) : count_(count) {}
   void add(std::uint32_t row, std::uint32_t value) { pairs_.emplace_back(row, value); }
   void write(std::vector<std::uint32_t>& values, std::vector<std::uint32_t>& begin) {
     std::sort(pairs_.begin(), pairs_.end());

@@ -44,17 +44,20 @@ bool segments_overlap(const Simplex& a, const Simplex& b, bool& unsure) {
 }
 
 /// Whether a line in the plane of a triangle (through `origin` along `along`) has all of `other` on its outer
-/// side or on it; with `open` only strictly outside counts. The inner side is that of `inner`.
+/// side or on it, where the inner side is that of `inner`. With `open`, what lies along the line is not on
+/// its outer side.
 template <typename Number>
 bool separates(const Vector<Number>& plane_normal, const Eigen::Vector3d& origin, const Vector<Number>& along,
                const Eigen::Vector3d& inner, const Simplex& other, bool open, bool& unsure) {
   const Vector<Number> across = cross(plane_normal, along);
   const int inner_side = sign(dot(across, difference<Number>(inner, origin)), unsure);
+  bool all_on_line = true;
   for (std::uint32_t i = 0; i < other.size; ++i) {
     const int side = inner_side * sign(dot(across, difference<Number>(other.point[i], origin)), unsure);
-    if (side > 0 || (open && side == 0)) return false;
+    if (side > 0) return false;
+    all_on_line = all_on_line && side == 0;
   }
-  return true;
+  return !(open && all_on_line);
 }
 
 template <typename Number>
@@ -129,7 +132,7 @@ Points clip_to_triangle(Points points, const Simplex& triangle) {
   return points;
 }
 
-Points clip_to_segment(Points points, const Simplex& segment) {
+Points clip_to_segment(const Points& points, const Simplex& segment) {
   const Eigen::Vector3d along = segment.point[1] - segment.point[0];
   return clip(clip(points, segment.point[0], along), segment.point[1], -along);
 }
@@ -161,6 +164,55 @@ Eigen::Vector3d across(const Eigen::Vector3d& point, const Simplex& other) {
   return other.point[0] + along * (along.dot(offset) / along.squaredNorm());
 }
 
+Eigen::Vector3d outline_normal(const Points& outline) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+    normal += (outline[i] - outline[0]).cross(outline[i + 1] - outline[0]);
+  return normal.stableNormalized();
+}
+
+/// Whether two convex outlines lie on one line or in one plane and touch, to rounding.
+bool meet(const Points& outline, const Points& other) {
+  double slack = 0;
+  for (const Eigen::Vector3d& point : outline) slack = std::max(slack, (point - other[0]).norm() * 0x1p-36);
+  const Eigen::Vector3d normal = outline_normal(other);
+  for (const Eigen::Vector3d& point : outline)
+    if (std::abs(normal.dot(point - other[0])) > slack) return false;
+  Points common = outline;
+  for (std::size_t i = 0; i < other.size() && !common.empty(); ++i) {
+    const Eigen::Vector3d along = other[(i + 1) % other.size()] - other[i];
+    const Eigen::Vector3d inward =
+        (other.size() == 2 ? along : Eigen::Vector3d(normal.cross(along))).stableNormalized();
+    common = clip(common, other[i] - inward * slack, inward);
+  }
+  return !common.empty();
+}
+
+/// Moves the middles of a whole by the same way; the gap between them stays.
+void move_middles(Overlap& whole, const Eigen::Vector3d& way) {
+  whole.middle_a += way;
+  whole.middle_b += way;
+}
+
+/// Adds a stretch of the same line: the whole is from the first end to the last.
+void join_stretch(Overlap& whole, const Overlap& part) {
+  const Eigen::Vector3d along = whole.outline[1] - whole.outline[0];
+  const Eigen::Vector3d before = (whole.outline[0] + whole.outline[1]) / 2;
+  for (const Eigen::Vector3d& point : part.outline) {
+    if (along.dot(point - whole.outline[0]) < 0) whole.outline[0] = point;
+    if (along.dot(point - whole.outline[1]) > 0) whole.outline[1] = point;
+  }
+  move_middles(whole, (whole.outline[0] + whole.outline[1]) / 2 - before);
+  whole.size = (whole.outline[1] - whole.outline[0]).norm();
+}
+
+/// Adds an area of the same plane: the middle is weighed by size.
+void join_area(Overlap& whole, const Overlap& part) {
+  const double size = whole.size + part.size;
+  if (size > 0) move_middles(whole, (part.middle_a - whole.middle_a) * (part.size / size));
+  whole.size = size;
+}
+
 }  // namespace
 
 std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, const Simplex& b,
@@ -182,7 +234,27 @@ std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, con
   if (common.empty()) return std::nullopt;  // an overlap so small that rounding lost it
   const auto [middle, size] = middle_of(common);
   const Eigen::Vector3d opposite = across(middle, high);
-  return a_is_low ? Overlap{middle, opposite, size} : Overlap{opposite, middle, size};
+  return a_is_low ? Overlap{middle, opposite, size, common} : Overlap{opposite, middle, size, common};
+}
+
+Overlap largest_part(const std::vector<Overlap>& overlaps) {
+  std::vector<std::size_t> part(overlaps.size());
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    part[i] = i;
+    for (std::size_t j = 0; j < i; ++j)
+      if (part[j] != part[i] && meet(overlaps[i].outline, overlaps[j].outline))
+        std::replace(part.begin(), part.end(), std::max(part[i], part[j]), std::min(part[i], part[j]));
+  }
+  Overlap largest;
+  for (std::size_t root = 0; root < overlaps.size(); ++root) {
+    if (part[root] != root) continue;
+    Overlap whole = overlaps[root];
+    for (std::size_t i = root + 1; i < overlaps.size(); ++i)
+      if (part[i] == root)
+        whole.outline.size() == 2 ? join_stretch(whole, overlaps[i]) : join_area(whole, overlaps[i]);
+    if (root == 0 || whole.size > largest.size * (1 + 0x1p-40)) largest = whole;
+  }
+  return largest;
 }
 
 }  // namespace graze

@@ -50,16 +50,14 @@ struct SidedPiece {
   std::size_t fold_side = 3;
 };
 
-std::vector<SidedPiece> pieces_of(const Surface& surface, const Feature& feature, DecisionCount& count) {
+std::vector<SidedPiece> pieces_of(const Surface& surface, const Feature& feature) {
   if (feature.kind == FeatureKind::edge) return {{edge_piece(feature.index), 3}};
   if (triangle_count(surface.mesh(), feature.index) == 1)
     return {{face_piece(feature.index, Piece::first), 3}};
-  // The border between the triangles of a flat quad is inside it.
-  const bool border_is_inside =
-      diagonal_of(surface.mesh(), feature.index).feature.kind == FeatureKind::face &&
-      !is_folded(surface, feature.index, count);
-  return {{face_piece(feature.index, Piece::first), border_is_inside ? 2U : 3U},
-          {face_piece(feature.index, Piece::second), border_is_inside ? 0U : 3U}};
+  // The border between a quad's triangles is inside it.
+  const bool has_inner_border = diagonal_of(surface.mesh(), feature.index).feature.kind == FeatureKind::face;
+  return {{face_piece(feature.index, Piece::first), has_inner_border ? 2U : 3U},
+          {face_piece(feature.index, Piece::second), has_inner_border ? 0U : 3U}};
 }
 
 /// A parallel pair of features, its closest set's middle and where its pieces are.
@@ -68,31 +66,24 @@ struct ParallelContact {
   Overlap overlap;
 };
 
-/// The closest set of two features that hold closest points, where it has a length or an area. Several pieces
-/// of a quad make one set, whose middle is that of all of them by size.
+/// The closest set of two features that hold closest points, where it has a length or an area.
 std::optional<ParallelContact> parallel_contact(const SurfacePair& pair, const FeaturePair& features,
                                                 const ContactName& nearest) {
-  std::optional<ParallelContact> found;
-  for (const SidedPiece& a : pieces_of(pair.a, features.first, pair.count))
-    for (const SidedPiece& b : pieces_of(pair.b, features.second, pair.count)) {
-      const Simplex simplex_a = simplex_of(pair.a, a.piece);
-      const Simplex simplex_b = simplex_of(pair.b, b.piece);
-      const auto overlap = overlap_of(simplex_a, a.fold_side, simplex_b, b.fold_side, pair.count);
+  std::vector<ContactName> names;
+  std::vector<Overlap> overlaps;
+  for (const SidedPiece& a : pieces_of(pair.a, features.first))
+    for (const SidedPiece& b : pieces_of(pair.b, features.second)) {
+      auto overlap = overlap_of(simplex_of(pair.a, a.piece), a.fold_side, simplex_of(pair.b, b.piece),
+                                b.fold_side, pair.count);
       if (!overlap) continue;
       const ContactName name = ContactName::of(a.piece, b.piece, Meeting::parallel);
       // One triangle of a bent quad may be parallel and further than the other.
       if (compare_distances(pair, name, nearest) != 0) continue;
-      if (!found) {
-        found = {name, *overlap};
-        continue;
-      }
-      const double size = found->overlap.size + overlap->size;
-      const double share = size > 0 ? overlap->size / size : 0;
-      found->overlap.middle_a += (overlap->middle_a - found->overlap.middle_a) * share;
-      found->overlap.middle_b += (overlap->middle_b - found->overlap.middle_b) * share;
-      found->overlap.size = size;
+      names.push_back(name);
+      overlaps.push_back(std::move(*overlap));
     }
-  return found;
+  if (names.empty()) return std::nullopt;
+  return ParallelContact{names.front(), largest_part(overlaps)};
 }
 
 bool by_name(const ParallelContact& left, const ParallelContact& right) {

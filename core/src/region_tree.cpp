@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <graze/box.hpp>
 #include <graze/mesh.hpp>
 #include <graze/region_tree.hpp>
@@ -11,27 +12,24 @@
 namespace graze {
 namespace {
 
-/// A region's box relative to the root box's minimum.
-struct Cell {
-  Eigen::Vector3d origin;
-  Eigen::Vector3d size;
-};
-
 class Builder {
  public:
   Builder(const Mesh& mesh, std::vector<Region>& regions, std::vector<std::uint32_t>& vertices)
       : rest_(mesh.rest()), regions_(regions), vertices_(vertices) {
+    Box box;
     for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
       if (mesh.is_used(vertex)) {
         vertices_.push_back(vertex);
-        box_.add(rest_[vertex]);
+        box.add(rest_[vertex]);
       }
+    size_ = box.max - box.min;
+    offsets_.resize(rest_.size());
+    for (const std::uint32_t vertex : vertices_) offsets_[vertex] = rest_[vertex] - box.min;
   }
 
   /// Appends the regions level by level and the index at which each level begins.
   void build(std::vector<std::uint32_t>& level_begin) {
     regions_.push_back({.vertex_count = static_cast<std::uint32_t>(vertices_.size())});
-    cells_.push_back({Eigen::Vector3d::Zero(), box_.max - box_.min});
     level_begin.push_back(0);
     for (std::uint32_t begin = 0, end = 1; begin < end;) {
       for (std::uint32_t index = begin; index < end; ++index) subdivide(index);
@@ -44,23 +42,17 @@ class Builder {
  private:
   void subdivide(std::uint32_t index) {
     const Region region = regions_[index];
-    const Cell cell = cells_[index];
     if (region.vertex_count <= RegionTree::leaf_capacity || region.level == RegionTree::max_level ||
         coincide(region))
       return;
-    const Eigen::Vector3d half = cell.size / 2;
-    const Eigen::Vector3d centre = cell.origin + half;
-    const std::array<std::uint32_t, 9> begin = sort_into_octants(region, centre);
+    const Eigen::Vector3d half = size_ * std::ldexp(1.0, -static_cast<int>(region.level) - 1);
+    const std::array<std::uint32_t, 9> begin = sort_into_octants(region, half);
     regions_[index].first_child = static_cast<std::uint32_t>(regions_.size());
     for (std::size_t octant = 0; octant < 8; ++octant) {
       const std::uint32_t count = begin[octant + 1] - begin[octant];
       if (count == 0) continue;
       regions_.push_back(
           {.level = region.level + 1, .parent = index, .first_vertex = begin[octant], .vertex_count = count});
-      Eigen::Vector3d origin = cell.origin;
-      for (int axis = 0; axis < 3; ++axis)
-        if ((octant >> axis & 1U) != 0) origin[axis] = centre[axis];
-      cells_.push_back({origin, half});
       ++regions_[index].child_count;
     }
   }
@@ -71,15 +63,14 @@ class Builder {
                        [&](std::uint32_t vertex) { return rest_[vertex] == rest_[members.front()]; });
   }
 
-  /// Sorts the region's vertices by octant, keeping their order within each, and returns where each octant
-  /// begins.
-  std::array<std::uint32_t, 9> sort_into_octants(const Region& region, const Eigen::Vector3d& centre) {
+  /// Sorts the region's vertices by octant, keeping their order within each, makes their offsets those within
+  /// the octant, and returns where each octant begins.
+  std::array<std::uint32_t, 9> sort_into_octants(const Region& region, const Eigen::Vector3d& half) {
     const auto members = std::span(vertices_).subspan(region.first_vertex, region.vertex_count);
     const auto octant_of = [&](std::uint32_t vertex) {
-      const Eigen::Vector3d position = rest_[vertex] - box_.min;
       std::size_t octant = 0;
       for (int axis = 0; axis < 3; ++axis)
-        if (position[axis] >= centre[axis]) octant |= std::size_t{1} << axis;
+        if (offsets_[vertex][axis] >= half[axis]) octant |= std::size_t{1} << axis;
       return octant;
     };
     std::array<std::uint32_t, 9> begin{};
@@ -88,16 +79,23 @@ class Builder {
     for (std::size_t octant = 0; octant < 8; ++octant) begin[octant + 1] += begin[octant];
     sorted_.assign(members.begin(), members.end());
     std::array<std::uint32_t, 9> next = begin;
-    for (const std::uint32_t vertex : sorted_) vertices_[next[octant_of(vertex)]++] = vertex;
+    for (const std::uint32_t vertex : sorted_) {
+      const std::size_t octant = octant_of(vertex);
+      vertices_[next[octant]++] = vertex;
+      for (int axis = 0; axis < 3; ++axis)
+        if ((octant >> axis & 1U) != 0) offsets_[vertex][axis] -= half[axis];
+    }
     return begin;
   }
 
   std::span<const Eigen::Vector3d> rest_;
   std::vector<Region>& regions_;
   std::vector<std::uint32_t>& vertices_;
-  std::vector<Cell> cells_;
   std::vector<std::uint32_t> sorted_;
-  Box box_;
+  Eigen::Vector3d size_;  ///< of the root box
+  /// Of each used vertex from the minimum of the box of its region: from 0 to the box's size, so that halving
+  /// the size and taking half of it away do not round, and cuts are exact at every depth.
+  std::vector<Eigen::Vector3d> offsets_;
 };
 
 /// The features of a mesh sorted by the place of their owning vertex in the tree's vertex order, with the

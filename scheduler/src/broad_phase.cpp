@@ -51,7 +51,7 @@ std::span<const ObjectPair> BroadPhase::find(std::span<const std::unique_ptr<Obj
     std::erase_if(open_, [&](const Interval& other) { return other.end < interval.begin; });
     for (const Interval& other : open_)
       if (overlap(boxes_[interval.object], boxes_[other.object]))
-        pairs_.push_back(std::minmax(interval.object, other.object));
+        pairs_.emplace_back(std::minmax(interval.object, other.object));
     open_.push_back(interval);
   }
   std::sort(pairs_.begin(), pairs_.end());

@@ -146,7 +146,8 @@ PairQuery Step::query_of(const Job& job) const {
   query.epsilon = thresholds.epsilon;
   query.threshold = thresholds.threshold;
   // A pair that was in contact is listed once more however far it is now, with its distance.
-  query.reach = job.was_in_contact() ? infinity : thresholds.reach;
+  query.reach = thresholds.reach;
+  if (job.was_in_contact()) query.reach = infinity;
   if (job.task == Job::Task::end) {
     query.threshold = 0;
     if (!is_about_vertices(query.detail)) query.detail = ContactDetail::none;

@@ -25,7 +25,7 @@ class PositionView {
   PositionView(const float* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(float))
       : first_(first), count_(count), stride_bytes_(stride_bytes), is_double_(false) {}
   PositionView(const double* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(double))
-      : first_(first), count_(count), stride_bytes_(stride_bytes), is_double_(true) {}
+      : first_(first), count_(count), stride_bytes_(stride_bytes) {}
 
   /// A vector, array or span of Eigen::Vector3f, Eigen::Vector3d, std::array<float, 3> or std::array<double,
   /// 3>.
