@@ -1,0 +1,14 @@
+#pragma once
+
+#include <graze/error.hpp>
+
+namespace graze::io {
+
+/// Thrown for input that cannot be used: one line that names the file, the place in it and what to do, such
+/// as "liver.obj: line 12: a face names vertex 99 of 8; remove the face or add the vertex".
+class GRAZE_API InputError : public graze::Error {
+ public:
+  using graze::Error::Error;
+};
+
+}  // namespace graze::io

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace graze::io {
+
+/// Values at ascending times; between two of them interpolated or, when stepped, the earlier. Before the
+/// first and after the last they hold. Empty where nothing is animated.
+template <typename Value>
+struct Track {
+  std::vector<double> seconds;
+  std::vector<Value> values;
+  bool is_stepped = false;
+};
+
+/// What an animation does to one node. A part without keys stays as the node has it.
+struct NodeMotion {
+  Track<Eigen::Vector3d> translation;
+  Track<Eigen::Quaterniond> rotation;
+  Track<Eigen::Vector3d> scale;
+};
+
+struct Clip {
+  std::string name;
+  double seconds = 0;
+  std::unordered_map<std::uint32_t, NodeMotion> node_motions;  ///< by node
+  std::unordered_map<std::uint32_t, std::vector<Track<double>>>
+      morph_weights;  ///< by node, then by morph target
+};
+
+struct RigNode {
+  static constexpr std::uint32_t no_parent = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t parent = no_parent;  ///< a lower number
+  Eigen::Affine3d local = Eigen::Affine3d::Identity();
+  /// The same in parts.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+};
+
+struct Bone {
+  std::uint32_t node = 0;
+  Eigen::Affine3d offset = Eigen::Affine3d::Identity();  ///< from the object's space to the bone's
+};
+
+struct Influence {
+  std::uint32_t bone = 0;
+  double weight = 0;
+
+  friend bool operator==(const Influence&, const Influence&) = default;
+};
+
+struct MorphTarget {
+  std::vector<Eigen::Vector3d> offsets;  ///< one for each vertex
+  double rest_weight = 0;
+};
+
+/// An object before its node, its skeleton and its morph targets place it.
+struct Body {
+  std::uint32_t node = 0;
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<MorphTarget> targets;
+  std::vector<Bone> bones;  ///< empty: the node alone places the object
+  std::vector<std::vector<Influence>>
+      influences;  ///< for each vertex, when there are bones; none: its node's
+};
+
+/// The nodes, animations and objects of a file. Immutable once read.
+struct Rig {
+  std::vector<RigNode> nodes;
+  std::vector<Clip> clips;
+  std::vector<Body> bodies;
+};
+
+/// Where a body's vertices are at `seconds` of `clip`, or while nothing plays (null).
+void pose(const Rig& rig, const Body& body, const Clip* clip, double seconds,
+          std::vector<Eigen::Vector3d>& positions);
+
+/// Whether the node of a body without bones mirrors it while nothing plays, which turns its faces inside out.
+bool is_mirrored(const Rig& rig, const Body& body);
+
+/// Whether `clip` has keys for anything that places `body`.
+bool reaches(const Rig& rig, const Clip& clip, const Body& body);
+
+}  // namespace graze::io

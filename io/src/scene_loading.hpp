@@ -1,0 +1,28 @@
+#pragma once
+
+#include <graze/io/motion.hpp>
+#include <graze/io/scene_file.hpp>
+#include <graze/mesh.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace graze::io {
+
+/// One object of a described scene with its files loaded, not yet in a Scene.
+struct LoadedSceneObject {
+  std::size_t entry = 0;  ///< into SceneDescription::objects
+  ObjectSettings settings;
+  std::shared_ptr<const Mesh> mesh;        ///< scaled where rigid or fixed, wholly placed where deformable
+  std::unique_ptr<PositionSource> source;  ///< positions before the entry's transform; null: none
+};
+
+struct LoadedScene {
+  std::vector<LoadedSceneObject> objects;
+  std::vector<std::string> warnings;
+};
+
+/// Loads every mesh and opens every motion, each file once. Throws InputError.
+LoadedScene load_scene(const SceneDescription& description);
+
+}  // namespace graze::io

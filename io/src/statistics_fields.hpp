@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <graze/report.hpp>
+#include <string_view>
+#include <utility>
+
+namespace graze::io {
+
+/// The counters and times of a step by the names they have in a report, in the order in which they are
+/// written. `regions_expanded` is an array and stands between the two.
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 12> counter_fields{{
+    {"objects", &StepStatistics::objects},
+    {"pairs_total", &StepStatistics::pairs_total},
+    {"pairs_filtered", &StepStatistics::pairs_filtered},
+    {"pairs_tested", &StepStatistics::pairs_tested},
+    {"pairs_near", &StepStatistics::pairs_near},
+    {"pairs_in_contact", &StepStatistics::pairs_in_contact},
+    {"contacts", &StepStatistics::contacts},
+    {"region_pairs_tested", &StepStatistics::region_pairs_tested},
+    {"leaf_pairs_tested", &StepStatistics::leaf_pairs_tested},
+    {"exact_decisions", &StepStatistics::exact_decisions},
+    {"object_bytes", &StepStatistics::object_bytes},
+    {"report_bytes", &StepStatistics::report_bytes},
+}};
+
+inline constexpr std::array<std::pair<std::string_view, double StepStatistics::*>, 6> time_fields{{
+    {"read_ms", &StepStatistics::read_ms},
+    {"pairs_ms", &StepStatistics::pairs_ms},
+    {"refit_ms", &StepStatistics::refit_ms},
+    {"jobs_ms", &StepStatistics::jobs_ms},
+    {"publish_ms", &StepStatistics::publish_ms},
+    {"step_ms", &StepStatistics::step_ms},
+}};
+
+}  // namespace graze::io

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+
+namespace graze::io {
+
+/// Lines of a text, whichever way they end. The text must outlive this.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : rest_(text) {}
+
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+  /// The next line without its end; empty at the end of the text.
+  std::string_view next() {
+    const auto end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(end);
+    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
+    ++line_;
+    return line;
+  }
+
+  /// The number of the line that `next` gave last, counted from 1.
+  [[nodiscard]] std::size_t line() const { return line_; }
+  /// What comes after that line.
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_;
+  std::size_t line_ = 0;
+};
+
+/// Without blanks at both ends.
+inline std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\v\f\r";
+  const auto begin = text.find_first_not_of(blanks);
+  if (begin == text.npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
+
+}  // namespace graze::io

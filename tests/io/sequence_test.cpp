@@ -1,0 +1,154 @@
+#include <cmath>
+#include <graze/io/error.hpp>
+#include <graze/io/motion.hpp>
+
+#include "gltf_builder.hpp"
+
+using namespace graze::tests;
+namespace io = graze::io;
+
+namespace {
+
+std::vector<Eigen::Vector3d> frame_positions(int frame) {
+  return {{0, 0, 0.1 * frame}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5.0 * frame}};
+}
+
+std::string obj_frame(int frame) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const auto& p : frame_positions(frame)) text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  text << "g one\nf 1 2 3\ng two\nf 1 3 2\n";
+  return text.str();
+}
+
+std::string ply_frame(int frame) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+       << "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& p : frame_positions(frame)) text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  text << "3 0 1 2\n";
+  return text.str();
+}
+
+std::string refusal(const std::filesystem::path& pattern, const graze::Mesh& mesh, std::size_t object = 0) {
+  try {
+    const auto source = io::open_sequence(pattern, mesh, object);
+    std::vector<Eigen::Vector3d> positions;
+    for (std::uint32_t frame = 0; frame < source->frame_count(); ++frame) source->read(frame, positions);
+  } catch (const io::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a sequence is read in order of its numbers, past the end the last frame holds") {
+  const TemporaryFolder folder;
+  const auto extension = GENERATE(as<std::string>(), ".obj", ".ply");
+  // Frame k is the k-th file by number: 3, 20, 100, 1000.
+  const std::vector<std::string> names = {"a_003", "a_020", "a_100", "a_1000"};
+  for (int frame = 3; frame >= 0; --frame)
+    folder.write(names[static_cast<std::size_t>(frame)] + extension,
+                 extension == ".obj" ? obj_frame(frame) : ply_frame(frame));
+  for (const std::string other : {"a_02", "b_003", "a_x03", "a_", "a_003.bak"})
+    folder.write(other + extension, "junk");
+  const auto file = io::MeshFile::read(folder / (names[0] + extension));
+  const auto& mesh = *file.objects()[0].mesh;
+  REQUIRE(mesh.vertex_count() == 4);
+  const auto source = io::open_sequence(folder / ("a_###" + extension), mesh, 0);
+  REQUIRE(source->frame_count() == 4);
+  std::vector<Eigen::Vector3d> positions;
+  for (const std::uint32_t frame : {0U, 3U, 1U, 2U, 9U}) {
+    source->read(frame, positions);
+    CHECK(positions == frame_positions(static_cast<int>(std::min(frame, 3U))));
+  }
+}
+
+TEST_CASE("a sequence of another count is refused by file, frame and counts") {
+  const TemporaryFolder folder;
+  const auto extension = GENERATE(as<std::string>(), ".obj", ".ply", ".off");
+  const auto frame = [&](int number) {
+    if (extension == ".obj") return obj_frame(number);
+    if (extension == ".ply") return ply_frame(number);
+    return std::string("OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n1 1 1\n3 0 1 2\n");
+  };
+  folder.write("s1" + extension, frame(1));
+  folder.write("s2" + extension, frame(2));
+  const std::string three = extension == ".obj" ? "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+                            : extension == ".off"
+                                ? "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+                                : "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                  "property float y\nproperty float z\nend_header\n0 0 0 1 0 0 0 1 0";
+  const auto last = folder.write("s3" + extension, three);
+  const auto file = io::MeshFile::read(folder / ("s1" + extension));
+  CHECK(refusal(folder / ("s#" + extension), *file.objects()[0].mesh) ==
+        last.string() +
+            ": frame 2: the file has 3 vertices, the mesh 4; write every frame with the mesh's vertices");
+}
+
+TEST_CASE("a sequence that is not there or not clear is refused") {
+  const TemporaryFolder folder;
+  folder.write("s01.obj", obj_frame(0));
+  folder.write("s001.obj", obj_frame(1));
+  folder.write("t1.obj", obj_frame(1));
+  folder.write("t2.obj", "v 1 2 three\n");
+  folder.write("u1.obj", obj_frame(1));
+  const auto file = io::MeshFile::read(folder / "s01.obj");
+  const auto& mesh = *file.objects()[0].mesh;
+  using Catch::Matchers::Contains;
+  CHECK_THAT(refusal(folder / "s##.obj", mesh), Contains("'s001.obj' and 's01.obj' have one number"));
+  CHECK_THAT(refusal(folder / "v##.obj", mesh), Contains("no file has such a name"));
+  CHECK_THAT(refusal(folder / "s.obj", mesh), Contains("the file name has no #"));
+  CHECK_THAT(refusal(folder / "s#_#.obj", mesh), Contains("several runs of #"));
+  CHECK_THAT(refusal(folder / "none" / "s#.obj", mesh), Contains("its folder cannot be read"));
+  CHECK_THAT(refusal(folder / "t#.obj", mesh), Contains("t2.obj: line 1: a vertex needs three numbers"));
+  CHECK(refusal(folder / "u#.obj", mesh, 1).empty());
+  CHECK_THAT(refusal(folder / "u#.obj", mesh, 2), Contains("u1.obj: frame 0: there is no object 2"));
+}
+
+TEST_CASE("a frame of a sequence may hold NaN and need no face") {
+  const TemporaryFolder folder;
+  folder.write("n0.ply", ply_frame(0));
+  folder.write(
+      "n1.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n0 0 0 nan 0 0 0 inf 0 1 1 1\n");
+  const auto file = io::MeshFile::read(folder / "n0.ply");
+  const auto source = io::open_sequence(folder / "n#.ply", *file.objects()[0].mesh, 0);
+  std::vector<Eigen::Vector3d> positions;
+  source->read(1, positions);
+  CHECK(std::isnan(positions[1].x()));
+  CHECK(std::isinf(positions[2].y()));
+  CHECK(positions[3] == Eigen::Vector3d(1, 1, 1));
+}
+
+TEST_CASE("an animation is sampled at frames of its rate up to its end") {
+  GltfBuffer buffer;
+  const auto p = std::to_string(buffer.add("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  const auto times = std::to_string(buffer.add("SCALAR", {0, 0.75F}));
+  const auto moves = std::to_string(buffer.add("VEC3", {0, 0, 0, 0, 0, 3}));
+  const TemporaryFolder folder;
+  const auto file = io::MeshFile::read(folder.write(
+      "move.gltf",
+      buffer.gltf(
+          R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+          R"({"POSITION":)" +
+          p + R"(}}]}],"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],)" +
+          R"("samplers":[{"input":)" + times + R"(,"output":)" + moves + "}]}]")));
+  const auto source = io::open_animation(file, 0, 0, 10);
+  REQUIRE(source->frame_count() == 9);  // 0 to 0.7 s in steps of 0.1 s, and 0.8 s, which is the end held
+  CHECK(io::open_animation(file, 0, 0, 4)->frame_count() == 4);
+  CHECK(io::open_animation(file, 0, 0, 0.001)->frame_count() == 2);
+  std::vector<Eigen::Vector3d> positions;
+  for (const std::uint32_t frame : {5U, 8U, 0U, 100U}) {
+    source->read(frame, positions);
+    const double height = 4 * std::min(0.1 * frame, 0.75);
+    CHECK(largest_difference(positions, {{0, 0, height}, {1, 0, height}, {0, 1, height}}) < 1e-6);
+  }
+  CHECK_THROWS_AS(io::open_animation(file, 1, 0, 10), graze::Error);
+  CHECK_THROWS_AS(io::open_animation(file, 0, 1, 10), graze::Error);
+  CHECK_THROWS_AS(io::open_animation(file, 0, 0, 0), graze::Error);
+  CHECK_THROWS_AS(io::open_animation(file, 0, 0, NAN), graze::Error);
+}
