@@ -1,0 +1,36 @@
+#!/bin/sh
+# The test command: installs what is missing, builds and runs all tests as users build graze, and once more under the
+# address and undefined-behaviour sanitizers with the structure validators on. Ends with a line of counts.
+set -eu
+cd "$(dirname "$0")/.."
+
+tools/install_packages.sh
+results=$(mktemp -d)
+trap 'rm -rf "$results"' EXIT
+status=0
+
+# Builds a preset and runs its tests; "$@" are more arguments for ctest.
+run_preset() {
+  preset=$1
+  shift
+  echo "== $preset"
+  cmake --preset "$preset" -DGRAZE_BUILD_TESTS=ON >/dev/null
+  cmake --build --preset "$preset"
+  ctest --preset "$preset" --output-junit "$results/$preset.xml" "$@" || status=1
+}
+
+run_preset release --parallel "$(nproc)"
+# The contract's programs build libraries of their own: one run of them is enough.
+run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_'
+
+# ctest counts in each results file's first element.
+count() {
+  sed -n "s/.*[^a-z]$1=\"\([0-9]*\)\".*/\1/p" "$results"/*.xml | awk '{ sum += $1 } END { print sum + 0 }'
+}
+tests=$(count tests)
+failed=$(count failures)
+skipped=$(count skipped)
+disabled=$(count disabled)
+echo "$((tests - failed - skipped - disabled)) passed, $failed failed, $skipped skipped"
+[ "$tests" -gt 0 ] || status=1
+exit "$status"

@@ -1,0 +1,34 @@
+#include "tools/program.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "tools/temporary_folder.hpp"
+
+namespace graze::tests {
+namespace {
+
+std::string quoted(const std::string& argument) {
+  std::string text = "'";
+  for (const char letter : argument) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return text + "'";
+}
+
+}  // namespace
+
+ProgramResult run_graze(const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  std::string command = quoted(GRAZE_PROGRAM);
+  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  command += " >" + quoted((folder / "out").string()) + " 2>" + quoted((folder / "err").string());
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder / "out"), read_file(folder / "err")};
+}
+
+bool is_one_line(const std::string& text) {
+  return !text.empty() && text.back() == '\n' && std::ranges::count(text, '\n') == 1;
+}
+
+}  // namespace graze::tests

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <graze/io/report_json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/oracle.hpp"
+
+namespace graze::tests {
+
+/// Every frame of a report file.
+std::vector<io::ReportedFrame> read_report(const std::filesystem::path& path);
+
+/// Where the test itself says that every object is in one frame.
+using ExpectedShapes = std::vector<oracle::Shape>;
+
+struct Thresholds {
+  double contact_distance = 0;
+  double range = 0;
+};
+
+/// Compares a run of detail `features` with brute force over `frames`, which are exactly the positions that
+/// the program saw: pairs, phases, distances to the last bit, the whole set of contacts. Returns how many
+/// contacts that were.
+std::size_t check_exactly(const std::vector<io::ReportedFrame>& report,
+                          const std::vector<ExpectedShapes>& frames, const Thresholds& thresholds);
+
+/// The same where the positions agree only within `tolerance`, with no distance that near to a threshold:
+/// pairs, phases, distances, and that each contact lies on the features it names.
+std::size_t check_nearly(const std::vector<io::ReportedFrame>& report,
+                         const std::vector<ExpectedShapes>& frames, const Thresholds& thresholds,
+                         double tolerance);
+
+}  // namespace graze::tests

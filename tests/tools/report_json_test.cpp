@@ -1,0 +1,282 @@
+#include <bit>
+#include <cmath>
+#include <graze/graze.hpp>
+#include <graze/io/error.hpp>
+#include <graze/io/report_json.hpp>
+#include <locale>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "tools/temporary_folder.hpp"
+
+namespace {
+
+using Eigen::Vector3d;
+using graze::ReportHandle;
+using graze::Scene;
+using graze::io::InputError;
+using graze::io::ReportedFrame;
+using graze::io::ReportedPair;
+using graze::io::ReportReader;
+using graze::io::ReportWriter;
+using graze::io::SceneObject;
+using graze::tests::TemporaryFolder;
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same_bits(const Vector3d& a, const Vector3d& b) {
+  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
+}
+
+/// Three crumpled sheets of mixed triangles and quads over each other, moved every frame by chance.
+class CrumpledSheets {
+ public:
+  CrumpledSheets(double scale, unsigned seed) : scale_(scale), random_(seed) {
+    graze::SceneSettings settings;
+    settings.contact_distance = 0.2 * scale;
+    settings.range = 3 * scale;
+    settings.threads = 1;
+    scene_ = std::make_unique<Scene>(settings);
+    for (int i = 0; i < 3; ++i) {
+      const auto mesh = std::make_shared<const graze::Mesh>(make_mesh());
+      positions_.push_back(crumpled(0.15 * i));
+      objects_.push_back({scene_->add(mesh, {.name = "sheet \"" + std::to_string(i) + "\""}),
+                          "sheet \"" + std::to_string(i) + "\"", mesh});
+    }
+  }
+
+  ReportHandle step() {
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      positions_[i] = crumpled(0.15 * static_cast<double>(i));
+      if (broken_ && i == 1) positions_[i][3].y() = std::nan("");
+      scene_->bind_positions(objects_[i].id, positions_[i]);
+    }
+    return scene_->step();
+  }
+  void break_one() { broken_ = true; }
+  [[nodiscard]] const std::vector<SceneObject>& objects() const { return objects_; }
+  [[nodiscard]] const graze::SceneSettings& settings() const { return scene_->settings(); }
+
+ private:
+  static constexpr std::uint32_t side = 5;
+
+  std::vector<Vector3d> crumpled(double height) {
+    std::uniform_real_distribution<double> noise(-0.12, 0.12);
+    std::vector<Vector3d> positions;
+    for (std::uint32_t y = 0; y < side; ++y)
+      for (std::uint32_t x = 0; x < side; ++x)
+        positions.push_back(
+            scale_ * Vector3d(0.5 * x + noise(random_), 0.5 * y + noise(random_), height + noise(random_)));
+    positions[0].x() = -0.0;
+    return positions;
+  }
+
+  graze::Mesh make_mesh() {
+    std::vector<std::uint32_t> corners, counts;
+    for (std::uint32_t y = 0; y + 1 < side; ++y)
+      for (std::uint32_t x = 0; x + 1 < side; ++x) {
+        const std::uint32_t a = y * side + x, b = a + 1, c = a + side + 1, d = a + side;
+        if ((x + y) % 2 == 0) {
+          corners.insert(corners.end(), {a, b, c, d});
+          counts.push_back(4);
+        } else {
+          corners.insert(corners.end(), {a, b, c, a, c, d});
+          counts.insert(counts.end(), {3, 3});
+        }
+      }
+    return graze::Mesh::from_polygons(crumpled(0), corners, counts);
+  }
+
+  double scale_;
+  std::mt19937 random_;
+  std::vector<std::vector<Vector3d>> positions_;  // outlive the scene, which reads them
+  std::vector<SceneObject> objects_;
+  std::unique_ptr<Scene> scene_;
+  bool broken_ = false;
+};
+
+void check_edge(const graze::Feature& feature, const graze::io::EdgeVertices& read, const graze::Mesh& mesh) {
+  if (feature.kind == graze::FeatureKind::edge)
+    CHECK(read == mesh.edge(feature.index));
+  else
+    CHECK(read == graze::io::EdgeVertices{});
+}
+
+void check_pair(const ReportedPair& read, const graze::FrameReport& report, const graze::PairReport& pair,
+                const std::vector<SceneObject>& objects) {
+  CHECK(objects[read.a].id == pair.a);
+  CHECK(objects[read.b].id == pair.b);
+  CHECK((read.phase == pair.phase && read.complete == pair.complete && read.stale == pair.stale));
+  CHECK((same_bits(read.distance.lower, pair.distance.lower) &&
+         same_bits(read.distance.upper, pair.distance.upper)));
+  const graze::Mesh& mesh_a = *objects[read.a].mesh;
+  const graze::Mesh& mesh_b = *objects[read.b].mesh;
+  CHECK(
+      (read.witness.feature_a == pair.witness.feature_a && read.witness.feature_b == pair.witness.feature_b));
+  CHECK(same_bits(read.witness.point_a, pair.witness.point_a));
+  CHECK(same_bits(read.witness.point_b, pair.witness.point_b));
+  check_edge(pair.witness.feature_a, read.witness_edge_a, mesh_a);
+  check_edge(pair.witness.feature_b, read.witness_edge_b, mesh_b);
+  const auto contacts = report.contacts(pair);
+  REQUIRE(read.contacts.size() == contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const graze::Contact& contact = contacts[i];
+    const graze::Contact& back = read.contacts[i].contact;
+    CHECK((back.kind == contact.kind && back.side_a == contact.side_a && back.side_b == contact.side_b));
+    CHECK((back.feature_a == contact.feature_a && back.feature_b == contact.feature_b));
+    CHECK((same_bits(back.point_a, contact.point_a) && same_bits(back.point_b, contact.point_b)));
+    CHECK((same_bits(back.normal, contact.normal) && same_bits(back.distance, contact.distance)));
+    check_edge(contact.feature_a, read.contacts[i].edge_a, mesh_a);
+    check_edge(contact.feature_b, read.contacts[i].edge_b, mesh_b);
+  }
+}
+
+void check_statistics(const graze::StepStatistics& read, const graze::StepStatistics& written,
+                      bool with_times) {
+  CHECK(read.objects == written.objects);
+  CHECK(read.pairs_total == written.pairs_total);
+  CHECK(read.pairs_filtered == written.pairs_filtered);
+  CHECK(read.pairs_tested == written.pairs_tested);
+  CHECK(read.pairs_near == written.pairs_near);
+  CHECK(read.pairs_in_contact == written.pairs_in_contact);
+  CHECK(read.contacts == written.contacts);
+  CHECK(read.region_pairs_tested == written.region_pairs_tested);
+  CHECK(read.leaf_pairs_tested == written.leaf_pairs_tested);
+  CHECK(read.exact_decisions == written.exact_decisions);
+  CHECK(read.object_bytes == written.object_bytes);
+  CHECK(read.report_bytes == written.report_bytes);
+  CHECK(read.regions_expanded == written.regions_expanded);
+  CHECK(same_bits(read.step_ms, with_times ? written.step_ms : 0));
+  CHECK(same_bits(read.read_ms, with_times ? written.read_ms : 0));
+  CHECK(same_bits(read.pairs_ms, with_times ? written.pairs_ms : 0));
+  CHECK(same_bits(read.refit_ms, with_times ? written.refit_ms : 0));
+  CHECK(same_bits(read.jobs_ms, with_times ? written.jobs_ms : 0));
+  CHECK(same_bits(read.publish_ms, with_times ? written.publish_ms : 0));
+}
+
+/// Writes `frames` steps, reads them back, compares everything; returns how many contacts that were.
+std::size_t check_round_trip(CrumpledSheets& sheets, int frames, bool with_times) {
+  const TemporaryFolder folder;
+  std::vector<ReportHandle> reports;
+  ReportWriter writer(folder / "r.jsonl", sheets.objects(), sheets.settings(), {.include_times = with_times});
+  for (int frame = 0; frame < frames; ++frame) {
+    if (frame == 2) sheets.break_one();
+    reports.push_back(sheets.step());
+    writer.write(static_cast<std::uint64_t>(frame) * 7, *reports.back());
+  }
+  writer.close();
+  const std::string text = graze::tests::read_file(folder / "r.jsonl");
+  CHECK((text.find("_ms") != std::string::npos) == with_times);
+
+  ReportReader reader(folder / "r.jsonl");
+  REQUIRE(reader.objects().size() == sheets.objects().size());
+  for (std::size_t i = 0; i < reader.objects().size(); ++i) {
+    CHECK((reader.objects()[i].id == i && reader.objects()[i].name == sheets.objects()[i].name));
+    CHECK(reader.objects()[i].vertices == sheets.objects()[i].mesh->vertex_count());
+    CHECK(reader.objects()[i].faces == sheets.objects()[i].mesh->face_count());
+  }
+  CHECK(same_bits(reader.settings().contact_distance, sheets.settings().contact_distance));
+  CHECK(same_bits(reader.settings().range, sheets.settings().range));
+  CHECK(reader.settings().detail == sheets.settings().detail);
+
+  std::size_t contacts = 0;
+  for (std::size_t frame = 0; frame < reports.size(); ++frame) {
+    const auto read = reader.next();
+    REQUIRE(read);
+    const graze::FrameReport& report = *reports[frame];
+    CHECK((read->frame == frame * 7 && read->complete == report.complete()));
+    REQUIRE(read->pairs.size() == report.pairs().size());
+    for (std::size_t i = 0; i < read->pairs.size(); ++i)
+      check_pair(read->pairs[i], report, report.pairs()[i], sheets.objects());
+    REQUIRE(read->diagnostics.size() == report.diagnostics().size());
+    for (std::size_t i = 0; i < read->diagnostics.size(); ++i) {
+      CHECK(read->diagnostics[i].object == 1U);
+      CHECK(read->diagnostics[i].kind == report.diagnostics()[i].kind);
+      CHECK(read->diagnostics[i].message == report.diagnostics()[i].message);
+    }
+    check_statistics(read->statistics, report.statistics(), with_times);
+    contacts += report.contacts().size();
+  }
+  CHECK_FALSE(reader.next());
+  CHECK_FALSE(reports.back()->diagnostics().empty());
+  return contacts;
+}
+
+}  // namespace
+
+TEST_CASE("a report that is read back has the same bits, at every scale") {
+  for (const double scale : {1.0, 0x1p-60, 0x1p60}) {
+    CrumpledSheets sheets(scale, 3);
+    CHECK(check_round_trip(sheets, 4, true) > 50);
+  }
+}
+
+TEST_CASE("a report without times has none, and the rest unchanged") {
+  CrumpledSheets sheets(1, 4);
+  CHECK(check_round_trip(sheets, 4, false) > 50);
+}
+
+TEST_CASE("a program-wide locale with decimal commas and grouped digits changes no report") {
+  struct Commas : std::numpunct<char> {
+    [[nodiscard]] char do_decimal_point() const override { return ','; }
+    [[nodiscard]] char do_thousands_sep() const override { return '.'; }
+    [[nodiscard]] std::string do_grouping() const override { return "\1"; }
+  };
+  const std::locale before = std::locale::global(std::locale(std::locale(), new Commas));
+  CrumpledSheets sheets(1, 3);
+  const std::size_t contacts = check_round_trip(sheets, 4, true);
+  std::locale::global(before);
+  CHECK(contacts > 50);
+}
+
+TEST_CASE("settings of every accuracy are kept") {
+  const TemporaryFolder folder;
+  for (const graze::Accuracy& accuracy :
+       {graze::Accuracy::exact(), graze::Accuracy::within(0.1), graze::Accuracy::paper({24, 14, 0.1})}) {
+    graze::SceneSettings settings;
+    settings.range = std::numeric_limits<double>::infinity();
+    settings.detail = graze::ContactDetail::regions;
+    settings.accuracy = accuracy;
+    settings.work_budget = 12;
+    settings.time_budget = std::chrono::microseconds(34);
+    ReportWriter(folder / "r.jsonl", {}, settings).close();
+    const ReportReader reader(folder / "r.jsonl");
+    CHECK(reader.settings().accuracy.mode() == accuracy.mode());
+    CHECK(reader.settings().accuracy.tolerance() == accuracy.tolerance());
+    CHECK(reader.settings().accuracy.epsilon() == accuracy.epsilon());
+    CHECK(reader.settings().range == settings.range);
+    CHECK(reader.settings().detail == settings.detail);
+    CHECK(reader.settings().work_budget == settings.work_budget);
+    CHECK(reader.settings().time_budget == settings.time_budget);
+  }
+}
+
+TEST_CASE("a file that is no report is refused by its line") {
+  const TemporaryFolder folder;
+  const auto error_of = [&](const std::string& text) -> std::string {
+    try {
+      ReportReader reader(folder.write("r.jsonl", text));
+      while (reader.next()) continue;
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  using Catch::Matchers::Contains;
+  const std::string header =
+      R"({"graze":1,"objects":[],"settings":{"contact_distance":0,"range":0,"detail":"none","accuracy":"exact"}})";
+  const std::string frame = R"({"frame":0,"complete":true,"pairs":[],"diagnostics":[],"statistics":)";
+  CHECK(error_of(header + "\n") == "accepted");
+  CHECK_THAT(error_of(""), Contains("is empty"));
+  CHECK_THAT(error_of("hello"), Contains("line 1: not valid JSON"));
+  CHECK_THAT(error_of(R"({"graze":2})"), Contains("line 1: not version 1"));
+  CHECK_THAT(error_of(R"({"graze":1,"objects":[]})"), Contains("line 1: a key is missing"));
+  CHECK_THAT(error_of(header + "\n" + frame + "{}}\n"), Contains("line 2: a key is missing"));
+  CHECK_THAT(error_of(header + "\n" + frame.substr(0, 20)),
+             Contains("line 2: not valid JSON, the file may be cut off"));
+  CHECK_THROWS_AS(ReportReader(folder / "none.jsonl"), InputError);
+  CHECK_THROWS_AS(ReportWriter(folder / "none" / "r.jsonl", {}, {}), InputError);
+}

@@ -1,0 +1,94 @@
+#include "mesh_summary.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace graze::tools {
+namespace {
+
+/// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char text[200];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string counts_line(const Mesh& mesh) {
+  std::uint32_t quads = 0;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face)
+    quads += mesh.face(face).size() == 4 ? 1U : 0U;
+  return format("%u vertices, %u faces (%u triangles, %u quads), %u edges", mesh.vertex_count(),
+                mesh.face_count(), mesh.face_count() - quads, quads, mesh.edge_count());
+}
+
+/// How many of each oddity, and the number of the first.
+std::string oddities_line(const Mesh& mesh) {
+  const MeshOddities found = find_oddities(mesh);
+  const std::pair<const char*, std::span<const std::uint32_t>> lists[] = {
+      {"degenerate faces", found.degenerate_faces},
+      {"duplicate faces", found.duplicate_faces},
+      {"vertices without a face", found.isolated_vertices},
+      {"duplicate vertices", found.duplicate_vertices},
+      {"non-manifold edges", found.non_manifold_edges},
+      {"border edges", found.border_edges},
+      {"flipped edges", found.flipped_edges}};
+  std::string line = found.closed_manifold() ? "closed" : "open or non-manifold";
+  for (const auto& [name, list] : lists)
+    if (!list.empty()) line += format(", %zu %s (first: %u)", list.size(), name, list.front());
+  return line;
+}
+
+std::string levels_line(const RegionTree& tree) {
+  std::string line;
+  for (std::uint32_t level = 0; level < tree.level_count(); ++level)
+    line += format("%s%u", level == 0 ? "" : ", ", tree.level_begin(level + 1) - tree.level_begin(level));
+  return line + " by level";
+}
+
+std::string leaves_line(const RegionTree& tree) {
+  std::uint32_t leaves = 0, least = ~std::uint32_t{0}, most = 0, vertices = 0;
+  for (const Region& region : tree.regions()) {
+    if (!region.is_leaf()) continue;
+    ++leaves;
+    vertices += region.vertex_count;
+    least = std::min(least, region.vertex_count);
+    most = std::max(most, region.vertex_count);
+  }
+  return format("; leaves: %u, of %u to %u vertices, %.1f on average", leaves, least, most,
+                static_cast<double>(vertices) / leaves);
+}
+
+/// Eq. 3 at rest: for each level the largest distance from a region's middle vertex to one of its vertices.
+std::string epsilon_line(const Mesh& mesh) {
+  const RegionTree& tree = mesh.regions();
+  std::vector<double> epsilon(tree.level_count(), 0.0);
+  for (const Region& region : tree.regions())
+    for (const std::uint32_t vertex : tree.vertices(region))
+      epsilon[region.level] =
+          std::max(epsilon[region.level], (mesh.rest()[region.middle] - mesh.rest()[vertex]).norm());
+  std::string line;
+  for (const double radius : epsilon) line += format("%s%.4g", line.empty() ? "" : ", ", radius);
+  return line + " by level, at rest";
+}
+
+}  // namespace
+
+std::string summarise_mesh(const Mesh& mesh, const std::string& indent) {
+  std::string lines;
+  lines += indent + "counts     " + counts_line(mesh) + "\n";
+  lines += indent + "surface    " + oddities_line(mesh) + "\n";
+  lines += indent + "regions    " + levels_line(mesh.regions()) + leaves_line(mesh.regions()) + "\n";
+  lines += indent + "epsilon    " + epsilon_line(mesh) + "\n";
+  lines += indent + "memory     " +
+           format("%zu bytes, %zu of them regions", mesh.byte_count(), mesh.regions().byte_count()) + "\n";
+  return lines;
+}
+
+}  // namespace graze::tools

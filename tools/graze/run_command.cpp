@@ -1,0 +1,241 @@
+#include "run_command.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <graze/io/error.hpp>
+#include <graze/io/picture.hpp>
+#include <graze/io/player.hpp>
+#include <graze/io/report_json.hpp>
+#include <graze/io/scene_file.hpp>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "run_summary.hpp"
+
+namespace graze::tools {
+namespace {
+
+using io::InputError;
+
+struct RunOptions {
+  std::vector<std::string> files;
+  std::optional<std::uint32_t> frames;
+  std::optional<unsigned> threads;
+  std::optional<double> contact_distance;
+  std::optional<double> range;
+  std::optional<std::string> detail;
+  std::optional<std::string> accuracy;
+  std::optional<double> frames_per_second;
+  std::string report;
+  bool no_times = false;
+  std::string picture;
+  std::optional<std::uint32_t> picture_frame;
+  std::string record;
+  std::string html;
+};
+
+double checked_distance(const std::string& option, double value) {
+  if (std::isnan(value) || value < 0)
+    throw InputError(option + ": expected a number that is not negative, got " + std::to_string(value) +
+                     "; write 0 or more");
+  return value;
+}
+
+/// `exact`, `within:0.001`, `paper` or `paper:24,14,8`.
+Accuracy parse_accuracy(const std::string& text) {
+  const InputError refusal("--accuracy: expected exact, within:T or paper:E1,E2,..., got \"" + text +
+                           "\"; write for example --accuracy within:0.001");
+  const std::string word = text.substr(0, text.find(':'));
+  std::vector<double> numbers;
+  if (word.size() < text.size()) {
+    std::istringstream list(text.substr(word.size() + 1));
+    for (std::string part; std::getline(list, part, ',');) {
+      double number = 0;
+      if (!CLI::detail::lexical_cast(part, number) || !std::isfinite(number) || number < 0) throw refusal;
+      numbers.push_back(number);
+    }
+  }
+  if (word == "exact" && text == word) return Accuracy::exact();
+  if (word == "within" && numbers.size() == 1) return Accuracy::within(numbers[0]);
+  if (word == "paper") return Accuracy::paper(numbers);
+  throw refusal;
+}
+
+ContactDetail parse_detail(const std::string& word) {
+  if (const auto detail = io::contact_detail_from(word)) return *detail;
+  throw InputError("--detail: expected none, closest, regions, vertices or features, got \"" + word + "\"");
+}
+
+/// The scene that the files name, with what the command line says in place of what the scene says.
+io::SceneDescription describe(const RunOptions& options) {
+  const bool is_scene = std::filesystem::path(options.files[0]).extension() == ".json";
+  if (is_scene && options.files.size() > 1)
+    throw InputError(options.files[1] +
+                     ": stands beside a scene file; give one scene file, or mesh files only");
+  io::SceneDescription scene = is_scene ? io::read_scene_file(options.files[0])
+                                        : io::scene_of_meshes({options.files.begin(), options.files.end()});
+  SceneSettings& settings = scene.settings;
+  if (options.contact_distance)
+    settings.contact_distance = checked_distance("--contact-distance", *options.contact_distance);
+  if (options.range) settings.range = checked_distance("--range", *options.range);
+  if (options.detail) settings.detail = parse_detail(*options.detail);
+  if (options.accuracy) settings.accuracy = parse_accuracy(*options.accuracy);
+  if (options.threads) settings.threads = *options.threads;
+  if (options.frames) scene.frames = options.frames;
+  if (options.frames_per_second) {
+    scene.frames_per_second = checked_distance("--frames-per-second", *options.frames_per_second);
+    if (scene.frames_per_second == 0)
+      throw InputError("--frames-per-second: expected a number above 0, got 0");
+  }
+  return scene;
+}
+
+/// One line on a terminal that says how far the run is; nothing when piped.
+class Progress {
+ public:
+  explicit Progress(std::uint32_t frames) : frames_(frames), shown_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void at(std::uint32_t frame) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;
+    last_ = now;
+    std::fprintf(stderr, "\rframe %u of %u", frame + 1, frames_);
+    std::fflush(stderr);
+  }
+
+ private:
+  std::uint32_t frames_;
+  bool shown_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+/// Keeps the frame to be drawn: the one asked for, or the first with the most contacts.
+class PictureChoice {
+ public:
+  explicit PictureChoice(std::optional<std::uint32_t> wanted) : wanted_(wanted) {}
+
+  void offer(std::uint32_t frame, const io::Player& player, const ReportHandle& report) {
+    const bool is_better = wanted_ ? frame == *wanted_ : !report_ || score(*report) > score(*report_);
+    if (!is_better) return;
+    frame_ = frame;
+    report_ = report;
+    scene_.objects.resize(player.objects().size());
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+      scene_.objects[i].mesh = player.objects()[i].mesh;
+      player.read_positions(i, scene_.objects[i].positions);
+    }
+  }
+
+  std::uint32_t draw(const std::filesystem::path& path) {
+    scene_.contacts.assign(report_->contacts().begin(), report_->contacts().end());
+    for (const PairReport& pair : report_->pairs())
+      if (pair.phase == PairPhase::near || pair.phase == PairPhase::ended)
+        scene_.distances.push_back({pair.witness.point_a, pair.witness.point_b});
+    io::write_picture(path, scene_);
+    return frame_;
+  }
+
+ private:
+  static std::size_t score(const FrameReport& report) { return report.contacts().size(); }
+
+  std::optional<std::uint32_t> wanted_;
+  std::uint32_t frame_ = 0;
+  ReportHandle report_;
+  io::PictureScene scene_;
+};
+
+/// Steps through all frames.
+RunSummary play(io::Player& player, std::optional<io::ReportWriter>& writer,
+                std::optional<PictureChoice>& picture) {
+  RunSummary summary(player.objects());
+  Progress progress(player.frame_count());
+  for (std::uint32_t frame = 0; frame < player.frame_count(); ++frame) {
+    progress.at(frame);
+    player.advance(frame);
+    const auto start = std::chrono::steady_clock::now();
+    const ReportHandle report = player.scene().step();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    summary.add(frame, *report, elapsed.count());
+    if (writer) writer->write(frame, *report);
+    if (picture) picture->offer(frame, player, report);
+  }
+  return summary;
+}
+
+void refuse_what_is_not_there(const RunOptions& options) {
+  if (!options.record.empty())
+    throw InputError("--record: this version writes no recordings; use --report for a report in JSON Lines");
+  if (!options.html.empty()) throw InputError("--html: this version has no viewer; use --picture for a PNG");
+  if (options.picture_frame && options.picture.empty())
+    throw InputError("--picture-frame: says which frame --picture draws; add --picture FILE");
+}
+
+void run(const RunOptions& options) {
+  refuse_what_is_not_there(options);
+  const io::SceneDescription description = describe(options);
+  io::Player player(description);
+  for (const std::string& warning : player.warnings()) std::fprintf(stderr, "note: %s\n", warning.c_str());
+  if (options.picture_frame && *options.picture_frame >= player.frame_count())
+    throw InputError("--picture-frame: the run ends before frame " + std::to_string(*options.picture_frame) +
+                     "; frames are 0 to " + std::to_string(player.frame_count() - 1));
+  std::optional<io::ReportWriter> writer;
+  if (!options.report.empty())
+    writer.emplace(options.report, player.objects(), description.settings,
+                   io::ReportWriter::Options{.include_times = !options.no_times});
+  std::optional<PictureChoice> picture;
+  if (!options.picture.empty()) picture.emplace(options.picture_frame);
+  const RunSummary summary = play(player, writer, picture);
+  if (writer) writer->close();
+  std::fputs(summary.text().c_str(), stdout);
+  if (writer) std::printf("report    %s\n", options.report.c_str());
+  if (picture) {
+    const std::uint32_t frame = picture->draw(options.picture);
+    std::printf("picture   %s, frame %u\n", options.picture.c_str(), frame);
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "run", "Steps through a scene, prints what touched, where and when, and writes what is asked for.");
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("files", options->files, "A scene file (.json), or mesh files that make a scene")
+      ->required();
+  command
+      ->add_option("--frames", options->frames, "How many frames; else the scene's, else the longest motion")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", options->threads,
+                      "How many threads; 0, the default: all of the machine's");
+  command->add_option("--contact-distance", options->contact_distance,
+                      "Strictly closer than this is a contact");
+  command->add_option("--range", options->range, "Pairs closer than this are listed with their distance");
+  command->add_option("--detail", options->detail, "none, closest, regions, vertices or features");
+  command->add_option("--accuracy", options->accuracy, "exact, within:T, paper or paper:E1,E2,...");
+  command->add_option("--frames-per-second", options->frames_per_second,
+                      "At which rate animations are sampled");
+  command->add_option("--report", options->report, "Write a report, JSON Lines, a line a frame");
+  command->add_flag("--no-times", options->no_times,
+                    "Leave timings out of the report: equal runs, equal files");
+  command->add_option("--picture", options->picture, "Draw one frame into a PNG");
+  command->add_option("--picture-frame", options->picture_frame,
+                      "Which one; else the first with most contacts");
+  command->add_option("--record", options->record, "Not in this version");
+  command->add_option("--html", options->html, "Not in this version");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace graze::tools

@@ -1,0 +1,110 @@
+#include "run_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace graze::tools {
+namespace {
+
+std::string milliseconds(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g ms", value);
+  return text;
+}
+
+/// The smallest value that at least `part` of the values do not exceed. `sorted` is not empty.
+double quantile(const std::vector<double>& sorted, double part) {
+  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
+  return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+bool is_in_contact(const PairReport& pair) {
+  return pair.phase == PairPhase::began || pair.phase == PairPhase::touching;
+}
+
+std::string plural(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+RunSummary::RunSummary(std::span<const io::SceneObject> objects) : objects_(objects) {
+  for (std::size_t number = 0; number < objects.size(); ++number) numbers_[objects[number].id] = number;
+}
+
+const std::string& RunSummary::name_of(ObjectId id) const {
+  return objects_[numbers_.at(id)].name;
+}
+
+void RunSummary::add(std::uint32_t frame, const FrameReport& report, double step_ms) {
+  step_ms_.push_back(step_ms);
+  pairs_ = report.statistics().pairs_total;
+  contacts_ += report.contacts().size();
+  if (report.contacts().size() > most_contacts_) {
+    most_contacts_ = report.contacts().size();
+    busiest_frame_ = frame;
+  }
+  if (std::ranges::any_of(report.pairs(), is_in_contact)) ++frames_touching_;
+  for (const PairReport& pair : report.pairs())
+    if (is_in_contact(pair)) add_touch(frame, pair);
+  if (diagnostics_ == 0 && !report.diagnostics().empty()) {
+    const Diagnostic& first = report.diagnostics().front();
+    const std::string name = numbers_.contains(first.object) ? name_of(first.object) + ": " : "";
+    first_diagnostic_ = "frame " + std::to_string(frame) + ", " + name + first.message;
+  }
+  diagnostics_ += report.diagnostics().size();
+}
+
+void RunSummary::add_touch(std::uint32_t frame, const PairReport& pair) {
+  const auto [entry, is_new] = touches_.try_emplace({numbers_.at(pair.a), numbers_.at(pair.b)});
+  Touch& touch = entry->second;
+  if (is_new) {
+    touch.first_frame = frame;
+    touch.first_place = 0.5 * (pair.witness.point_a + pair.witness.point_b);
+  }
+  if (pair.phase == PairPhase::began) ++touch.spells;
+  touch.last_frame = frame;
+  ++touch.frames;
+  touch.most_contacts = std::max(touch.most_contacts, pair.contact_count);
+}
+
+std::string RunSummary::touches_text() const {
+  if (touches_.empty()) return "touching  nothing\n";
+  std::string text;
+  for (const auto& [pair, touch] : touches_) {
+    const Eigen::Vector3d& place = touch.first_place;
+    char where[100];
+    std::snprintf(where, sizeof where, "(%.4g, %.4g, %.4g)", place.x(), place.y(), place.z());
+    text += "touching  " + objects_[pair.first].name + " and " + objects_[pair.second].name +
+            ": first in frame " + std::to_string(touch.first_frame) + " at " + where + ", last in frame " +
+            std::to_string(touch.last_frame) + "; " + plural(touch.frames, "frame") + " in " +
+            plural(touch.spells, "spell") + ", at most " + plural(touch.most_contacts, "contact") + "\n";
+  }
+  return text;
+}
+
+std::string RunSummary::diagnostics_text() const {
+  if (diagnostics_ == 0) return "";
+  return "input     " + plural(diagnostics_, "diagnostic") + ", the first: " + first_diagnostic_ + "\n";
+}
+
+std::string RunSummary::times_text() const {
+  if (step_ms_.empty()) return "";
+  std::vector<double> sorted = step_ms_;
+  std::ranges::sort(sorted);
+  return "step      median " + milliseconds(quantile(sorted, 0.5)) + ", 99th percentile " +
+         milliseconds(quantile(sorted, 0.99)) + ", worst " + milliseconds(sorted.back()) + "\n";
+}
+
+std::string RunSummary::text() const {
+  std::string contacts = "contacts  " + std::to_string(contacts_) + " in all, in contact in " +
+                         std::to_string(frames_touching_) + " of " + plural(step_ms_.size(), "frame");
+  if (most_contacts_ > 0)
+    contacts +=
+        "; at most " + std::to_string(most_contacts_) + ", in frame " + std::to_string(busiest_frame_);
+  return "scene     " + plural(step_ms_.size(), "frame") + ", " + plural(objects_.size(), "object") + ", " +
+         plural(pairs_, "pair") + "\n" + contacts + "\n" + touches_text() + diagnostics_text() + times_text();
+}
+
+}  // namespace graze::tools

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <graze/io/scene_object.hpp>
+#include <graze/report.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze::tools {
+
+/// Collects what a run saw, and says it.
+class RunSummary {
+ public:
+  explicit RunSummary(std::span<const io::SceneObject> objects);
+
+  void add(std::uint32_t frame, const FrameReport& report, double step_ms);
+  /// The summary, several lines.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  /// One pair of objects that touched.
+  struct Touch {
+    std::uint32_t first_frame = 0;
+    std::uint32_t last_frame = 0;
+    std::uint32_t frames = 0;
+    std::uint32_t spells = 0;  ///< times that they came together
+    std::size_t most_contacts = 0;
+    Eigen::Vector3d first_place = Eigen::Vector3d::Zero();
+  };
+
+  void add_touch(std::uint32_t frame, const PairReport& pair);
+  [[nodiscard]] const std::string& name_of(ObjectId id) const;
+  [[nodiscard]] std::string touches_text() const;
+  [[nodiscard]] std::string diagnostics_text() const;
+  [[nodiscard]] std::string times_text() const;
+
+  std::span<const io::SceneObject> objects_;
+  std::map<ObjectId, std::size_t> numbers_;
+  std::map<std::pair<std::size_t, std::size_t>, Touch> touches_;
+  std::vector<double> step_ms_;
+  std::uint64_t pairs_ = 0;
+  std::size_t contacts_ = 0;
+  std::size_t most_contacts_ = 0;
+  std::uint32_t busiest_frame_ = 0;
+  std::uint32_t frames_touching_ = 0;
+  std::size_t diagnostics_ = 0;
+  std::string first_diagnostic_;
+};
+
+}  // namespace graze::tools

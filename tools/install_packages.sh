@@ -1,0 +1,21 @@
+#!/bin/sh
+# Installs the Debian packages that graze is built, run and tested with. Run as root, or where sudo asks for no word.
+set -eu
+
+packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
+  libtinyobjloader-dev nlohmann-json3-dev libcli11-dev libpng-dev catch2 libgmp-dev"
+
+missing=""
+for package in $packages; do
+  state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+  [ "$state" = "install ok installed" ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+as_root=""
+[ "$(id -u)" -eq 0 ] || as_root="sudo"
+echo "installing:$missing"
+export DEBIAN_FRONTEND=noninteractive
+$as_root apt-get update -qq
+# shellcheck disable=SC2086 # a list of names
+$as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null
