@@ -19,7 +19,7 @@ enum class BindPolicy : std::uint8_t { every_step, when_told };
 
 /// What a scene is told of an object when it is added.
 struct ObjectSettings {
-  std::string name;
+  std::string name = {};
   Motion motion = Motion::deformable;
   std::uint32_t layer = 1;  ///< a pair is looked at when each one's layer is in the other's mask
   std::uint32_t collides_with = ~std::uint32_t{0};
@@ -32,7 +32,7 @@ struct ObjectSettings {
 struct PairRule {
   double contact_distance = 0;
   double range = 0;
-  std::vector<double> epsilon;  ///< in place of Accuracy::paper's numbers; empty: the scene's own
+  std::vector<double> epsilon = {};  ///< in place of Accuracy::paper's numbers; empty: the scene's own
 };
 
 /// Settings of a scene, fixed when it is made. Distances are in the caller's units.
@@ -43,9 +43,9 @@ struct SceneSettings {
   Accuracy accuracy = Accuracy::exact();
   unsigned threads = 0;  ///< 0: as many as the machine has
   /// A step's deadline for pairs; positions are always read and bounds refreshed first.
-  std::optional<std::chrono::microseconds> time_budget;
+  std::optional<std::chrono::microseconds> time_budget = std::nullopt;
   /// The same in region pairs, reproducibly.
-  std::optional<std::uint64_t> work_budget;
+  std::optional<std::uint64_t> work_budget = std::nullopt;
 };
 
 }  // namespace graze
