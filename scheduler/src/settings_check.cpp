@@ -11,9 +11,10 @@ bool is_distance(double value) {
   return std::isfinite(value) && value >= 0;
 }
 
-/// A range may be infinite: then every pair is listed.
+/// A range may be infinite: then every pair is listed. The comparison is a quiet one: NaN must not trap where
+/// the caller has traps enabled.
 bool is_range(double value) {
-  return value >= 0;
+  return std::isgreaterequal(value, 0.0);
 }
 
 std::string not_a_distance(const char* what, double value) {

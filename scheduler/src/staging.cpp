@@ -195,7 +195,8 @@ bool Staging::check_view(ObjectId object, const Named& named, const PositionView
 }
 
 double Staging::promise_of(ObjectId object, const Named& named, double max_displacement, const char* what) {
-  if (max_displacement >= 0) return max_displacement;
+  // A quiet comparison: NaN must not trap where the caller has traps enabled.
+  if (std::isgreaterequal(max_displacement, 0.0)) return max_displacement;
   push_problem(object, DiagnosticKind::broken_promise,
                std::string(what) + ": " + name_of(object, named) +
                    " got a max_displacement that is negative or NaN; it counts as no promise");

@@ -17,6 +17,15 @@ struct Overloaded : Visitors... {
 template <typename... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
+/// The end of a budget that began at `start`; no deadline where the clock cannot say it.
+std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::time_point start,
+                                                  std::optional<std::chrono::microseconds> budget) {
+  // Compared in microseconds: a nanosecond clock overflows on the largest of them.
+  const auto longest = std::chrono::floor<std::chrono::microseconds>(PairQuery::no_deadline - start);
+  if (!budget || *budget >= longest) return PairQuery::no_deadline;
+  return start + *budget;
+}
+
 /// Milliseconds since the last call, or since it was made.
 class Lap {
  public:
@@ -171,8 +180,7 @@ void Step::refit() {
 void Step::run_jobs(Clock::time_point start) {
   if (answers_.size() < jobs_.size()) answers_.resize(jobs_.size());
   std::fill(counters_.begin(), counters_.end(), PairCounters{});
-  const Clock::time_point deadline =
-      settings_.time_budget ? start + *settings_.time_budget : PairQuery::no_deadline;
+  const Clock::time_point deadline = deadline_of(start, settings_.time_budget);
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget) return run_within_work(*settings_.work_budget, deadline);
   // A task writes the answers of its own jobs, and the detector and counters of its own worker. Surfaces and

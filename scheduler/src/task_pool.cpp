@@ -1,5 +1,6 @@
 #include "task_pool.hpp"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -11,7 +12,11 @@
 namespace graze {
 
 struct TaskPool::Arena {
-  explicit Arena(int threads) : arena(threads) {}
+  /// No more threads than oneTBB gives in this process: it would only complain on the caller's terminal.
+  explicit Arena(std::size_t threads)
+      : arena(
+            static_cast<int>(std::min(threads, oneapi::tbb::global_control::active_value(
+                                                   oneapi::tbb::global_control::max_allowed_parallelism)))) {}
   oneapi::tbb::task_arena arena;
 };
 
@@ -19,7 +24,7 @@ TaskPool::TaskPool(unsigned threads)
     : worker_count_(threads == 0
                         ? static_cast<unsigned>(std::max(1, oneapi::tbb::info::default_concurrency()))
                         : threads) {
-  if (worker_count_ > 1) arena_ = std::make_unique<Arena>(static_cast<int>(worker_count_));
+  if (worker_count_ > 1) arena_ = std::make_unique<Arena>(worker_count_);
 }
 
 TaskPool::~TaskPool() = default;

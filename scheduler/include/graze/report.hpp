@@ -63,7 +63,7 @@ struct Diagnostic {
 struct StepStatistics {
   std::uint64_t objects = 0;
   std::uint64_t pairs_total = 0;     ///< n(n-1)/2
-  std::uint64_t pairs_filtered = 0;  ///< boxes within reach, taken out by layers, masks, motion or `ignore`
+  std::uint64_t pairs_filtered = 0;  ///< boxes within reach or listed last, but filtered out
   std::uint64_t pairs_tested = 0;    ///< given to DMV
   std::uint64_t pairs_near = 0;      ///< listed in the report
   std::uint64_t pairs_in_contact = 0;

@@ -82,7 +82,7 @@ class GRAZE_API Scene {
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
 
   /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
-  /// of this scene is running.
+  /// of this scene is running, or when 65,536 reports are held by handles.
   ReportHandle step();
   /// The last published report; of frame 0 and empty before the first step. Wait-free.
   [[nodiscard]] ReportHandle latest_report() const;

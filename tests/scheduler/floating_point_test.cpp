@@ -1,0 +1,201 @@
+// The caller's rounding mode and flushing of denormals do not show, and are the caller's again afterwards.
+
+#include <cfenv>
+#include <cmath>
+#include <limits>
+
+#include "scheduler/report_text.hpp"
+#include "scheduler/scene_support.hpp"
+#include "support/catch.hpp"
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace graze::tests {
+namespace {
+
+constexpr std::size_t frame_count = 6;
+
+/// What the calling thread computes with: rounding, and on x86 whether denormals are flushed.
+struct Mode {
+  int rounding = FE_TONEAREST;
+  bool flush = false;
+  friend bool operator==(const Mode&, const Mode&) = default;
+};
+
+#if defined(__SSE__)
+constexpr unsigned flush_bits = 0x8040;  // flush to zero, denormals are zero
+#endif
+
+Mode current_mode() {
+  Mode mode;
+  mode.rounding = std::fegetround();
+#if defined(__SSE__)
+  mode.flush = (_mm_getcsr() & flush_bits) == flush_bits;
+#endif
+  return mode;
+}
+
+/// A mode for as long as this lives.
+class ModeScope {
+ public:
+  explicit ModeScope(const Mode& mode) {
+    std::fegetenv(&before_);
+    std::fesetround(mode.rounding);
+#if defined(__SSE__)
+    if (mode.flush) _mm_setcsr(_mm_getcsr() | flush_bits);
+#endif
+  }
+  ~ModeScope() {
+    std::fesetenv(&before_);
+  }
+  ModeScope(const ModeScope&) = delete;
+  ModeScope& operator=(const ModeScope&) = delete;
+
+ private:
+  std::fenv_t before_{};
+};
+
+std::vector<Mode> modes() {
+  std::vector<Mode> all;
+  for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    all.push_back({rounding, false});
+#if defined(__SSE__)
+    all.push_back({rounding, true});
+#endif
+  }
+  return all;
+}
+
+/// Where four bodies are in each frame, made before any mode is set. The last of them is posed.
+struct Prepared {
+  std::vector<models::MeshData> meshes = {models::torus(8, 6, 0.5, 0.2), models::sphere(8, 5),
+                                          models::sheet(6, 6, 1.5, 1.5), models::box({0.7, 0.5, 0.9})};
+  std::array<std::vector<Positions>, frame_count> positions;
+  std::array<Eigen::Isometry3d, frame_count> poses;
+
+  Prepared() {
+    for (std::size_t frame = 0; frame < frame_count; ++frame) {
+      const double time = 0.37 * static_cast<double>(frame);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double phase = time + 2.1 * static_cast<double>(i);
+        positions[frame].push_back(
+            moved(meshes[i].positions,
+                  0.6 * Eigen::Vector3d(std::sin(phase), std::cos(2 * phase), std::sin(3 * phase))));
+      }
+      poses[frame] = Eigen::Isometry3d(Eigen::AngleAxisd(time, Eigen::Vector3d(1, 2, 3).normalized()));
+    }
+  }
+};
+
+/// Everything a program does with a scene, all of it in `mode`, which every call leaves as it was.
+std::vector<ReportHandle> play(const Prepared& prepared, unsigned threads, const Mode& mode) {
+  std::vector<ReportHandle> reports;
+  SceneSettings settings = settings_of(0.05, 0.25);
+  settings.threads = threads;
+  std::vector<Mode> seen;
+  {
+    const ModeScope scope(mode);
+    const auto look = [&] { seen.push_back(current_mode()); };
+    Scene scene(settings);
+    std::vector<ObjectId> ids;
+    for (std::size_t i = 0; i < 4; ++i) {
+      ids.push_back(
+          scene.add(mesh_of(prepared.meshes[i]), motion_of(i == 3 ? Motion::rigid : Motion::deformable)));
+      look();
+    }
+    for (std::size_t frame = 0; frame < frame_count; ++frame) {
+      scene.set_positions(ids[0], prepared.positions[frame][0], 10);
+      look();
+      scene.bind_positions(ids[1], prepared.positions[frame][1]);
+      scene.set_positions(ids[2], prepared.positions[frame][2]);
+      scene.set_pose(ids[3], prepared.poses[frame]);
+      look();
+      reports.push_back(scene.step());
+      look();
+    }
+  }
+  CHECK(seen == std::vector(seen.size(), mode));
+  return reports;
+}
+
+/// The distance of a contact whose positions are of the size of the smallest denormals; -1 for none.
+double denormal_distance(const Positions& positions) {
+  NeedleOverPlate pair(settings_of(0x1p-1060, 1));
+  pair.scene.set_positions(pair.needle, positions);
+  const ReportHandle report = pair.scene.step();
+  return report->contacts().empty() ? -1 : report->contacts()[0].distance;
+}
+
+}  // namespace
+
+TEST_CASE("what mode the caller computes in does not show, and is left as it was") {
+  const Prepared prepared;
+  for (const unsigned threads : {1U, 3U}) {
+    const auto expected = play(prepared, threads, Mode{});
+    std::size_t contacts = 0;
+    for (const ReportHandle& report : expected) contacts += report->contacts().size();
+    CHECK(contacts > 100);
+    for (const Mode& mode : modes()) {
+      const auto found = play(prepared, threads, mode);
+      INFO(threads << " threads, rounding " << mode.rounding << (mode.flush ? ", flushing" : ""));
+      for (std::size_t frame = 0; frame < frame_count; ++frame)
+        REQUIRE(difference_of(*found[frame], *expected[frame]) == "");
+    }
+  }
+}
+
+TEST_CASE("denormal distances are right in every mode") {
+  const Positions positions = {{0.25, 0.5, 0x1p-1070}, {0.125, 0.5, 4}, {0.375, 0.5, 4}};
+  for (const Mode& mode : modes()) {
+    double distance = 0;
+    Mode after;
+    {
+      const ModeScope scope(mode);
+      distance = denormal_distance(positions);
+      after = current_mode();
+    }
+    CHECK(distance == 0x1p-1070);
+    CHECK(after == mode);
+  }
+}
+
+#if defined(__GLIBC__)
+TEST_CASE("bad input does not trap where the caller traps invalid operations") {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  Positions positions(3, Eigen::Vector3d::Constant(nothing));
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation().x() = nothing;
+  SceneSettings bad_range = settings_of(0, nothing);
+  ObjectSettings bad_margin;
+  bad_margin.margin = nothing;
+  NeedleOverPlate pair(settings_of(0.5, 1));
+  const ObjectId rigid = pair.scene.add(needle_mesh(), motion_of(Motion::rigid));
+  bool refused = false;
+  std::fenv_t before{};
+  std::fegetenv(&before);
+  feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+  pair.scene.set_positions(pair.plate, positions);
+  pair.scene.set_positions(pair.needle, positions, nothing);
+  pair.scene.bind_positions(pair.needle, positions);
+  pair.scene.positions_changed(pair.needle, nothing);
+  pair.scene.set_pose(rigid, pose);
+  pair.scene.set_rule(0, 0, {0, nothing, {}});
+  const ReportHandle report = pair.scene.step();
+  try {
+    const Scene scene(bad_range);
+  } catch (const Error&) {
+    refused = true;
+  }
+  CHECK_THROWS_AS(pair.scene.add(needle_mesh(), bad_margin), Error);
+  std::fesetenv(&before);
+  CHECK(refused);
+  CHECK(kinds_of(*report) == std::vector{DiagnosticKind::wrong_count, DiagnosticKind::broken_promise,
+                                         DiagnosticKind::not_finite, DiagnosticKind::broken_promise,
+                                         DiagnosticKind::bad_pose, DiagnosticKind::bad_rule,
+                                         DiagnosticKind::not_finite});
+}
+#endif
+
+}  // namespace graze::tests

@@ -1,0 +1,118 @@
+#include "scheduler/report_text.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <tuple>
+
+namespace graze::tests {
+namespace {
+
+void write(std::ostream& out, const Eigen::Vector3d& point) {
+  out << " (" << point.x() << " " << point.y() << " " << point.z() << ")";
+}
+
+void write(std::ostream& out, const Feature& feature) {
+  out << " " << to_string(feature.kind) << feature.index;
+}
+
+/// `phase` as a word of the caller's choice.
+std::string row_text(const FrameReport& report, const PairReport& pair, std::string_view phase) {
+  std::ostringstream out;
+  out << std::hexfloat;
+  out << pair.a.index << ":" << pair.a.generation << " " << pair.b.index << ":" << pair.b.generation << " "
+      << phase << (pair.complete ? "" : " incomplete") << (pair.stale ? " stale" : "") << " "
+      << pair.distance.lower << ".." << pair.distance.upper;
+  write(out, pair.witness.feature_a);
+  write(out, pair.witness.feature_b);
+  write(out, pair.witness.point_a);
+  write(out, pair.witness.point_b);
+  for (const Contact& contact : report.contacts(pair)) {
+    out << "\n  " << to_string(contact.kind) << " " << contact.distance << " " << to_string(contact.side_a)
+        << " " << to_string(contact.side_b);
+    write(out, contact.feature_a);
+    write(out, contact.feature_b);
+    write(out, contact.point_a);
+    write(out, contact.point_b);
+    write(out, contact.normal);
+  }
+  return out.str();
+}
+
+bool in_contact(const PairReport& pair) {
+  return pair.phase == PairPhase::began || pair.phase == PairPhase::touching;
+}
+
+std::string problem_of(const FrameReport& report, const PairReport& pair) {
+  if (!(pair.distance.lower >= 0) || !(pair.distance.lower <= pair.distance.upper) ||
+      !std::isfinite(pair.distance.upper))
+    return "bounds";
+  if (!pair.witness.point_a.allFinite() || !pair.witness.point_b.allFinite()) return "witness";
+  const auto contacts = report.contacts(pair);
+  if (!contacts.empty() && (!in_contact(pair) || !pair.complete)) return "contacts without being in contact";
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    if (!std::isfinite(contact.distance) || !contact.point_a.allFinite() || !contact.point_b.allFinite() ||
+        !(std::abs(contact.normal.norm() - 1) < 1e-12))
+      return "numbers of a contact";
+    const auto key = [](const Contact& c) { return std::tie(c.kind, c.feature_a, c.feature_b); };
+    if (i > 0 && !(key(contacts[i - 1]) < key(contact))) return "order of contacts";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string text_of(const FrameReport& report, const PairReport& pair) {
+  return row_text(report, pair, to_string(pair.phase));
+}
+
+std::vector<std::string> rows_of(const FrameReport& report) {
+  std::vector<std::string> rows;
+  for (const PairReport& pair : report.pairs()) rows.push_back(text_of(report, pair));
+  return rows;
+}
+
+std::vector<std::string> timeless_rows_of(const FrameReport& report, double range) {
+  std::vector<std::string> rows;
+  for (const PairReport& pair : report.pairs())
+    if (in_contact(pair) || pair.distance.lower < range)
+      rows.push_back(row_text(report, pair, in_contact(pair) ? "contact" : "apart"));
+  return rows;
+}
+
+std::string difference_of(const FrameReport& left, const FrameReport& right) {
+  if (left.frame() != right.frame()) return "frame";
+  if (left.complete() != right.complete()) return "complete";
+  const auto left_rows = rows_of(left);
+  const auto right_rows = rows_of(right);
+  if (left_rows.size() != right_rows.size())
+    return std::to_string(left_rows.size()) + " rows and " + std::to_string(right_rows.size());
+  for (std::size_t i = 0; i < left_rows.size(); ++i)
+    if (left_rows[i] != right_rows[i]) return left_rows[i] + "\nand\n" + right_rows[i];
+  if (left.diagnostics().size() != right.diagnostics().size()) return "number of diagnostics";
+  for (std::size_t i = 0; i < left.diagnostics().size(); ++i) {
+    const Diagnostic& l = left.diagnostics()[i];
+    const Diagnostic& r = right.diagnostics()[i];
+    if (l.object != r.object || l.kind != r.kind || l.message != r.message)
+      return l.message + "\nand\n" + r.message;
+  }
+  return {};
+}
+
+std::string inconsistency_of(const FrameReport& report) {
+  std::size_t next_contact = 0;
+  bool complete = true;
+  for (const PairReport& pair : report.pairs()) {
+    if (pair.first_contact != next_contact) return "the rows' contacts do not follow one another";
+    next_contact += pair.contact_count;
+    if (next_contact > report.contacts().size()) return "a row's contacts are beyond the report's";
+    complete = complete && pair.complete;
+    const std::string problem = problem_of(report, pair);
+    if (!problem.empty()) return problem + ": " + text_of(report, pair);
+  }
+  if (next_contact != report.contacts().size()) return "contacts of no row";
+  if (complete != report.complete()) return "complete() is not that of all rows";
+  return {};
+}
+
+}  // namespace graze::tests

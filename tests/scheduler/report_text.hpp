@@ -1,0 +1,26 @@
+#pragma once
+
+#include <graze/report.hpp>
+#include <string>
+#include <vector>
+
+namespace graze::tests {
+
+/// Every bit of a pair's row and its contacts as text, but for where the contacts lie in the report.
+std::string text_of(const FrameReport& report, const PairReport& pair);
+
+/// The rows of a report, each with its contacts.
+std::vector<std::string> rows_of(const FrameReport& report);
+
+/// What a scene built afresh with the same positions would say: without rows that are listed only because
+/// they ended, and without what the last step has to do with.
+std::vector<std::string> timeless_rows_of(const FrameReport& report, double range);
+
+/// Empty where frame, rows, contacts, diagnostics and completeness are the same, bit for bit.
+std::string difference_of(const FrameReport& left, const FrameReport& right);
+
+/// What is wrong with a report by itself: order of pairs and contacts, contacts in rows that have none, spans
+/// that do not follow one another, bounds the wrong way round, numbers that are not finite.
+std::string inconsistency_of(const FrameReport& report);
+
+}  // namespace graze::tests
