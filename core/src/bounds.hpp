@@ -12,15 +12,20 @@ namespace graze {
 
 /// At least the distance of two points.
 inline double upper_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (b - a).norm() * round_up + 0x1p-537;  // squares below the smallest denormal vanish
+  return (b - a).norm() * round_up + lost_to_underflow;
+}
+
+/// At most the distance of two points.
+inline double lower_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::max(0.0, (b - a).norm() - lost_to_underflow) * round_down;
 }
 
 /// At most the distance of any vertex within `radius_a` of `middle_a` and any within `radius_b` of
 /// `middle_b`, for radii that are rounded themselves.
 inline double lower_distance(const Eigen::Vector3d& middle_a, double radius_a,
                              const Eigen::Vector3d& middle_b, double radius_b) {
-  const double radii = (radius_a + radius_b) * round_up + 0x1p-536;
-  return std::max(0.0, ((middle_b - middle_a).norm() * round_down - radii) * round_down);
+  const double radii = (radius_a + radius_b) * round_up + 2 * lost_to_underflow;
+  return std::max(0.0, (lower_distance(middle_a, middle_b) - radii) * round_down);
 }
 
 /// The certified bound of method.md, section 2: no vertices of two regions are nearer. The better of the

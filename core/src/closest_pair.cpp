@@ -93,7 +93,7 @@ class Search {
     const RegionTree& tree_b = pair_.b.mesh().regions();
     for (const std::uint32_t a : tree_a.vertices(tree_a.region(leaves.a)))
       for (const std::uint32_t b : tree_b.vertices(tree_b.region(leaves.b)))
-        if (keep((pair_.b.position(b) - pair_.a.position(a)).norm() * round_down))
+        if (keep(lower_distance(pair_.a.position(a), pair_.b.position(b))))
           set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
   }
 

@@ -117,6 +117,18 @@ Points clip(const Points& points, const Eigen::Vector3d& origin, const Eigen::Ve
   return kept;
 }
 
+/// The same for points of which something is known to be left: where rounding loses it, the point nearest to
+/// it.
+Points clip_some(const Points& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
+  Points kept = clip(points, origin, inward);
+  if (kept.empty())
+    kept.push_back(*std::max_element(points.begin(), points.end(),
+                                     [&](const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
+                                       return inward.dot(left - origin) < inward.dot(right - origin);
+                                     }));
+  return kept;
+}
+
 Eigen::Vector3d plane_normal(const Simplex& triangle) {
   return (triangle.point[1] - triangle.point[0])
       .cross(triangle.point[2] - triangle.point[0])
@@ -125,21 +137,33 @@ Eigen::Vector3d plane_normal(const Simplex& triangle) {
 
 Points clip_to_triangle(Points points, const Simplex& triangle) {
   const Eigen::Vector3d normal = plane_normal(triangle);
-  for (std::size_t side = 0; side < 3 && !points.empty(); ++side) {
+  for (std::size_t side = 0; side < 3; ++side) {
     const Eigen::Vector3d along = triangle.point[(side + 1) % 3] - triangle.point[side];
-    points = clip(points, triangle.point[side], normal.cross(along));
+    points = clip_some(points, triangle.point[side], normal.cross(along));
   }
   return points;
 }
 
 Points clip_to_segment(const Points& points, const Simplex& segment) {
   const Eigen::Vector3d along = segment.point[1] - segment.point[0];
-  return clip(clip(points, segment.point[0], along), segment.point[1], -along);
+  return clip_some(clip_some(points, segment.point[0], along), segment.point[1], -along);
 }
 
-/// The middle of a segment or the centroid of a polygon, with its length or area.
+/// The two points of an outline that are furthest apart.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> longest_chord(const Points& points) {
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> chord{points[0], points[0]};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if ((points[i] - points[j]).squaredNorm() > (chord.first - chord.second).squaredNorm())
+        chord = {points[j], points[i]};
+  return chord;
+}
+
+/// The middle of a stretch or the centroid of an area, with its length or area. An area so thin that rounding
+/// has lost its shape counts as its longest chord.
 std::pair<Eigen::Vector3d, double> middle_of(const Points& points) {
-  if (points.size() == 2) return {points[0] + (points[1] - points[0]) / 2, (points[1] - points[0]).norm()};
+  const auto [from, to] = longest_chord(points);
+  const double length = (to - from).norm();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   double area = 0;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -149,8 +173,8 @@ std::pair<Eigen::Vector3d, double> middle_of(const Points& points) {
     offset += (u + v) / 3 * part;
     area += part;
   }
-  if (area > 0) return {points[0] + offset / area, area};
-  return {points[0], 0};
+  if (area > length * length * 0x1p-40) return {points[0] + offset / area, area};
+  return {from + (to - from) / 2, points.size() == 2 ? length : area};
 }
 
 /// The point of the other, parallel piece straight across from `point`.
@@ -215,8 +239,29 @@ void join_area(Overlap& whole, const Overlap& part) {
 
 }  // namespace
 
+LocalFrame::LocalFrame(const Surface& surface_a, const Feature& feature_a, const Surface& surface_b,
+                       const Feature& feature_b) {
+  Box box;
+  const auto add = [&](const Surface& surface, const Feature& feature) {
+    if (feature.kind == FeatureKind::face)
+      for (const std::uint32_t corner : surface.mesh().face(feature.index)) box.add(surface.position(corner));
+    else
+      for (const std::uint32_t end : surface.mesh().edge(feature.index)) box.add(surface.position(end));
+  };
+  add(surface_a, feature_a);
+  add(surface_b, feature_b);
+  origin_ = box.min;
+  constexpr int most = 1000;
+  scale_ = std::ldexp(1.0, -std::clamp(std::ilogb((box.max - box.min).maxCoeff()), -most, most));
+}
+
+Simplex LocalFrame::to_local(Simplex simplex) const {
+  for (std::uint32_t i = 0; i < simplex.size; ++i) simplex.point[i] = (simplex.point[i] - origin_) * scale_;
+  return simplex;
+}
+
 std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, const Simplex& b,
-                                  std::size_t fold_side_b, DecisionCount& count) {
+                                  std::size_t fold_side_b, const LocalFrame& frame, DecisionCount& count) {
   const bool overlaps = decide(count, [&]<typename Number>(bool& unsure) {
     if (a.size == 2 && b.size == 2) return segments_overlap<Number>(a, b, unsure);
     if (a.size == 2) return segment_overlaps_triangle<Number>(a, b, fold_side_b, unsure);
@@ -227,11 +272,10 @@ std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, con
   // What is clipped is the lower one, so that the middle lies on it to rounding; straight across is on the
   // other.
   const bool a_is_low = a.size <= b.size;
-  const Simplex& low = a_is_low ? a : b;
-  const Simplex& high = a_is_low ? b : a;
+  const Simplex low = frame.to_local(a_is_low ? a : b);
+  const Simplex high = frame.to_local(a_is_low ? b : a);
   const Points common =
       high.size == 2 ? clip_to_segment(points_of(low), high) : clip_to_triangle(points_of(low), high);
-  if (common.empty()) return std::nullopt;  // an overlap so small that rounding lost it
   const auto [middle, size] = middle_of(common);
   const Eigen::Vector3d opposite = across(middle, high);
   return a_is_low ? Overlap{middle, opposite, size, common} : Overlap{opposite, middle, size, common};

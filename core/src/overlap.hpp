@@ -8,8 +8,24 @@
 
 namespace graze {
 
-/// What parallel pieces have in common when each is seen along the gap between them: a stretch or a convex
-/// area.
+/// Coordinates about one corner of two features and of a size near 1, in which products neither vanish nor
+/// overflow.
+class LocalFrame {
+ public:
+  LocalFrame(const Surface& surface_a, const Feature& feature_a, const Surface& surface_b,
+             const Feature& feature_b);
+  [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& point) const {
+    return origin_ + point / scale_;
+  }
+  [[nodiscard]] Simplex to_local(Simplex simplex) const;
+
+ private:
+  Eigen::Vector3d origin_;
+  double scale_;  ///< a power of two
+};
+
+/// What parallel pieces have in common when each is seen along the gap between them, in local coordinates: a
+/// stretch or a convex area.
 struct Overlap {
   Eigen::Vector3d middle_a;              ///< of the common stretch, or the centroid of the common area, on a
   Eigen::Vector3d middle_b;              ///< the same on b
@@ -22,7 +38,7 @@ struct Overlap {
 /// decided exactly; the middles are rounded. `fold_side` of a triangle is the side (0-1, 1-2, 2-0) that is
 /// inside its face, 3 for none.
 std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, const Simplex& b,
-                                  std::size_t fold_side_b, DecisionCount& count);
+                                  std::size_t fold_side_b, const LocalFrame& frame, DecisionCount& count);
 
 /// The largest connected part of the overlaps of two features' pieces (at least one), with its middle.
 /// Rounded.

@@ -54,9 +54,8 @@ class Paper {
     ++meter_.counters().leaf_pairs_tested;
     ContactName name = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaf_closest);
     nearest_.offer(name);
-    const Eigen::Vector3d gap =
-        pair_.b.position(name.b.feature.index) - pair_.a.position(name.a.feature.index);
-    found_.lower = std::min(found_.lower, gap.norm() * round_down);
+    found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(name.a.feature.index),
+                                                         pair_.b.position(name.b.feature.index)));
     if (query_.detail == ContactDetail::vertices)
       return add_close_vertices(pair_, leaf_a, leaf_b, query_.threshold, names_);
     while (step_to_neighbour(name)) {
@@ -72,7 +71,7 @@ class Paper {
     const std::uint32_t a = name.a.feature.index;
     const std::uint32_t b = name.b.feature.index;
     const auto offer = [&](std::uint32_t to_a, std::uint32_t to_b) {
-      if ((pair_.b.position(to_b) - pair_.a.position(to_a)).norm() * round_down <= around.upper())
+      if (lower_distance(pair_.a.position(to_a), pair_.b.position(to_b)) <= around.upper())
         around.offer(ContactName::of(vertex_piece(to_a), vertex_piece(to_b)));
     };
     for (const std::uint32_t to_a : pair_.a.mesh().vertex_neighbours(a)) {

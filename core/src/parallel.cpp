@@ -60,21 +60,23 @@ std::vector<SidedPiece> pieces_of(const Surface& surface, const Feature& feature
           {face_piece(feature.index, Piece::second), has_inner_border ? 0U : 3U}};
 }
 
-/// A parallel pair of features, its closest set's middle and where its pieces are.
+/// A parallel pair of features and the middle of its closest set.
 struct ParallelContact {
   ContactName name;
-  Overlap overlap;
+  Eigen::Vector3d middle_a;
+  Eigen::Vector3d middle_b;
 };
 
 /// The closest set of two features that hold closest points, where it has a length or an area.
 std::optional<ParallelContact> parallel_contact(const SurfacePair& pair, const FeaturePair& features,
                                                 const ContactName& nearest) {
+  const LocalFrame frame(pair.a, features.first, pair.b, features.second);
   std::vector<ContactName> names;
   std::vector<Overlap> overlaps;
   for (const SidedPiece& a : pieces_of(pair.a, features.first))
     for (const SidedPiece& b : pieces_of(pair.b, features.second)) {
       auto overlap = overlap_of(simplex_of(pair.a, a.piece), a.fold_side, simplex_of(pair.b, b.piece),
-                                b.fold_side, pair.count);
+                                b.fold_side, frame, pair.count);
       if (!overlap) continue;
       const ContactName name = ContactName::of(a.piece, b.piece, Meeting::parallel);
       // One triangle of a bent quad may be parallel and further than the other.
@@ -83,7 +85,8 @@ std::optional<ParallelContact> parallel_contact(const SurfacePair& pair, const F
       overlaps.push_back(std::move(*overlap));
     }
   if (names.empty()) return std::nullopt;
-  return ParallelContact{names.front(), largest_part(overlaps)};
+  const Overlap largest = largest_part(overlaps);
+  return ParallelContact{names.front(), frame.to_world(largest.middle_a), frame.to_world(largest.middle_b)};
 }
 
 bool by_name(const ParallelContact& left, const ParallelContact& right) {
@@ -130,8 +133,7 @@ Contact closest_contact(const SurfacePair& pair, const std::vector<ContactName>&
   const bool is_parallel = lowest_name == names.end() ||
                            (lowest_parallel != parallel.end() && lowest_parallel->name < *lowest_name);
   if (!is_parallel) return measure(pair, *lowest_name);
-  return measure_parallel(pair, lowest_parallel->name, lowest_parallel->overlap.middle_a,
-                          lowest_parallel->overlap.middle_b);
+  return measure_parallel(pair, lowest_parallel->name, lowest_parallel->middle_a, lowest_parallel->middle_b);
 }
 
 }  // namespace graze

@@ -27,7 +27,7 @@ ContactName vertex_pair(std::uint32_t a, std::uint32_t b) {
 }
 
 double lower_distance_of(const SurfacePair& pair, std::uint32_t a, std::uint32_t b) {
-  return (pair.b.position(b) - pair.a.position(a)).norm() * round_down;
+  return lower_distance(pair.a.position(a), pair.b.position(b));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 std::uint32_t frames_of(double seconds, double frames_per_second) {
   constexpr double rounding = 1e-6;  // 20 frames of 1/24 s are 20 frames, whatever their sum
   const double last = std::ceil(seconds * frames_per_second - rounding);
-  constexpr double most = static_cast<double>(std::numeric_limits<std::uint32_t>::max() - 1);
+  constexpr auto most = static_cast<double>(std::numeric_limits<std::uint32_t>::max() - 1);
   return static_cast<std::uint32_t>(std::clamp(last, 0.0, most)) + 1;
 }
 

@@ -71,7 +71,8 @@ class BodyReader {
       if (source.mVertices == nullptr || source.mNumVertices != mesh.mNumVertices) continue;
       targets[i].offsets.resize(first_, Eigen::Vector3d::Zero());
       for (unsigned vertex = 0; vertex < mesh.mNumVertices; ++vertex)
-        targets[i].offsets.push_back(to_eigen(source.mVertices[vertex]) - to_eigen(mesh.mVertices[vertex]));
+        targets[i].offsets.emplace_back(to_eigen(source.mVertices[vertex]) -
+                                        to_eigen(mesh.mVertices[vertex]));
     }
   }
 

@@ -30,6 +30,10 @@ struct Box {
 inline constexpr double round_down = 1 - 0x1p-50;
 inline constexpr double round_up = 1 + 0x1p-50;
 
+/// At least what the root of a sum of three squares is off by where squares lose below the smallest denormal:
+/// sqrt(3 · 2^-1075).
+inline constexpr double lost_to_underflow = 0x1p-536;
+
 /// At most the distance of any two points of the boxes; 0 where they overlap.
 inline double lower_distance(const Box& a, const Box& b) {
   double squared = 0;
@@ -37,7 +41,7 @@ inline double lower_distance(const Box& a, const Box& b) {
     const double gap = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
     squared += gap * gap;
   }
-  return std::sqrt(squared) * round_down;
+  return std::max(0.0, std::sqrt(squared) - lost_to_underflow) * round_down;
 }
 
 }  // namespace graze

@@ -10,6 +10,7 @@
 #include <limits>
 #include <ranges>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -41,7 +42,8 @@ class GRAZE_API Mesh {
       from_polygons(PositionView rest, std::span<const std::uint32_t> corners, const Counts& corner_counts) {
     std::vector<std::uint32_t> counts;
     counts.reserve(std::ranges::size(corner_counts));
-    for (const auto count : corner_counts) counts.push_back(static_cast<std::uint32_t>(count));
+    for (const auto count : corner_counts)
+      counts.push_back(std::in_range<std::uint32_t>(count) ? static_cast<std::uint32_t>(count) : 0);
     return from_polygons(rest, corners, std::span<const std::uint32_t>(counts));
   }
 

@@ -19,10 +19,11 @@ namespace graze {
 struct PairQuery {
   ContactDetail detail = ContactDetail::features;
   AccuracyMode mode = AccuracyMode::exact;
-  double threshold = 0;             ///< strictly closer is a contact; margins included
-  double reach = 0;                 ///< at least `threshold`; pairs strictly closer are listed
-  double tolerance = 0;             ///< of AccuracyMode::within
-  std::span<const double> epsilon;  ///< AccuracyMode::paper's numbers for levels 1 to k-1; empty: eq. 3 and 6
+  double threshold = 0;  ///< strictly closer is a contact; margins included
+  double reach = 0;      ///< at least `threshold`; pairs strictly closer are listed
+  double tolerance = 0;  ///< of AccuracyMode::within
+  std::span<const double>
+      epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
   /// Region pairs that may be tested; beyond it the answer is not complete.
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
   /// The same in time.

@@ -1,0 +1,211 @@
+// The exact numbers against GMP's rationals, and that balls hold the true value, on doubles of wild
+// exponents.
+
+#include "exact.hpp"
+
+#include <gmpxx.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <vector>
+
+#include "arithmetic.hpp"
+#include "support/catch.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+namespace {
+
+using oracle::Random;
+
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
+
+/// Any double up to 2^120: zero, denormals, powers of two and full mantissas; often near one another, so that
+/// sums cancel.
+double wild(Random& random) {
+  const std::uint32_t form = random.below(10);
+  if (form == 0) return 0;
+  if (form == 1) return smallest * (1 + random.below(1000)) * (random.chance(0.5) ? 1 : -1);
+  const double mantissa = form < 4 ? 1 : random.between(0.5, 1);
+  const int exponent =
+      form < 7 ? static_cast<int>(random.below(5)) : static_cast<int>(random.below(1194)) - 1073;
+  return std::ldexp(random.chance(0.5) ? mantissa : -mantissa, exponent);
+}
+
+/// The same number in all arithmetics.
+struct Trio {
+  Exact exact;
+  mpq_class truth;
+  Ball ball;
+
+  explicit Trio(double value) : exact(value), truth(value), ball(value) {}
+  Trio(Exact e, mpq_class t, Ball b) : exact(e), truth(std::move(t)), ball(b) {}
+};
+
+Trio operator+(const Trio& left, const Trio& right) {
+  return {left.exact + right.exact, left.truth + right.truth, left.ball + right.ball};
+}
+Trio operator-(const Trio& left, const Trio& right) {
+  return {left.exact - right.exact, left.truth - right.truth, left.ball - right.ball};
+}
+Trio operator*(const Trio& left, const Trio& right) {
+  return {left.exact * right.exact, left.truth * right.truth, left.ball * right.ball};
+}
+
+mpq_class times_power_of_two(mpq_class value, int exponent) {
+  if (exponent >= 0)
+    mpq_mul_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  else
+    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  return value;
+}
+
+/// |value - truth| ≤ |truth| · 2^-bits.
+bool is_near(const mpq_class& value, const mpq_class& truth, int bits) {
+  return abs(mpq_class(value - truth)) <= times_power_of_two(abs(truth), -bits);
+}
+
+/// The exact number's sign and leading bits are those of the truth.
+void check_exact(const Trio& number) {
+  CHECK(number.exact.sign() == sgn(number.truth));
+  const Exact::Scaled scaled = number.exact.scaled();
+  const double size = std::abs(scaled.fraction);
+  CHECK((size == 0 ? number.truth == 0 : size >= 0.5 && size < 1));
+  CHECK(is_near(times_power_of_two(mpq_class(scaled.fraction), scaled.exponent), number.truth, 52));
+}
+
+/// The ball holds the truth, and a sign that it is sure of is right.
+void check_ball(const Trio& number) {
+  bool unsure = false;
+  const int sign_of_ball = sign(number.ball, unsure);
+  if (!unsure) CHECK(sign_of_ball == sgn(number.truth));
+  if (!std::isfinite(number.ball.value) || !std::isfinite(number.ball.radius)) return;
+  const mpq_class off = abs(mpq_class(mpq_class(number.ball.value) - number.truth));
+  CHECK(off <= mpq_class(number.ball.radius) * mpq_class(Ball::slack));
+}
+
+/// A random sum, difference or product of what there is, of at most ten coordinate differences.
+struct Expression {
+  Trio value;
+  int degree;
+};
+
+Expression combined(Random& random, const Expression& left, const Expression& right) {
+  const std::uint32_t operation = random.below(3);
+  if (operation == 2 && left.degree + right.degree <= 10)
+    return {left.value * right.value, left.degree + right.degree};
+  const int degree = std::max(left.degree, right.degree);
+  return {operation == 0 ? left.value + right.value : left.value - right.value, degree};
+}
+
+}  // namespace
+
+TEST_CASE("exact: every double is itself") {
+  Random random(1);
+  for (int i = 0; i < 2000; ++i) check_exact(Trio(wild(random)));
+  for (const double value :
+       {0.0, -0.0, smallest, -smallest, 0x1p-1022, 0x1p120, -0x1p120, 0x1.fffffffffffffp119})
+    check_exact(Trio(value));
+}
+
+TEST_CASE("exact: sums, differences and products are those of rationals") {
+  Random random(2);
+  int zeros = 0;
+  int expressions = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<Expression> pool;
+    for (int i = 0; i < 4; ++i) pool.push_back({Trio(wild(random)) - Trio(wild(random)), 1});
+    for (int i = 0; i < 12; ++i) {
+      const Expression& left = pool[random.below(static_cast<std::uint32_t>(pool.size()))];
+      const Expression& right = pool[random.below(static_cast<std::uint32_t>(pool.size()))];
+      const Expression next = combined(random, left, right);
+      check_exact(next.value);
+      check_exact({-next.value.exact, -next.value.truth, -next.value.ball});
+      check_ball(next.value);
+      const int order = (left.value.exact - right.value.exact).sign();
+      CHECK(order == sgn(mpq_class(left.value.truth - right.value.truth)));
+      zeros += next.value.exact.sign() == 0 ? 1 : 0;
+      ++expressions;
+      pool.push_back(next);
+    }
+  }
+  CHECK(zeros > 50);
+  std::cout << "compared " << expressions << " expressions, " << zeros << " of them zero\n";
+}
+
+TEST_CASE("exact: ten factors from the smallest denormal to 2^121 fit") {
+  for (const double size : {smallest, 0x1p120}) {
+    const Trio spread = Trio(0x1.fffffffffffffp120) - Trio(-smallest);
+    Trio product(1);
+    Trio power(1);
+    for (int i = 0; i < 10; ++i) {
+      product = product * spread;
+      power = power * Trio(size);
+    }
+    check_exact(product);
+    check_exact(power);
+    check_exact(product - power);
+    check_exact(power - product);
+  }
+}
+
+TEST_CASE("exact: quotients are within 2^-50") {
+  Random random(3);
+  int compared = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Trio left = Trio(wild(random)) * Trio(wild(random)) - Trio(wild(random));
+    const Trio right = Trio(wild(random)) - Trio(wild(random)) * Trio(wild(random));
+    if (right.truth == 0) continue;
+    const mpq_class truth = left.truth / right.truth;
+    const mpq_class size = abs(truth);
+    if (truth != 0 && (size < mpq_class(0x1p-1000) || size > mpq_class(0x1p1000))) continue;
+    CHECK(is_near(mpq_class(Exact::quotient(left.exact, right.exact)), truth, 50));
+    ++compared;
+  }
+  CHECK(compared > 1000);
+}
+
+TEST_CASE("exact: ratios compare as rationals do") {
+  Random random(4);
+  int equal = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double p = wild(random);
+    const double q = std::abs(wild(random)) + smallest;
+    const double factor = random.chance(0.3) ? 3 : random.between(1, 4);
+    const double r = random.chance(0.5) ? p * factor : wild(random);
+    const double s = random.chance(0.5) ? q * factor : std::abs(wild(random)) + smallest;
+    const int truth = cmp(mpq_class(mpq_class(p) / mpq_class(q)), mpq_class(mpq_class(r) / mpq_class(s)));
+    const int expected = truth > 0 ? 1 : (truth < 0 ? -1 : 0);
+    bool unsure = false;
+    CHECK(compare<Exact>({p, q}, {r, s}, unsure) == expected);
+    CHECK_FALSE(unsure);
+    DecisionCount count;
+    CHECK(decide(count, [&]<typename Number>(bool& is_unsure) {
+            return compare<Number>({Number(p), Number(q)}, {Number(r), Number(s)}, is_unsure);
+          }) == expected);
+    equal += expected == 0 ? 1 : 0;
+  }
+  CHECK(equal > 100);
+}
+
+TEST_CASE("exact: a decision goes to exact arithmetic only where doubles are unsure") {
+  DecisionCount count;
+  /// The sign of p·q − r·s.
+  const auto compare_products = [&](double p, double q, double r, double s) {
+    return decide(count, [&]<typename Number>(bool& unsure) {
+      return sign(Number(p) * Number(q) - Number(r) * Number(s), unsure);
+    });
+  };
+  CHECK(compare_products(2, 3, 1, 5) == 1);
+  CHECK(compare_products(1 + 0x1p-20, 1 - 0x1p-20, 1, 1) == -1);
+  CHECK(count.exact == 0);
+  CHECK(compare_products(1 + 0x1p-30, 1 - 0x1p-30, 1, 1) == -1);  // the product rounds to 1
+  CHECK(count.exact == 1);
+  CHECK(compare_products(0x1p-600, 0x1p-600, 0x1p-601, 0x1p-600) == 1);  // both underflow
+  CHECK(count.exact == 2);
+  CHECK(compare_products(3, 4, 2, 6) == 0);  // equal is never certain of rounded numbers
+  CHECK(count.exact == 3);
+}
+
+}  // namespace graze::tests
