@@ -9,6 +9,13 @@ results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 status=0
 
+# A locale with a decimal comma, for the tests that must not notice it.
+mkdir "$results/locales"
+localedef -i de_DE -f UTF-8 "$results/locales/de_DE.UTF-8"
+LOCPATH="$results/locales"
+export LOCPATH
+
+
 # Builds a preset and runs its tests; "$@" are more arguments for ctest.
 run_preset() {
   preset=$1
