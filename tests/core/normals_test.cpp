@@ -209,7 +209,7 @@ TEST_CASE("normals: those of random scenes are the contract's by plain formulas"
       const PairAnswer answer =
           detect(surface_of(scene.a), surface_of(scene.b), query_of(detail, scene.threshold));
       for (const Contact& contact : answer.contacts) {
-        INFO("seed " << seed << "\n" << text_of({contact}));
+        INFO("seed " << seed << "\n" << text_of(std::vector{contact}));
         CHECK(std::abs(contact.normal.norm() - 1) < 1e-14);
         if (contact.distance > 0) {
           const auto check_side = [&](Side side, const std::optional<Vector3d>& normal, const Vector3d& gap) {
@@ -259,7 +259,7 @@ TEST_CASE("normals: a closed surface's closest feature tells inside from outside
       const bool is_inside = winding > 0.5;
       (is_inside ? inside : outside) += 1;
       const Contact contact = closest(solids[i], triangle(p, p, p));
-      INFO("solid " << i << ", sample " << sample << text_of({contact}));
+      INFO("solid " << i << ", sample " << sample << text_of(std::vector{contact}));
       CHECK(contact.side_a == (is_inside ? Side::back : Side::front));
       const Contact inverted = closest(reversed(solids[i]), triangle(p, p, p));
       CHECK(inverted.side_a == (is_inside ? Side::front : Side::back));

@@ -38,17 +38,17 @@ TEST_CASE("features of random scenes are those of brute force") {
     const PairAnswer all = detect(a, b, query_of(ContactDetail::features, scene.threshold));
     CHECK(difference_of(all.contacts, expected, tolerance) == "");
     CHECK(all.in_contact == !expected.empty());
-    CHECK(difference_of(all, distance, tolerance) == "");
+    CHECK(difference_of(all.distance, all.witness, distance, tolerance) == "");
 
     const PairAnswer one = detect(a, b, query_of(ContactDetail::closest, scene.threshold));
     CHECK(difference_of(one.contacts, closest ? std::vector{*closest} : std::vector<oracle::Named>{},
                         tolerance) == "");
-    CHECK(difference_of(one, distance, tolerance) == "");
+    CHECK(difference_of(one.distance, one.witness, distance, tolerance) == "");
 
     const PairAnswer none = detect(a, b, query_of(ContactDetail::none, scene.threshold));
     CHECK(none.in_contact == closest.has_value());
     CHECK(none.contacts.empty());
-    CHECK(difference_of(none, distance, tolerance) == "");
+    CHECK(difference_of(none.distance, none.witness, distance, tolerance) == "");
   }
   for (const std::size_t count : coverage.kinds) CHECK(count > 0);
   for (const std::size_t count : coverage.closest_kinds) CHECK(count > 0);
@@ -76,14 +76,14 @@ TEST_CASE("vertices and regions of random scenes are those of brute force") {
     const auto vertices = oracle::vertices(scene.a, scene.b, scene.threshold);
     const PairAnswer all = detect(a, b, query_of(ContactDetail::vertices, scene.threshold));
     CHECK(difference_of(all.contacts, vertices, tolerance) == "");
-    CHECK(difference_of(all, distance, tolerance) == "");
+    CHECK(difference_of(all.distance, all.witness, distance, tolerance) == "");
     CHECK(all.in_contact == !vertices.empty());
     contacts += vertices.size();
 
     const auto regions = oracle::regions(scene.a, scene.b, scene.threshold, scene.a, scene.b);
     const PairAnswer nearest = detect(a, b, query_of(ContactDetail::regions, scene.threshold));
     CHECK(difference_of(nearest.contacts, regions, tolerance) == "");
-    CHECK(difference_of(nearest, distance, tolerance) == "");
+    CHECK(difference_of(nearest.distance, nearest.witness, distance, tolerance) == "");
   }
   CHECK(contacts > 0);
   std::cout << "compared " << scene_count << " scenes, " << contacts << " vertex contacts\n";

@@ -3,10 +3,10 @@
 #include <iostream>
 #include <limits>
 
-#include "scheduler/oracle_comparison.hpp"
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/comparison.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -45,14 +45,14 @@ bool is_within(const oracle::Pair& distance, double reach) {
 }
 
 /// Compares one row, or its absence, with what brute force says.
-void check_pair(const FrameReport& report, const PairReport* row, const ShapePair& shapes,
+void check_pair(const FrameReport& report, const PairReport* row, const Tolerance& tolerance,
                 const Expected& expected, double reach) {
   const bool listed = expected.in_contact || is_within(expected.distance, reach);
   REQUIRE((row != nullptr) == listed);
   if (row == nullptr) return;
   REQUIRE((row->phase == PairPhase::began) == expected.in_contact);
-  REQUIRE(difference_of(*row, expected.distance) == "");
-  REQUIRE(difference_of(report.contacts(*row), expected.contacts, shapes) == "");
+  REQUIRE(difference_of(row->distance, row->witness, expected.distance, tolerance) == "");
+  REQUIRE(difference_of(report.contacts(*row), expected.contacts, tolerance) == "");
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <graze/contact.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "support/oracle.hpp"
+
+namespace graze::tests {
+
+/// What the contract allows a distance to be off: 2^-48 times the size of the two features plus their gap.
+class Tolerance {
+ public:
+  Tolerance(const oracle::Shape& a, const oracle::Shape& b);
+
+  [[nodiscard]] double of(const Feature& a, const Feature& b, double distance) const;
+
+ private:
+  struct Side {
+    const oracle::Shape& shape;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+  };
+  static double size_of(const Side& side, const Feature& feature);
+
+  Side a_;
+  Side b_;
+};
+
+/// What is wrong with contacts measured against the oracle's: another set, or a value off by more than the
+/// contract allows. Empty where all is well.
+std::string difference_of(std::span<const Contact> contacts, const std::vector<oracle::Named>& expected,
+                          const Tolerance& tolerance);
+
+/// The same for the bounds and witness of a pair in exact mode: the bounds are the truth rounded down and up,
+/// and the witness realises it.
+std::string difference_of(const DistanceBounds& distance, const Witness& witness,
+                          const oracle::Pair& expected, const Tolerance& tolerance);
+
+/// `ContactKind` names and features of all, a line each.
+std::string text_of(std::span<const Contact> contacts);
+std::string text_of(const std::vector<oracle::Named>& contacts);
+/// C++ that makes the shape, for a failing scene to be pasted into a test.
+std::string text_of(const oracle::Shape& shape);
+
+}  // namespace graze::tests
