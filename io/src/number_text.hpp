@@ -33,7 +33,8 @@ std::optional<Number> parse_number(std::string_view word) {
   if (error == std::errc()) return value;
   if constexpr (std::numeric_limits<Number>::has_infinity) {
     if (error == std::errc::result_out_of_range) {
-      const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
+      const bool tiny =
+          word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
       const Number magnitude = tiny ? Number{0} : std::numeric_limits<Number>::infinity();
       return word.starts_with('-') ? -magnitude : magnitude;
     }

@@ -94,7 +94,7 @@ class PlyHeaderReader {
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  PlyType type_named(std::string_view name) const {
+  [[nodiscard]] PlyType type_named(std::string_view name) const {
     const auto type = ply_type(name);
     if (!type) fail_line(joined("'", name, "' is no PLY type; correct the line"));
     return *type;

@@ -62,7 +62,8 @@ class ObjReader {
   explicit ObjReader(const std::filesystem::path& path) : path_(path) {}
 
   RawFile read(std::string_view text) {
-    if (text.find('\0') != text.npos) fail(path_, "this is no text in ASCII or UTF-8; save it as such");
+    if (text.find('\0') != std::string_view::npos)
+      fail(path_, "this is no text in ASCII or UTF-8; save it as such");
     Statements statements(text);
     while (statements.next()) {
       line_ = statements.line();

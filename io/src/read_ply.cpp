@@ -99,7 +99,7 @@ class PlyReader {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
   };
 
-  Columns columns_of(const PlyElement& element) const {
+  [[nodiscard]] Columns columns_of(const PlyElement& element) const {
     Columns columns;
     const bool is_vertex = element.name == "vertex";
     columns.is_strip = element.name == "tristrips";
@@ -142,7 +142,8 @@ class PlyReader {
     if (!(length >= 0) || length != std::floor(length))
       fail_row(element, row, "a list has no proper length; correct it");
     list_.clear();
-    for (double i = 0; i < length; ++i) list_.push_back(take(element, row, property.type));
+    for (std::uint64_t i = 0; static_cast<double>(i) < length; ++i)
+      list_.push_back(take(element, row, property.type));
   }
 
   double take(const PlyElement& element, std::uint64_t row, PlyType type) {

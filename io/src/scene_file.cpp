@@ -204,7 +204,8 @@ SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files
 }
 
 std::optional<ContactDetail> contact_detail_from(std::string_view word) {
-  const auto found = std::ranges::find(details, word, &std::pair<std::string_view, ContactDetail>::first);
+  const auto* const found =
+      std::ranges::find(details, word, &std::pair<std::string_view, ContactDetail>::first);
   if (found == details.end()) return std::nullopt;
   return found->second;
 }

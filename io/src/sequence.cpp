@@ -22,9 +22,11 @@ struct NamePattern {
   explicit NamePattern(const std::filesystem::path& pattern) {
     const std::string name = pattern.filename().string();
     const auto begin = name.find('#');
-    if (begin == name.npos) fail(pattern, "the file name has no #; put a run of # where the number stands");
+    if (begin == std::string::npos)
+      fail(pattern, "the file name has no #; put a run of # where the number stands");
     const auto end = std::min(name.find_first_not_of('#', begin), name.size());
-    if (name.find('#', end) != name.npos) fail(pattern, "the file name has several runs of #; leave one");
+    if (name.find('#', end) != std::string::npos)
+      fail(pattern, "the file name has several runs of #; leave one");
     before = name.substr(0, begin);
     after = name.substr(end);
     digits = end - begin;
@@ -35,7 +37,7 @@ struct NamePattern {
         !name.ends_with(after))
       return std::nullopt;
     const std::string_view number = name.substr(before.size(), name.size() - before.size() - after.size());
-    if (number.find_first_not_of("0123456789") != number.npos) return std::nullopt;
+    if (number.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
     return parse_number<std::uint64_t>(number);
   }
 };
@@ -63,7 +65,7 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& patte
   return files;
 }
 
-class Sequence : public PositionSource {
+class Sequence final : public PositionSource {
  public:
   Sequence(std::vector<std::filesystem::path> files, std::size_t vertex_count, std::size_t object)
       : files_(std::move(files)), vertex_count_(vertex_count), object_(object) {

@@ -36,7 +36,7 @@ class TextLines {
 inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\v\f\r";
   const auto begin = text.find_first_not_of(blanks);
-  if (begin == text.npos) return {};
+  if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
