@@ -64,8 +64,8 @@ SegmentPairNames nearest_pieces_of_segments(const Surface& surface_a, const Feat
                                             const Surface& surface_b, const FeaturePiece& segment_b,
                                             DecisionCount& count);
 
-/// Whether a quad's diagonal is a fold: its corners do not lie in one plane, or do with both triangles on one side of the
-/// diagonal, so that they lie on each other and the diagonal is a border.
+/// Whether a quad's diagonal is a fold: its corners do not lie in one plane, or do with both triangles on one
+/// side of the diagonal, so that they lie on each other and the diagonal is a border.
 bool is_folded(const Surface& surface, std::uint32_t face, DecisionCount& count);
 
 }  // namespace graze
