@@ -26,7 +26,6 @@ class ReportBuilder {
     report_.pairs_.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
   }
-  void mark_incomplete() { report_.complete_ = false; }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
   [[nodiscard]] std::size_t byte_count() const {

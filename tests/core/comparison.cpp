@@ -3,6 +3,18 @@
 #include <limits>
 
 namespace graze::tests {
+namespace {
+
+std::string difference_of(const char* what, const PairAnswer& answer,
+                          const std::vector<oracle::Named>& expected, bool in_contact,
+                          const oracle::Pair& distance, const Tolerance& tolerance) {
+  std::string text = difference_of(answer.contacts, expected, tolerance);
+  text += difference_of(answer.distance, answer.witness, distance, tolerance);
+  if (answer.in_contact != in_contact) text += "in contact or not is wrong\n";
+  return text.empty() ? text : std::string(what) + ": " + text;
+}
+
+}  // namespace
 
 std::shared_ptr<const Mesh> mesh_of(const oracle::Shape& shape) {
   std::vector<std::uint32_t> corners;
@@ -54,10 +66,7 @@ Comparison compare_surfaces(const Body& a, const Body& b, double threshold) {
   Comparison comparison{{}, features.size() + (closest ? 1 : 0)};
   const auto check = [&](ContactDetail detail, const char* what, const std::vector<oracle::Named>& expected) {
     const PairAnswer answer = detect(surface_a, surface_b, query_of(detail, threshold));
-    std::string text = difference_of(answer.contacts, expected, tolerance);
-    text += difference_of(answer.distance, answer.witness, distance, tolerance);
-    if (answer.in_contact != closest.has_value()) text += "in contact or not is wrong\n";
-    if (!text.empty()) comparison.difference += std::string(what) + ": " + text;
+    comparison.difference += difference_of(what, answer, expected, closest.has_value(), distance, tolerance);
   };
   check(ContactDetail::features, "features", features);
   check(ContactDetail::closest, "closest", closest ? std::vector{*closest} : std::vector<oracle::Named>{});
@@ -75,10 +84,7 @@ Comparison compare_vertices(const Body& a, const Body& b, double threshold) {
   Comparison comparison{{}, vertices.size() + regions.size()};
   const auto check = [&](ContactDetail detail, const char* what, const std::vector<oracle::Named>& expected) {
     const PairAnswer answer = detect(surface_a, surface_b, query_of(detail, threshold));
-    std::string text = difference_of(answer.contacts, expected, tolerance);
-    text += difference_of(answer.distance, answer.witness, distance, tolerance);
-    if (answer.in_contact == expected.empty()) text += "in contact or not is wrong\n";
-    if (!text.empty()) comparison.difference += std::string(what) + ": " + text;
+    comparison.difference += difference_of(what, answer, expected, !expected.empty(), distance, tolerance);
   };
   check(ContactDetail::vertices, "vertices", vertices);
   check(ContactDetail::regions, "regions", regions);

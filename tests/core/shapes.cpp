@@ -27,16 +27,6 @@ Extent extent_of(const oracle::Shape& shape) {
 
 }  // namespace
 
-oracle::Shape shape_of(const models::MeshData& data) {
-  oracle::Shape shape{data.positions, {}};
-  auto corner = data.corners.begin();
-  for (const std::uint32_t count : data.corner_counts) {
-    shape.faces.emplace_back(corner, corner + count);
-    corner += count;
-  }
-  return shape;
-}
-
 oracle::Shape mapped(oracle::Shape shape, double factor, const Eigen::Vector3d& offset) {
   for (Eigen::Vector3d& position : shape.positions) position = factor * position + offset;
   return shape;

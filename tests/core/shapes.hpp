@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/models.hpp"
+#include "support/model_shape.hpp"
 #include "support/oracle.hpp"
 
 namespace graze::tests {
@@ -19,8 +20,6 @@ struct Body {
   oracle::Shape rest;
   oracle::Shape now;
 };
-
-oracle::Shape shape_of(const models::MeshData& data);
 
 /// Every position times `factor`, plus `offset`.
 oracle::Shape mapped(oracle::Shape shape, double factor, const Eigen::Vector3d& offset);

@@ -8,20 +8,11 @@
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
-
-oracle::Shape shape_of(const models::MeshData& data) {
-  oracle::Shape shape{data.positions, {}};
-  auto corner = data.corners.begin();
-  for (const std::uint32_t count : data.corner_counts) {
-    shape.faces.emplace_back(corner, corner + count);
-    corner += count;
-  }
-  return shape;
-}
 
 /// Moves every vertex a little at random, so that no two distances are equal.
 oracle::Shape shaken(oracle::Shape shape, std::uint64_t seed) {
