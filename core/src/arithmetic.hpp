@@ -52,9 +52,11 @@ inline int sign(const Exact& number, bool& /*unsure*/) {
   return number.sign();
 }
 
-/// How many questions went past double to exact arithmetic. One per worker, so counting needs no atomics.
+/// How each stage decided. One per worker, so counting needs no atomics.
 struct DecisionCount {
-  std::uint64_t exact = 0;
+  std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices
+  std::uint64_t in_double = 0;           ///< questions that Ball answered
+  std::uint64_t exact = 0;               ///< questions and roundings that went on to Exact
 };
 
 /// Answers `question.operator()<Number>(bool& unsure)` in Ball arithmetic, and in Exact where that was
@@ -63,7 +65,10 @@ template <typename Question>
 auto decide(DecisionCount& count, const Question& question) {
   bool unsure = false;
   const auto answer = question.template operator()<Ball>(unsure);
-  if (!unsure) return answer;
+  if (!unsure) {
+    ++count.in_double;
+    return answer;
+  }
   ++count.exact;
   unsure = false;
   return question.template operator()<Exact>(unsure);

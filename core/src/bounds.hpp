@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <graze/box.hpp>
+#include <graze/leaf_front.hpp>
 #include <graze/surface.hpp>
-
-#include "region_pair.hpp"
 
 namespace graze {
 
@@ -28,14 +27,50 @@ inline double lower_distance(const Eigen::Vector3d& middle_a, double radius_a,
   return std::max(0.0, (lower_distance(middle_a, middle_b) - radii) * round_down);
 }
 
-/// The certified bound of method.md, section 2: no vertices of two regions are nearer. The better of the
-/// spheres about the middle vertices (eq. 2) and the boxes; both surfaces are refitted by vertices.
-inline double vertex_lower_distance(const Surface& a, const Surface& b, const RegionPair& pair) {
-  const Region& region_a = a.mesh().regions().region(pair.a);
-  const Region& region_b = b.mesh().regions().region(pair.b);
-  return std::max(
-      lower_distance(a.vertex_boxes()[pair.a], b.vertex_boxes()[pair.b]),
-      lower_distance(a.middle(region_a), a.radii()[pair.a], b.middle(region_b), b.radii()[pair.b]));
-}
+/// The certified bound of docs/method.md, section 2, for the regions of two surfaces as they are now: from
+/// the boxes, and for vertices the spheres about the middle vertices (eq. 2), of the last refit, less the
+/// motion since then.
+class RegionBounds {
+ public:
+  RegionBounds(const Surface& a, const Surface& b, bool about_vertices)
+      : a_(a),
+        b_(b),
+        about_vertices_(about_vertices),
+        motion_(about_vertices ? (a.motion_since_vertex_refit() + b.motion_since_vertex_refit()) * round_up
+                               : (a.motion_since_face_refit() + b.motion_since_face_refit()) * round_up) {}
+
+  /// At most the distance of the regions' vertices, or of the faces and edges that they own.
+  [[nodiscard]] double lower(const RegionPair& pair) const {
+    const double boxes = less_motion(lower_distance(box_a(pair), box_b(pair)), motion_);
+    if (!about_vertices_) return boxes;
+    const Region& region_a = a_.mesh().regions().region(pair.a);
+    const Region& region_b = b_.mesh().regions().region(pair.b);
+    // A radius grows by twice the motion: that of the middle vertex and that of the others.
+    return std::max(boxes, less_motion(lower_distance(a_.middle(region_a), a_.radii()[pair.a],
+                                                      b_.middle(region_b), b_.radii()[pair.b]),
+                                       2 * motion_));
+  }
+
+  /// The longest sides of the regions' boxes at the last refit.
+  [[nodiscard]] double size_a(const RegionPair& pair) const { return size(box_a(pair)); }
+  [[nodiscard]] double size_b(const RegionPair& pair) const { return size(box_b(pair)); }
+
+ private:
+  [[nodiscard]] const Box& box_a(const RegionPair& pair) const {
+    return about_vertices_ ? a_.vertex_boxes()[pair.a] : a_.face_boxes()[pair.a];
+  }
+  [[nodiscard]] const Box& box_b(const RegionPair& pair) const {
+    return about_vertices_ ? b_.vertex_boxes()[pair.b] : b_.face_boxes()[pair.b];
+  }
+  static double size(const Box& box) { return (box.max - box.min).maxCoeff(); }
+  static double less_motion(double distance, double motion) {
+    return motion == 0 ? distance : std::max(0.0, (distance - motion) * round_down);
+  }
+
+  const Surface& a_;
+  const Surface& b_;
+  bool about_vertices_;
+  double motion_;
+};
 
 }  // namespace graze

@@ -4,20 +4,12 @@
 #include <vector>
 
 #include "closest_set.hpp"
-#include "dmv.hpp"
-#include "leaf_features.hpp"
+#include "leaf_names.hpp"
+#include "leaf_pairs.hpp"
 
 namespace graze {
 
-/// A pair of leaves that DMV reached and how near they may be.
-struct LeafPair {
-  double lower = 0;
-  RegionPair pair;
-};
-
 struct ClosestScratch {
-  DmvScratch dmv;
-  std::vector<LeafPair> leaves;
   LeafScratch features;
   std::vector<ContactName> names;
 };
@@ -30,12 +22,12 @@ struct ClosestFound {
   double lower = std::numeric_limits<double>::infinity();
 };
 
-/// The closest points of two surfaces (both refitted by faces) or of their vertices (by vertices), as
-/// `query.detail` is about the one or the other: `scratch.names` holds the names at the least distance, all
-/// or the lowest. What is certainly not below the reach is not looked at, and in AccuracyMode::within nothing
-/// that is neither below the threshold nor more than the tolerance nearer than what is known; middle vertices
-/// are known from the start, so there is always a name unless all is beyond reach.
-ClosestFound find_closest(const SurfacePair& pair, const PairQuery& query, Ties ties, ClosestScratch& scratch,
-                          WorkMeter& meter);
+/// The closest points of two surfaces or of their vertices, as `query.detail` is about the one or the other:
+/// `scratch.names` holds the names at the least distance, all or the lowest. What is certainly not below the
+/// reach is not looked at, and in AccuracyMode::within nothing that is neither below the threshold nor more
+/// than the tolerance nearer than what is known; middle vertices are known from the start, so there is always
+/// a name unless all is beyond reach.
+ClosestFound find_closest(const SurfacePair& pair, const PairQuery& query, Ties ties, LeafPairs& leaf_pairs,
+                          ClosestScratch& scratch, WorkMeter& meter);
 
 }  // namespace graze

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <graze/leaf_front.hpp>
 #include <graze/pair_query.hpp>
 #include <graze/region_tree.hpp>
 #include <utility>
 #include <vector>
-
-#include "region_pair.hpp"
 
 namespace graze {
 
@@ -44,24 +44,32 @@ class WorkMeter {
   std::chrono::steady_clock::time_point deadline_;
 };
 
-/// DMV (paper, figure 3): walks the pairs of regions of two trees breadth first, level by level. Both regions
-/// of a pair are expanded at once; where one is a leaf, only the other is. `expand(pair, a, b)` says whether
-/// to go on from a pair of which at least one region is no leaf, and `leaves(pair, a, b)` takes each pair of
-/// leaves that is reached. The pair of roots is expanded without a test, as in the paper. False when the
-/// budget ran out on the way.
+/// Which regions of a pair make way for their children.
+struct Expansion {
+  bool a = false;
+  bool b = false;
+};
+
+/// DMV (paper, figure 3): walks the pairs of regions of two trees breadth first, from the pair of roots.
+/// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf; neither
+/// ends it there. A leaf stays what it is. `leaves(pair, a, b)` takes each pair of leaves that is reached.
+/// False when the budget ran out on the way.
 template <typename Expand, typename Leaves>
 bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch, WorkMeter& meter,
          const Expand& expand, const Leaves& leaves) {
-  const auto push_children = [&](const RegionPair& pair, const Region& a, const Region& b) {
-    const std::uint32_t first_a = a.is_leaf() ? pair.a : a.first_child;
-    const std::uint32_t first_b = b.is_leaf() ? pair.b : b.first_child;
-    const std::uint32_t count_a = a.is_leaf() ? 1 : a.child_count;
-    const std::uint32_t count_b = b.is_leaf() ? 1 : b.child_count;
+  const auto push_children = [&](const RegionPair& pair, const Region& a, const Region& b,
+                                 const Expansion& expansion) {
+    const bool a_stays = a.is_leaf() || !expansion.a;
+    const bool b_stays = b.is_leaf() || !expansion.b;
+    const std::uint32_t first_a = a_stays ? pair.a : a.first_child;
+    const std::uint32_t first_b = b_stays ? pair.b : b.first_child;
+    const std::uint32_t count_a = a_stays ? 1 : a.child_count;
+    const std::uint32_t count_b = b_stays ? 1 : b.child_count;
     for (std::uint32_t i = 0; i < count_a; ++i)
       for (std::uint32_t j = 0; j < count_b; ++j) scratch.next.push_back({first_a + i, first_b + j});
   };
   scratch.front.assign(1, RegionPair{});
-  for (std::size_t level = 0; !scratch.front.empty(); ++level) {
+  while (!scratch.front.empty()) {
     scratch.next.clear();
     for (const RegionPair& pair : scratch.front) {
       const Region& a = tree_a.region(pair.a);
@@ -69,9 +77,9 @@ bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch
       if (!meter.spend()) return false;
       if (a.is_leaf() && b.is_leaf()) {
         leaves(pair, a, b);
-      } else if (level == 0 || expand(pair, a, b)) {
-        ++meter.counters().regions_expanded[level];
-        push_children(pair, a, b);
+      } else if (const Expansion expansion = expand(pair, a, b); expansion.a || expansion.b) {
+        ++meter.counters().regions_expanded[std::max(a.level, b.level)];
+        push_children(pair, a, b, expansion);
       }
     }
     std::swap(scratch.front, scratch.next);

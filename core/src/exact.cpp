@@ -161,10 +161,16 @@ Exact::Scaled Exact::scaled() const {
   return result;
 }
 
-double Exact::quotient(const Exact& left, const Exact& right) {
+double Exact::rough_quotient(const Exact& left, const Exact& right) {
   const Scaled numerator = left.scaled();
   const Scaled denominator = right.scaled();
   return std::ldexp(numerator.fraction / denominator.fraction, numerator.exponent - denominator.exponent);
+}
+
+double Exact::quotient(const Exact& left, const Exact& right) {
+  const double rough = rough_quotient(left, right);
+  // What the rough quotient leaves over is exact; only this sum rounds.
+  return rough + rough_quotient(left - Exact(rough) * right, right);
 }
 
 }  // namespace graze

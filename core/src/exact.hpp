@@ -37,12 +37,14 @@ class Exact {
   };
   [[nodiscard]] Scaled scaled() const;
 
-  /// left / right to a relative error of at most 2^-50, unless the quotient underflows.
+  /// left / right rounded to nearest, but for ties closer than 2^-100 of it.
   [[nodiscard]] static double quotient(const Exact& left, const Exact& right);
 
  private:
   static constexpr int capacity = 384;
 
+  /// left / right to a relative error of at most 2^-50, unless it underflows.
+  static double rough_quotient(const Exact& left, const Exact& right);
   static Exact add(const Exact& left, const Exact& right, int right_sign);
   static Exact add_magnitudes(const Exact& left, const Exact& right, int sign);
   static Exact subtract_magnitudes(const Exact& left, const Exact& right, int sign);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "bounds.hpp"
-
 namespace graze {
 namespace {
 
@@ -22,33 +20,29 @@ void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& nam
   names.resize(kept);
 }
 
+/// What a query for contacts wants: what is below the threshold, and piercing at every threshold, so that
+/// overlapping boxes are always looked into.
+struct BelowThreshold {
+  double threshold;
+
+  [[nodiscard]] double limit() const { return threshold; }
+  [[nodiscard]] bool keep(double lower) const { return lower < threshold || lower == 0; }
+  void left_out(double /*limit*/) const {}
+};
+
 }  // namespace
 
-bool find_feature_pairs(const SurfacePair& pair, const PairQuery& query, FeatureScratch& scratch,
-                        WorkMeter& meter, std::vector<ContactName>& names) {
-  const RegionTree& tree_a = pair.a.mesh().regions();
-  const RegionTree& tree_b = pair.b.mesh().regions();
-  const auto boxes_a = pair.a.face_boxes();
-  const auto boxes_b = pair.b.face_boxes();
-  // Piercing counts at every threshold, so overlapping boxes are always looked into.
-  const auto keep = [&](double lower) { return lower < query.threshold || lower == 0; };
-  const auto near = [&](const RegionPair& regions) {
-    return keep(lower_distance(boxes_a[regions.a], boxes_b[regions.b]));
-  };
-  const bool complete = dmv(
-      tree_a, tree_b, scratch.dmv, meter,
-      [&](const RegionPair& regions, const Region&, const Region&) { return near(regions); },
-      [&](const RegionPair& regions, const Region& leaf_a, const Region& leaf_b) {
-        if (!near(regions)) return;
-        ++meter.counters().leaf_pairs_tested;
-        for_each_name(pair, leaf_a, boxes_a[regions.a], leaf_b, boxes_b[regions.b], scratch.leaves, keep,
-                      [&](const ContactName& name) {
-                        const bool edge_pierces =
-                            name.meeting == Meeting::pierced && name.kind == ContactKind::EF;
-                        if (edge_pierces || is_closer_than(pair, name, query.threshold))
-                          names.push_back(name);
-                      });
-      });
+bool find_feature_pairs(const SurfacePair& pair, const PairQuery& query, LeafPairs& leaf_pairs,
+                        LeafScratch& scratch, std::vector<ContactName>& names) {
+  BelowThreshold range{query.threshold};
+  const bool complete = leaf_pairs.each_below_threshold(true, [&](const RegionPair& leaves) {
+    for_each_name(
+        pair, {leaf_pairs.leaf_a(leaves), leaf_pairs.box_a(leaves)},
+        {leaf_pairs.leaf_b(leaves), leaf_pairs.box_b(leaves)}, scratch, range, [&](const ContactName& name) {
+          const bool edge_pierces = name.meeting == Meeting::pierced && name.kind == ContactKind::EF;
+          if (edge_pierces || is_closer_than(pair, name, query.threshold)) names.push_back(name);
+        });
+  });
   keep_nearest_of_each(pair, names);
   return complete;
 }

@@ -88,10 +88,14 @@ class PointRounder {
   double error_;
 };
 
+/// Of distances and points, by the size of the features and their gap: what the contract allows distances.
+/// Stricter bounds send many more contacts of well-shaped meshes to exact arithmetic (docs/tried.md).
+constexpr double allowed_error = 0x1p-48;
+
 template <typename Number>
 using Fraction = std::pair<Vector<Number>, Number>;
 
-/// The distance of the hulls, within 2^-50 of `size` or exactly rounded.
+/// The distance of the hulls, within the allowed error or exactly rounded.
 double distance_of(const SurfacePair& pair, const ContactName& name, const Hulls& hulls, double size) {
   const Ratio<Ball> square = hull_distance_squared<Ball>(hulls.a, hulls.b);
   const double bottom = square.denominator.value - square.denominator.radius * Ball::slack;
@@ -100,7 +104,8 @@ double distance_of(const SurfacePair& pair, const ContactName& name, const Hulls
                                  (square.denominator.value + square.denominator.radius));
     const double high = std::sqrt((square.numerator.value + square.numerator.radius) / bottom);
     const double middle = std::sqrt(square.numerator.value / square.denominator.value);
-    if (square.numerator.value > 0x1p-900 && (high - low) * Ball::slack <= size * 0x1p-50) return middle;
+    if (square.numerator.value > 0x1p-900 && (high - low) * Ball::slack <= size * allowed_error)
+      return middle;
   }
   ++pair.count.exact;
   return rounded_distance(pair, name).upper;
@@ -139,7 +144,7 @@ Contact measure_piercing(const SurfacePair& pair, const ContactName& name) {
   const Simplex& triangle = a_is_segment ? hulls.b : hulls.a;
   Contact contact = named(name);
   contact.point_a =
-      PointRounder(pair.count, extent(segment, triangle) * 0x1p-50)
+      PointRounder(pair.count, extent(segment, triangle) * allowed_error)
           .round(segment.point[0], [&]<typename Number>() -> Fraction<Number> {
             bool unsure = false;  // either sign gives the same fraction
             const auto way = crossing_parameter<Number>(segment, triangle, unsure);
@@ -158,7 +163,7 @@ Contact measure(const SurfacePair& pair, const ContactName& name) {
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   const Simplex& low = a_is_low ? hulls.a : hulls.b;
   const Simplex& high = a_is_low ? hulls.b : hulls.a;
-  PointRounder rounder(pair.count, extent(low, high) * 0x1p-50);
+  PointRounder rounder(pair.count, extent(low, high) * allowed_error);
   Contact contact = named(name);
   Eigen::Vector3d& low_point = a_is_low ? contact.point_a : contact.point_b;
   Eigen::Vector3d& high_point = a_is_low ? contact.point_b : contact.point_a;

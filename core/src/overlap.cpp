@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "direction.hpp"
+
 namespace graze {
 namespace {
 
@@ -129,14 +131,13 @@ Points clip_some(const Points& points, const Eigen::Vector3d& origin, const Eige
   return kept;
 }
 
-Eigen::Vector3d plane_normal(const Simplex& triangle) {
-  return (triangle.point[1] - triangle.point[0])
-      .cross(triangle.point[2] - triangle.point[0])
-      .stableNormalized();
+/// The unit normal of a triangle that has one, however thin: from the caller's coordinates, since local ones
+/// are rounded.
+Eigen::Vector3d plane_normal(const Simplex& triangle, DecisionCount& count) {
+  return *unit_direction(count, [&]<typename Number>() { return normal_of<Number>(triangle); });
 }
 
-Points clip_to_triangle(Points points, const Simplex& triangle) {
-  const Eigen::Vector3d normal = plane_normal(triangle);
+Points clip_to_triangle(Points points, const Simplex& triangle, const Eigen::Vector3d& normal) {
   for (std::size_t side = 0; side < 3; ++side) {
     const Eigen::Vector3d along = triangle.point[(side + 1) % 3] - triangle.point[side];
     points = clip_some(points, triangle.point[side], normal.cross(along));
@@ -177,13 +178,11 @@ std::pair<Eigen::Vector3d, double> middle_of(const Points& points) {
   return {from + (to - from) / 2, points.size() == 2 ? length : area};
 }
 
-/// The point of the other, parallel piece straight across from `point`.
-Eigen::Vector3d across(const Eigen::Vector3d& point, const Simplex& other) {
+/// The point of the other, parallel piece straight across from `point`; `normal` is of its plane, if it is a
+/// triangle.
+Eigen::Vector3d across(const Eigen::Vector3d& point, const Simplex& other, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d offset = point - other.point[0];
-  if (other.size == 3) {
-    const Eigen::Vector3d normal = plane_normal(other);
-    return point - normal * normal.dot(offset);
-  }
+  if (other.size == 3) return point - normal * normal.dot(offset);
   const Eigen::Vector3d along = other.point[1] - other.point[0];
   return other.point[0] + along * (along.dot(offset) / along.squaredNorm());
 }
@@ -274,10 +273,12 @@ std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, con
   const bool a_is_low = a.size <= b.size;
   const Simplex low = frame.to_local(a_is_low ? a : b);
   const Simplex high = frame.to_local(a_is_low ? b : a);
+  const Eigen::Vector3d normal =
+      high.size == 3 ? plane_normal(a_is_low ? b : a, count) : Eigen::Vector3d::Zero().eval();
   const Points common =
-      high.size == 2 ? clip_to_segment(points_of(low), high) : clip_to_triangle(points_of(low), high);
+      high.size == 2 ? clip_to_segment(points_of(low), high) : clip_to_triangle(points_of(low), high, normal);
   const auto [middle, size] = middle_of(common);
-  const Eigen::Vector3d opposite = across(middle, high);
+  const Eigen::Vector3d opposite = across(middle, high, normal);
   return a_is_low ? Overlap{middle, opposite, size, common} : Overlap{opposite, middle, size, common};
 }
 

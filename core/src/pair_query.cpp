@@ -14,17 +14,21 @@ namespace graze {
 void PairCounters::add(const PairCounters& other) {
   region_pairs_tested += other.region_pairs_tested;
   leaf_pairs_tested += other.leaf_pairs_tested;
+  discarded_in_float += other.discarded_in_float;
+  decided_in_double += other.decided_in_double;
   exact_decisions += other.exact_decisions;
   for (std::size_t level = 0; level < regions_expanded.size(); ++level)
     regions_expanded[level] += other.regions_expanded[level];
 }
 
 struct PairDetector::Scratch {
+  LeafPairScratch leaf_pairs;
   ClosestScratch closest;
-  FeatureScratch features;
-  VertexScratch vertices;
+  LeafScratch features;
+  std::vector<ContactName> nearest_of_leaves;
   PaperScratch paper;
   std::vector<ContactName> names;
+  LeafFront no_front;
 };
 
 namespace {
@@ -43,14 +47,17 @@ void set_outer_bounds(const Surface& a, const Surface& b, PairAnswer& answer) {
 
 class Detection {
  public:
-  Detection(const SurfacePair& pair, const PairQuery& query, PairAnswer& answer, WorkMeter& meter)
-      : pair_(pair), query_(query), answer_(answer), meter_(meter) {}
+  Detection(const SurfacePair& pair, const PairQuery& query, LeafFront& front, LeafPairScratch& scratch,
+            PairAnswer& answer, WorkMeter& meter)
+      : pair_(pair), query_(query), front_(front), leaf_pairs_(scratch), answer_(answer), meter_(meter) {}
 
   /// All contacts of the detail; where there are none, the closest points.
   void all_contacts(std::vector<ContactName>& names, const auto& find, ClosestScratch& scratch) {
     names.clear();
-    answer_.complete = find(names);
+    LeafPairs leaf_pairs(pair_, query_, front_, leaf_pairs_, meter_);
+    answer_.complete = find(leaf_pairs, names);
     if (!answer_.complete) return;
+    if (names.empty() && query_.reach <= query_.threshold) return;
     if (names.empty()) return closest_points(Ties::lowest, scratch);
     report(names);
     set_distance(lowest_of(names, scratch.names));
@@ -59,7 +66,8 @@ class Detection {
 
   /// The closest points alone; with `ties` all, the one closest contact.
   void closest_points(Ties ties, ClosestScratch& scratch) {
-    const ClosestFound found = find_closest(pair_, query_, ties, scratch, meter_);
+    LeafPairs leaf_pairs(pair_, query_, front_, leaf_pairs_, meter_);
+    const ClosestFound found = find_closest(pair_, query_, ties, leaf_pairs, scratch, meter_);
     answer_.complete = found.complete;
     if (!found.complete) return;
     const ContactName& nearest = scratch.names.front();
@@ -121,6 +129,8 @@ class Detection {
 
   const SurfacePair& pair_;
   const PairQuery& query_;
+  LeafFront& front_;
+  LeafPairScratch& leaf_pairs_;
   PairAnswer& answer_;
   WorkMeter& meter_;
 };
@@ -143,32 +153,49 @@ void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQu
 
 void PairDetector::detect(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer,
                           PairCounters& counters) {
+  scratch_->no_front.forget();
+  detect(a, b, query, scratch_->no_front, answer, counters);
+}
+
+void PairDetector::detect(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
+                          PairAnswer& answer, PairCounters& counters) {
   answer.in_contact = answer.listed = false;
   answer.complete = true;
   answer.contacts.clear();
   DecisionCount decisions;
   const SurfacePair pair{a, b, decisions};
   WorkMeter meter(query, counters);
-  Detection detection(pair, query, answer, meter);
   Scratch& s = *scratch_;
+  Detection detection(pair, query, front, s.leaf_pairs, answer, meter);
   if (query.mode == AccuracyMode::paper) {
     detection.as_in_paper(s.names, s.paper);
   } else if (query.detail == ContactDetail::features) {
     detection.all_contacts(
-        s.names, [&](auto& names) { return find_feature_pairs(pair, query, s.features, meter, names); },
+        s.names,
+        [&](LeafPairs& leaf_pairs, auto& names) {
+          return find_feature_pairs(pair, query, leaf_pairs, s.features, names);
+        },
         s.closest);
   } else if (query.detail == ContactDetail::vertices) {
     detection.all_contacts(
-        s.names, [&](auto& names) { return find_vertex_pairs(pair, query, s.vertices, meter, names); },
+        s.names,
+        [&](LeafPairs& leaf_pairs, auto& names) {
+          return find_vertex_pairs(pair, query, leaf_pairs, s.features, names);
+        },
         s.closest);
   } else if (query.detail == ContactDetail::regions) {
     detection.all_contacts(
-        s.names, [&](auto& names) { return find_region_pairs(pair, query, s.vertices, meter, names); },
+        s.names,
+        [&](LeafPairs& leaf_pairs, auto& names) {
+          return find_region_pairs(pair, query, leaf_pairs, s.features, s.nearest_of_leaves, names);
+        },
         s.closest);
   } else {
     detection.closest_points(query.detail == ContactDetail::closest ? Ties::all : Ties::lowest, s.closest);
   }
   if (!answer.complete) outer_bounds(a, b, query, answer);
+  counters.discarded_in_float += decisions.discarded_in_float;
+  counters.decided_in_double += decisions.in_double;
   counters.exact_decisions += decisions.exact;
 }
 

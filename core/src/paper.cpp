@@ -17,25 +17,32 @@ class Paper {
         scratch_(scratch),
         meter_(meter),
         names_(names),
+        bounds_(pair.a, pair.b, true),
         nearest_(pair, Ties::lowest, scratch.closest) {}
 
   PaperFound run() {
     found_.complete = dmv(
         pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
-        [&](const RegionPair& regions, const Region& a, const Region& b) { return expand(regions, a, b); },
-        [&](const RegionPair&, const Region& a, const Region& b) { dv(a, b); });
+        [&](const RegionPair& regions, const Region& a, const Region& b) {
+          const bool both = expand(regions, a, b);
+          return Expansion{both, both};
+        },
+        [&](const RegionPair& leaves, const Region& a, const Region& b) {
+          dv({a, pair_.a.vertex_boxes()[leaves.a]}, {b, pair_.b.vertex_boxes()[leaves.b]});
+        });
     std::sort(names_.begin(), names_.end());
     names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
     return found_;
   }
 
  private:
-  /// Eq. 4: expand when the middle vertices are closer than the level's epsilon.
+  /// Eq. 4: expand when the middle vertices are closer than the level's epsilon; the pair of roots always.
   bool expand(const RegionPair& regions, const Region& a, const Region& b) {
+    if (std::max(a.level, b.level) == 0) return true;
     const ContactName middles = ContactName::of(vertex_piece(a.middle), vertex_piece(b.middle));
     nearest_.offer(middles);
     if (is_closer_than(pair_, middles, epsilon(a, b))) return true;
-    found_.lower = std::min(found_.lower, vertex_lower_distance(pair_.a, pair_.b, regions));
+    found_.lower = std::min(found_.lower, bounds_.lower(regions));
     return false;
   }
 
@@ -50,14 +57,14 @@ class Paper {
 
   /// DV at two leaves: from their closest vertices (eq. 5) along the meshes' edges while the distance
   /// shrinks.
-  void dv(const Region& leaf_a, const Region& leaf_b) {
+  void dv(const LeafOf& leaf_a, const LeafOf& leaf_b) {
     ++meter_.counters().leaf_pairs_tested;
-    ContactName name = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaf_closest);
+    ContactName name = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaves, scratch_.leaf_closest);
     nearest_.offer(name);
     found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(name.a.feature.index),
                                                          pair_.b.position(name.b.feature.index)));
     if (query_.detail == ContactDetail::vertices)
-      return add_close_vertices(pair_, leaf_a, leaf_b, query_.threshold, names_);
+      return add_close_vertices(pair_, leaf_a, leaf_b, query_.threshold, scratch_.leaves, names_);
     while (step_to_neighbour(name)) {
     }
     nearest_.offer(name);
@@ -90,6 +97,7 @@ class Paper {
   PaperScratch& scratch_;
   WorkMeter& meter_;
   std::vector<ContactName>& names_;
+  RegionBounds bounds_;
   ClosestSet nearest_;
   PaperFound found_;
 };

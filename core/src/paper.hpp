@@ -5,11 +5,13 @@
 
 #include "closest_set.hpp"
 #include "dmv.hpp"
+#include "leaf_names.hpp"
 
 namespace graze {
 
 struct PaperScratch {
   DmvScratch dmv;
+  LeafScratch leaves;
   std::vector<ContactName> closest;
   std::vector<ContactName> leaf_closest;
 };

@@ -119,10 +119,21 @@ Owned sort_by_owner(std::uint32_t feature_count, std::size_t place_count, const 
   return owned;
 }
 
+/// Leaves come by ascending level.
+std::uint32_t median_leaf_level(std::span<const Region> regions) {
+  std::uint64_t passed = 0;
+  for (const Region& region : regions) {
+    if (region.is_leaf()) passed += region.vertex_count;
+    if (2 * passed >= regions.front().vertex_count) return region.level;
+  }
+  return 0;
+}
+
 }  // namespace
 
 RegionTree::RegionTree(const Mesh& mesh) {
   Builder(mesh, regions_, vertices_).build(level_begin_);
+  leaf_level_ = median_leaf_level(regions_);
 
   std::vector<std::uint32_t> place(mesh.vertex_count());
   for (std::uint32_t i = 0; i < vertices_.size(); ++i) place[vertices_[i]] = i;

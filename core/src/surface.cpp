@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <graze/error.hpp>
 #include <graze/surface.hpp>
+#include <limits>
 #include <utility>
 
 #include "limits.hpp"
@@ -21,11 +23,21 @@ bool Surface::is_within_limits(const Eigen::Vector3d& position) {
   return graze::is_within_limits(position);
 }
 
+namespace {
+
+/// By bits: -0 is another answer than 0, though no motion.
+bool is_same(const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
+  return std::memcmp(left.data(), right.data(), 3 * sizeof(double)) == 0;
+}
+
+}  // namespace
+
 template <typename PositionOf>
 Surface::ReadResult Surface::take(const PositionOf& position_of) {
   ReadResult result;
   Box box;
   double furthest_squared = 0;
+  bool changed = version_ == 0;
   const std::uint32_t count = mesh_->vertex_count();
   for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
     if (!mesh_->is_used(vertex)) continue;
@@ -36,15 +48,51 @@ Surface::ReadResult Surface::take(const PositionOf& position_of) {
       return result;
     }
     furthest_squared = std::max(furthest_squared, (position - positions_[vertex]).squaredNorm());
+    changed = changed || !is_same(position, positions_[vertex]);
     box.add(position);
     incoming_[vertex] = position;
   }
-  result.displacement = std::sqrt(furthest_squared);
-  positions_.swap(incoming_);
-  box_ = box;
-  vertices_are_fitted_ = false;
-  faces_are_fitted_ = false;
+  if (changed) {
+    result.displacement = std::sqrt(furthest_squared);
+    positions_.swap(incoming_);
+    count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, box));
+  }
+  displacement_ = result.displacement;
   return result;
+}
+
+/// A motion beyond the object's size is a jump: what was known before it is of no use, and the sum of all
+/// motions would stay too coarse for the small ones that follow.
+void Surface::count_motion(double displacement, const Box& before) {
+  ++version_;
+  const double size = before.empty() ? 0 : (before.max - before.min).maxCoeff();
+  if (displacement > size)
+    travel_ = {travel_.epoch + 1, 0};
+  else
+    travel_.distance = (travel_.distance + displacement) * round_up;
+}
+
+double Surface::motion_since(const Travel& then) const {
+  if (then.epoch != travel_.epoch) return std::numeric_limits<double>::infinity();
+  return (travel_.distance - then.distance) * round_up;
+}
+
+double Surface::motion_since(const Refit& refit) const {
+  if (refit.version == version_) return 0;
+  if (refit.version == 0) return std::numeric_limits<double>::infinity();
+  return motion_since(refit.travel);
+}
+
+double Surface::motion_since_vertex_refit() const {
+  return motion_since(vertex_refit_);
+}
+
+double Surface::motion_since_face_refit() const {
+  return motion_since(face_refit_);
+}
+
+double Surface::leaf_size() const {
+  return std::ldexp((box_.max - box_.min).maxCoeff(), -static_cast<int>(mesh_->regions().leaf_level()));
 }
 
 Surface::ReadResult Surface::set_positions(const PositionView& view) {
@@ -63,8 +111,23 @@ Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
   });
 }
 
+Box Surface::vertex_box_now(const Region& region) const {
+  Box box;
+  for (const std::uint32_t vertex : mesh_->regions().vertices(region)) box.add(positions_[vertex]);
+  return box;
+}
+
+Box Surface::face_box_now(const Region& region) const {
+  const RegionTree& tree = mesh_->regions();
+  Box box = vertex_box_now(region);
+  for (const std::uint32_t face : tree.faces(region))
+    for (const std::uint32_t corner : mesh_->face(face)) box.add(positions_[corner]);
+  for (const std::uint32_t edge : tree.edges(region)) box.add(positions_[mesh_->edge(edge)[1]]);
+  return box;
+}
+
 void Surface::refit_vertices() {
-  if (vertices_are_fitted_) return;
+  if (motion_since_vertex_refit() == 0) return;
   const RegionTree& tree = mesh_->regions();
   radii_.resize(tree.regions().size());
   vertex_boxes_.resize(tree.regions().size());
@@ -81,12 +144,12 @@ void Surface::refit_vertices() {
     vertex_boxes_[index] = box;
     level_radii_[region.level] = std::max(level_radii_[region.level], radii_[index]);
   }
-  vertices_are_fitted_ = true;
+  vertex_refit_ = {version_, travel_};
   validate(*this);
 }
 
 void Surface::refit_faces() {
-  if (faces_are_fitted_) return;
+  if (motion_since_face_refit() == 0) return;
   const RegionTree& tree = mesh_->regions();
   face_boxes_.resize(tree.regions().size());
   for (auto index = static_cast<std::uint32_t>(face_boxes_.size()); index-- > 0;) {
@@ -95,15 +158,9 @@ void Surface::refit_faces() {
     // Children have higher numbers than their parent, so theirs are already those of now.
     for (std::uint32_t child = 0; child < region.child_count; ++child)
       box.add(face_boxes_[region.first_child + child]);
-    if (region.is_leaf()) {
-      for (const std::uint32_t vertex : tree.vertices(region)) box.add(positions_[vertex]);
-      for (const std::uint32_t face : tree.faces(region))
-        for (const std::uint32_t corner : mesh_->face(face)) box.add(positions_[corner]);
-      for (const std::uint32_t edge : tree.edges(region)) box.add(positions_[mesh_->edge(edge)[1]]);
-    }
-    face_boxes_[index] = box;
+    face_boxes_[index] = region.is_leaf() ? face_box_now(region) : box;
   }
-  faces_are_fitted_ = true;
+  face_refit_ = {version_, travel_};
   validate(*this);
 }
 

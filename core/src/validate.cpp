@@ -2,6 +2,7 @@
 
 #ifdef GRAZE_VALIDATE
 #include <algorithm>
+#include <graze/leaf_front.hpp>
 #include <graze/surface.hpp>
 #include <stdexcept>
 #include <string>
@@ -69,14 +70,14 @@ void validate(const Surface& surface) {
   for (std::uint32_t index = 0; index < tree.regions().size(); ++index) {
     const Region& region = tree.region(index);
     for (const std::uint32_t vertex : tree.vertices(region)) {
-      if (surface.vertices_are_fitted())
+      if (surface.motion_since_vertex_refit() == 0)
         require(contains(surface.vertex_boxes()[index], surface.position(vertex)),
                 "a vertex is outside its box", vertex);
-      if (surface.faces_are_fitted())
+      if (surface.motion_since_face_refit() == 0)
         require(contains(surface.face_boxes()[index], surface.position(vertex)),
                 "a vertex is outside its surface box", vertex);
     }
-    if (!surface.faces_are_fitted()) continue;
+    if (surface.motion_since_face_refit() != 0) continue;
     for (const std::uint32_t face : tree.faces(region))
       for (const std::uint32_t corner : mesh.face(face))
         require(contains(surface.face_boxes()[index], surface.position(corner)),
@@ -87,10 +88,27 @@ void validate(const Surface& surface) {
   }
 }
 
+void validate(const LeafFront& front, const Surface& a, const Surface& b) {
+  const auto regions_a = a.mesh().regions().regions();
+  const auto regions_b = b.mesh().regions().regions();
+  const double beyond = front.beyond_now(a, b);
+  if (!(beyond > 0) || regions_a.size() * regions_b.size() > 4096) return;
+  for (std::uint32_t i = 0; i < regions_a.size(); ++i)
+    for (std::uint32_t j = 0; j < regions_b.size(); ++j) {
+      if (!regions_a[i].is_leaf() || !regions_b[j].is_leaf()) continue;
+      const bool listed =
+          std::any_of(front.leaves.begin(), front.leaves.end(),
+                      [&](const RegionPair& leaves) { return leaves.a == i && leaves.b == j; });
+      const double lower = lower_distance(a.face_box_now(regions_a[i]), b.face_box_now(regions_b[j]));
+      require(listed || lower >= beyond * (1 - 0x1p-40), "a front misses leaves", i);
+    }
+}
+
 }  // namespace graze
 #else
 namespace graze {
 void validate(const RegionTree& /*tree*/, const Mesh& /*mesh*/) {}
 void validate(const Surface& /*surface*/) {}
+void validate(const LeafFront& /*front*/, const Surface& /*a*/, const Surface& /*b*/) {}
 }  // namespace graze
 #endif

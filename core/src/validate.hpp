@@ -5,6 +5,7 @@
 
 namespace graze {
 
+struct LeafFront;
 class Surface;
 
 /// Structure validators. Each throws std::logic_error naming what does not hold; without GRAZE_VALIDATE they
@@ -13,6 +14,10 @@ class Surface;
 /// Every used vertex, face and edge is in exactly one leaf; ranges of children make up their parent's; the
 /// middle vertex is one of the region's.
 void validate(const RegionTree& tree, const Mesh& mesh);
+
+/// No pair of leaves outside a front that is about surfaces is nearer than it says. Looked at for small
+/// surfaces only.
+void validate(const LeafFront& front, const Surface& a, const Surface& b);
 
 /// Every region's bounds contain its vertices and the corners of the faces and edges it owns.
 void validate(const Surface& surface);

@@ -1,67 +1,76 @@
 #include "vertex_pairs.hpp"
 
-#include "bounds.hpp"
 #include "closest_set.hpp"
 
 namespace graze {
 namespace {
 
-template <typename AtLeaves>
-bool walk(const SurfacePair& pair, const PairQuery& query, VertexScratch& scratch, WorkMeter& meter,
-          const AtLeaves& at_leaves) {
-  const auto near = [&](const RegionPair& regions) {
-    return vertex_lower_distance(pair.a, pair.b, regions) < query.threshold;
-  };
-  return dmv(
-      pair.a.mesh().regions(), pair.b.mesh().regions(), scratch.dmv, meter,
-      [&](const RegionPair& regions, const Region&, const Region&) { return near(regions); },
-      [&](const RegionPair& regions, const Region& leaf_a, const Region& leaf_b) {
-        if (!near(regions)) return;
-        ++meter.counters().leaf_pairs_tested;
-        at_leaves(leaf_a, leaf_b);
-      });
-}
-
 ContactName vertex_pair(std::uint32_t a, std::uint32_t b) {
   return ContactName::of(vertex_piece(a), vertex_piece(b));
 }
 
-double lower_distance_of(const SurfacePair& pair, std::uint32_t a, std::uint32_t b) {
-  return lower_distance(pair.a.position(a), pair.b.position(b));
+LeafOf leaf_a(LeafPairs& leaf_pairs, const RegionPair& leaves) {
+  return {leaf_pairs.leaf_a(leaves), leaf_pairs.box_a(leaves)};
 }
+
+LeafOf leaf_b(LeafPairs& leaf_pairs, const RegionPair& leaves) {
+  return {leaf_pairs.leaf_b(leaves), leaf_pairs.box_b(leaves)};
+}
+
+/// What is nearer than a fixed distance.
+struct Below {
+  double distance;
+
+  [[nodiscard]] double limit() const { return distance; }
+  [[nodiscard]] bool keep(double lower) const { return lower < distance; }
+  void left_out(double /*limit*/) const {}
+};
+
+/// What is at most as far as the nearest so far.
+struct AsNear {
+  const ClosestSet& closest;
+
+  [[nodiscard]] double limit() const { return closest.upper(); }
+  [[nodiscard]] bool keep(double lower) const { return lower <= closest.upper(); }
+  void left_out(double /*limit*/) const {}
+};
 
 }  // namespace
 
-bool find_vertex_pairs(const SurfacePair& pair, const PairQuery& query, VertexScratch& scratch,
-                       WorkMeter& meter, std::vector<ContactName>& names) {
-  return walk(pair, query, scratch, meter, [&](const Region& leaf_a, const Region& leaf_b) {
-    add_close_vertices(pair, leaf_a, leaf_b, query.threshold, names);
+bool find_vertex_pairs(const SurfacePair& pair, const PairQuery& query, LeafPairs& leaf_pairs,
+                       LeafScratch& scratch, std::vector<ContactName>& names) {
+  return leaf_pairs.each_below_threshold(false, [&](const RegionPair& leaves) {
+    add_close_vertices(pair, leaf_a(leaf_pairs, leaves), leaf_b(leaf_pairs, leaves), query.threshold, scratch,
+                       names);
   });
 }
 
-bool find_region_pairs(const SurfacePair& pair, const PairQuery& query, VertexScratch& scratch,
-                       WorkMeter& meter, std::vector<ContactName>& names) {
-  return walk(pair, query, scratch, meter, [&](const Region& leaf_a, const Region& leaf_b) {
-    const ContactName name = closest_vertices(pair, leaf_a, leaf_b, scratch.closest);
+bool find_region_pairs(const SurfacePair& pair, const PairQuery& query, LeafPairs& leaf_pairs,
+                       LeafScratch& scratch, std::vector<ContactName>& closest,
+                       std::vector<ContactName>& names) {
+  return leaf_pairs.each_below_threshold(false, [&](const RegionPair& leaves) {
+    const ContactName name =
+        closest_vertices(pair, leaf_a(leaf_pairs, leaves), leaf_b(leaf_pairs, leaves), scratch, closest);
     if (is_closer_than(pair, name, query.threshold)) names.push_back(name);
   });
 }
 
-void add_close_vertices(const SurfacePair& pair, const Region& leaf_a, const Region& leaf_b, double limit,
-                        std::vector<ContactName>& names) {
-  for (const std::uint32_t a : pair.a.mesh().regions().vertices(leaf_a))
-    for (const std::uint32_t b : pair.b.mesh().regions().vertices(leaf_b))
-      if (lower_distance_of(pair, a, b) < limit && is_closer_than(pair, vertex_pair(a, b), limit))
-        names.push_back(vertex_pair(a, b));
+void add_close_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double limit,
+                        LeafScratch& scratch, std::vector<ContactName>& names) {
+  Below range{limit};
+  for_each_vertex_pair(pair, leaf_a, leaf_b, scratch, range, [&](std::uint32_t a, std::uint32_t b) {
+    if (is_closer_than(pair, vertex_pair(a, b), limit)) names.push_back(vertex_pair(a, b));
+  });
 }
 
-ContactName closest_vertices(const SurfacePair& pair, const Region& leaf_a, const Region& leaf_b,
-                             std::vector<ContactName>& scratch) {
-  ClosestSet closest(pair, Ties::lowest, scratch);
-  for (const std::uint32_t a : pair.a.mesh().regions().vertices(leaf_a))
-    for (const std::uint32_t b : pair.b.mesh().regions().vertices(leaf_b))
-      if (lower_distance_of(pair, a, b) <= closest.upper()) closest.offer(vertex_pair(a, b));
-  return closest.names().front();
+ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
+                             LeafScratch& scratch, std::vector<ContactName>& closest) {
+  ClosestSet set(pair, Ties::lowest, closest);
+  set.offer(vertex_pair(leaf_a.region.middle, leaf_b.region.middle));
+  AsNear range{set};
+  for_each_vertex_pair(pair, leaf_a, leaf_b, scratch, range,
+                       [&](std::uint32_t a, std::uint32_t b) { set.offer(vertex_pair(a, b)); });
+  return set.names().front();
 }
 
 }  // namespace graze

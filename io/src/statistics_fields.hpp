@@ -9,8 +9,9 @@ namespace graze::io {
 
 /// The counters and times of a step by the names they have in a report, in the order in which they are
 /// written. `regions_expanded` is an array and stands between the two.
-inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 12> counter_fields{{
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 16> counter_fields{{
     {"objects", &StepStatistics::objects},
+    {"objects_unread", &StepStatistics::objects_unread},
     {"pairs_total", &StepStatistics::pairs_total},
     {"pairs_filtered", &StepStatistics::pairs_filtered},
     {"pairs_tested", &StepStatistics::pairs_tested},
@@ -19,8 +20,11 @@ inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatis
     {"contacts", &StepStatistics::contacts},
     {"region_pairs_tested", &StepStatistics::region_pairs_tested},
     {"leaf_pairs_tested", &StepStatistics::leaf_pairs_tested},
+    {"discarded_in_float", &StepStatistics::discarded_in_float},
+    {"decided_in_double", &StepStatistics::decided_in_double},
     {"exact_decisions", &StepStatistics::exact_decisions},
     {"object_bytes", &StepStatistics::object_bytes},
+    {"pair_bytes", &StepStatistics::pair_bytes},
     {"report_bytes", &StepStatistics::report_bytes},
 }};
 

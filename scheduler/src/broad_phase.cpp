@@ -9,23 +9,10 @@ namespace {
 /// The axis along which the objects' boxes are spread most.
 int widest_axis(std::span<const std::unique_ptr<Object>> objects) {
   Box centres;
-  for (const auto& object : objects) centres.add(object->surface->box().min);
+  for (const auto& object : objects) centres.add(object->box.min);
   int axis = 0;
   if (!centres.empty()) (centres.max - centres.min).maxCoeff(&axis);
   return axis;
-}
-
-/// A box grown on every side by half of `reach` and the margin, rounded outward.
-Box grown(const Object& object, double reach) {
-  const Box& box = object.surface->box();
-  const double by = (reach / 2 + object.settings.margin) * (1 + 0x1p-40);
-  Box result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double slack = std::max(std::abs(box.min[axis]), std::abs(box.max[axis])) * 0x1p-50;
-    result.min[axis] = box.min[axis] - by - slack;
-    result.max[axis] = box.max[axis] + by + slack;
-  }
-  return result;
 }
 
 bool overlap(const Box& a, const Box& b) {
@@ -39,7 +26,7 @@ std::span<const ObjectPair> BroadPhase::find(std::span<const std::unique_ptr<Obj
   intervals_.clear();
   boxes_.clear();
   for (std::uint32_t index = 0; index < objects.size(); ++index) {
-    boxes_.push_back(grown(*objects[index], reach));
+    boxes_.push_back(grown(objects[index]->box, reach / 2 + objects[index]->settings.margin));
     intervals_.push_back({boxes_.back().min[axis], boxes_.back().max[axis], index});
   }
   std::sort(intervals_.begin(), intervals_.end(), [](const Interval& left, const Interval& right) {

@@ -14,6 +14,7 @@ double base_distance(double contact_distance, std::span<const double> epsilon) {
 
 void PairFilter::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule) {
   rules_.insert_or_assign(key_of(kind_a, kind_b), std::move(rule));
+  ++rules_version_;
 }
 
 void PairFilter::set_ignored(const Object& a, const Object& b, bool ignored) {

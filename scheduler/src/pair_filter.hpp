@@ -31,6 +31,8 @@ class PairFilter {
   /// Whether layers, masks, motion and `ignore` let the pair through.
   [[nodiscard]] bool allows(const Object& a, const Object& b) const;
   [[nodiscard]] PairThresholds thresholds(const Object& a, const Object& b) const;
+  /// Changes with every rule.
+  [[nodiscard]] std::uint64_t rules_version() const { return rules_version_; }
   /// The largest reach of any pair of objects without margins.
   [[nodiscard]] double largest_reach() const;
 
@@ -41,7 +43,8 @@ class PairFilter {
 
   const SceneSettings& settings_;
   std::map<Key, PairRule> rules_;  ///< by kinds, the lower first
-  std::set<Key> ignored_;          ///< by serials, the lower first
+  std::uint64_t rules_version_ = 0;
+  std::set<Key> ignored_;  ///< by serials, the lower first
 };
 
 }  // namespace graze

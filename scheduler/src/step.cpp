@@ -26,6 +26,24 @@ std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::tim
   return start + *budget;
 }
 
+/// Pairs of leaves in the fronts of all pairs of objects together, 8 bytes each.
+constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
+
+/// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
+constexpr double stale_leaf_sizes = 0.25;
+
+/// How loose a front is made: it lasts for some steps of the last motion, but is not so loose that it lists
+/// much that is not near.
+double slack_of(const Surface& a, const Surface& b) {
+  const double leaf = std::min(a.leaf_size(), b.leaf_size());
+  const double motion = a.displacement() + b.displacement();
+  constexpr double steps = 6;
+  constexpr double least_leaf_sizes = 1.0 / 64;
+  constexpr double most_leaf_sizes = 0.5;
+  if (motion > most_leaf_sizes * leaf) return 0;
+  return std::clamp(steps * motion, least_leaf_sizes * leaf, most_leaf_sizes * leaf);
+}
+
 /// Milliseconds since the last call, or since it was made.
 class Lap {
  public:
@@ -59,7 +77,7 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
   take_up_calls(builder.diagnostics());
   store_.read_positions(tasks_, builder.diagnostics());
   statistics.read_ms = lap();
-  list_jobs(previous, statistics);
+  list_jobs(previous, builder);
   statistics.pairs_ms = lap();
   refit();
   statistics.refit_ms = lap();
@@ -101,12 +119,15 @@ Object* Step::object_of(std::uint64_t serial) const {
 
 /// Merges the pairs that the broad phase finds with those of the last report that were in contact or are
 /// frozen: both are sorted by the order of addition, and so are the jobs.
-void Step::list_jobs(const FrameReport& previous, StepStatistics& statistics) {
+void Step::list_jobs(const FrameReport& previous, ReportBuilder& builder) {
+  StepStatistics& statistics = builder.statistics();
   const auto objects = store_.objects();
   statistics.objects = objects.size();
   statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
   jobs_.clear();
+  memories_.begin();
   const auto found = broad_phase_.find(objects, filter_.largest_reach());
+  read_what_is_near(found, builder.diagnostics());
   auto pair = found.begin();
   std::size_t last = 0;
   const auto key_of = [&](const ObjectPair& indices) {
@@ -126,37 +147,66 @@ void Step::list_jobs(const FrameReport& previous, StepStatistics& statistics) {
       list_job(*objects[pair->first], *objects[pair->second], nullptr, statistics);
   }
   while (last < last_keys_.size()) add_last();
+  memories_.end();
+}
+
+/// A pair of which one object was not read, because of a promise, is near only where the boxes of what was
+/// promised are; then it is read after all. So is what the last report listed, since that has to be said of
+/// it again.
+void Step::read_what_is_near(std::span<const ObjectPair> pairs, std::vector<Diagnostic>& diagnostics) {
+  const auto objects = store_.objects();
+  wanted_.clear();
+  for (const ObjectPair& pair : pairs) {
+    Object& a = *objects[pair.first];
+    Object& b = *objects[pair.second];
+    if ((a.unread || b.unread) && filter_.allows(a, b) &&
+        lower_distance(a.box, b.box) <= filter_.thresholds(a, b).reach)
+      wanted_.insert(wanted_.end(), {&a, &b});
+  }
+  for (const PairKey& key : last_keys_)
+    for (Object* const object : {object_of(key.first), object_of(key.second)})
+      if (object != nullptr && object->unread) wanted_.push_back(object);
+  store_.read_unread(wanted_, tasks_, diagnostics);
 }
 
 void Step::list_job(Object& a, Object& b, const PairReport* last, StepStatistics& statistics) {
-  Job job{Job::Task::detect, &a, &b, last, {}};
+  Job job{Job::Task::detect, &a, &b, last, nullptr, filter_.thresholds(a, b)};
   const bool allowed = filter_.allows(a, b);
   if (!allowed) ++statistics.pairs_filtered;
   if (!allowed && !job.was_in_contact()) return;
   if (!allowed) job.task = Job::Task::end;
-  job.query = query_of(job);
   if (a.frozen || b.frozen) {
     if (last == nullptr) return;
     job.task = Job::Task::repeat_last;
   } else {
-    const double lower = lower_distance(a.surface->box(), b.surface->box());
-    if (!(lower < job.query.reach) && lower > 0) return;
-    ++statistics.pairs_tested;
+    const double lower = lower_distance(a.box, b.box);
+    // A pair that was in contact is listed once more however far it is now.
+    if (!(lower < job.thresholds.reach) && lower > 0 && !job.was_in_contact()) return;
   }
+  job.memory = &memories_.of({a.serial, b.serial});
+  if (job.task == Job::Task::detect && is_unchanged(job)) job.task = Job::Task::unchanged;
+  if (job.is_looked_at()) ++statistics.pairs_tested;
   jobs_.push_back(job);
 }
 
+/// Whether the last answer, about the same positions by the same rules, is also this one's.
+bool Step::is_unchanged(const Job& job) const {
+  const PairMemory& memory = *job.memory;
+  return memory.version_a == job.a->surface->version() && memory.version_b == job.b->surface->version() &&
+         memory.rules_version == filter_.rules_version();
+}
+
 PairQuery Step::query_of(const Job& job) const {
-  const PairThresholds thresholds = filter_.thresholds(*job.a, *job.b);
   PairQuery query;
   query.detail = settings_.detail;
   query.mode = settings_.accuracy.mode();
   query.tolerance = settings_.accuracy.tolerance();
-  query.epsilon = thresholds.epsilon;
-  query.threshold = thresholds.threshold;
-  // A pair that was in contact is listed once more however far it is now, with its distance.
-  query.reach = thresholds.reach;
+  query.epsilon = job.thresholds.epsilon;
+  query.threshold = job.thresholds.threshold;
+  query.reach = job.thresholds.reach;
   if (job.was_in_contact()) query.reach = infinity;
+  query.slack = slack_of(*job.a->surface, *job.b->surface);
+  query.front_limit = front_pairs_of_all / jobs_.size();
   if (job.task == Job::Task::end) {
     query.threshold = 0;
     if (!is_about_vertices(query.detail)) query.detail = ContactDetail::none;
@@ -167,13 +217,18 @@ PairQuery Step::query_of(const Job& job) const {
 void Step::refit() {
   to_refit_.clear();
   for (const Job& job : jobs_)
-    if (job.task != Job::Task::repeat_last) to_refit_.insert(to_refit_.end(), {job.a, job.b});
+    if (job.is_looked_at()) to_refit_.insert(to_refit_.end(), {job.a, job.b});
   std::sort(to_refit_.begin(), to_refit_.end(),
             [](const Object* left, const Object* right) { return left->serial < right->serial; });
   to_refit_.erase(std::unique(to_refit_.begin(), to_refit_.end()), to_refit_.end());
   tasks_.run(to_refit_.size(), [&](unsigned, std::size_t index) {
     Surface& surface = *to_refit_[index]->surface;
-    is_about_vertices(settings_.detail) ? surface.refit_vertices() : surface.refit_faces();
+    const bool about_vertices = is_about_vertices(settings_.detail);
+    const double motion =
+        about_vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit();
+    const bool to_the_letter = settings_.accuracy.mode() == AccuracyMode::paper;
+    if (!to_the_letter && motion <= stale_leaf_sizes * surface.leaf_size()) return;
+    about_vertices ? surface.refit_vertices() : surface.refit_faces();
   });
 }
 
@@ -192,15 +247,20 @@ void Step::run_jobs(Clock::time_point start) {
 
 void Step::detect(std::size_t index, unsigned worker, std::uint64_t work_limit, Clock::time_point deadline) {
   const Job& job = jobs_[index];
-  if (job.task == Job::Task::repeat_last) return;
-  PairQuery query = job.query;
+  if (!job.is_looked_at()) return;
+  PairQuery query = query_of(job);
   query.work_limit = work_limit;
   query.deadline = deadline;
   const Surface& a = *job.a->surface;
   const Surface& b = *job.b->surface;
   if (work_limit == 0 || (deadline != PairQuery::no_deadline && Clock::now() >= deadline))
     return PairDetector::outer_bounds(a, b, query, answers_[index]);
-  detectors_[worker].detect(a, b, query, answers_[index], counters_[worker]);
+  PairMemory& memory = *job.memory;
+  detectors_[worker].detect(a, b, query, memory.front, answers_[index], counters_[worker]);
+  const bool whole = answers_[index].complete && job.task == Job::Task::detect;
+  memory.version_a = whole ? a.version() : 0;
+  memory.version_b = whole ? b.version() : 0;
+  memory.rules_version = filter_.rules_version();
 }
 
 /// In contact first, then the smallest lower bound.
@@ -210,7 +270,7 @@ void Step::sort_by_urgency() {
   order.reserve(jobs_.size());
   for (std::uint32_t index = 0; index < jobs_.size(); ++index)
     order.emplace_back(!jobs_[index].was_in_contact(),
-                       lower_distance(jobs_[index].a->surface->box(), jobs_[index].b->surface->box()), index);
+                       lower_distance(jobs_[index].a->box, jobs_[index].b->box), index);
   std::sort(order.begin(), order.end());
   for (std::size_t i = 0; i < order.size(); ++i) urgent_[i] = std::get<2>(order[i]);
 }
@@ -226,12 +286,13 @@ void Step::run_within_work(std::uint64_t budget, Clock::time_point deadline) {
 }
 
 std::optional<PairReport> Step::repeated_row(const Job& job) {
+  if (job.last == nullptr) return std::nullopt;
   PairReport row = *job.last;
-  row.stale = true;
-  if (job.task == Job::Task::repeat_last && row.phase == PairPhase::began) row.phase = PairPhase::touching;
+  row.stale = job.task == Job::Task::repeat_last;
+  if (row.phase == PairPhase::began) row.phase = PairPhase::touching;
   if (row.phase != PairPhase::ended) return row;
   row.phase = PairPhase::near;
-  if (row.distance.lower < job.query.reach) return row;
+  if (row.distance.lower < job.thresholds.reach) return row;
   return std::nullopt;
 }
 
@@ -262,7 +323,7 @@ void Step::write_pairs(const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
   for (std::size_t index = 0; index < jobs_.size(); ++index) {
     const Job& job = jobs_[index];
-    const bool repeats = job.task == Job::Task::repeat_last;
+    const bool repeats = !job.is_looked_at();
     std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, answers_[index]);
     if (!row) continue;
     if (repeats && !filter_.allows(*job.a, *job.b)) row->phase = PairPhase::ended;
@@ -284,9 +345,15 @@ void Step::sum_counters(StepStatistics& statistics) {
   for (const PairCounters& counters : counters_) sum.add(counters);
   statistics.region_pairs_tested = sum.region_pairs_tested;
   statistics.leaf_pairs_tested = sum.leaf_pairs_tested;
+  statistics.discarded_in_float = sum.discarded_in_float;
+  statistics.decided_in_double = sum.decided_in_double;
   statistics.exact_decisions = sum.exact_decisions;
   statistics.regions_expanded = sum.regions_expanded;
-  for (const auto& object : store_.objects()) statistics.object_bytes += object->surface->byte_count();
+  for (const auto& object : store_.objects()) {
+    statistics.object_bytes += object->surface->byte_count();
+    statistics.objects_unread += object->unread ? 1U : 0U;
+  }
+  statistics.pair_bytes = memories_.byte_count();
 }
 
 }  // namespace graze

@@ -16,16 +16,6 @@ std::string difference_of(const char* what, const PairAnswer& answer,
 
 }  // namespace
 
-std::shared_ptr<const Mesh> mesh_of(const oracle::Shape& shape) {
-  std::vector<std::uint32_t> corners;
-  std::vector<std::uint32_t> counts;
-  for (const auto& face : shape.faces) {
-    corners.insert(corners.end(), face.begin(), face.end());
-    counts.push_back(static_cast<std::uint32_t>(face.size()));
-  }
-  return std::make_shared<const Mesh>(Mesh::from_polygons(shape.positions, corners, counts));
-}
-
 Surface surface_of(const Body& body) {
   Surface surface(mesh_of(body.rest));
   surface.set_positions(body.now.positions);

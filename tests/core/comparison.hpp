@@ -9,10 +9,9 @@
 
 #include "core/shapes.hpp"
 #include "support/comparison.hpp"
+#include "support/mesh_of.hpp"
 
 namespace graze::tests {
-
-std::shared_ptr<const Mesh> mesh_of(const oracle::Shape& shape);
 
 /// A surface at the body's present positions, refitted for every detail.
 Surface surface_of(const Body& body);

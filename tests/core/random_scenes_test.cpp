@@ -1,5 +1,6 @@
-// Every contact detail against brute force on random small scenes, half of them on a coarse grid where exact
-// ties, parallel edges, coplanar and degenerate faces are common.
+// Every contact detail against brute force on random small scenes: most on a coarse grid, where exact ties,
+// parallel edges, coplanar and degenerate faces are common, the others generic. In parts, so that they run
+// side by side.
 
 #include "support/random_scenes.hpp"
 
@@ -7,51 +8,61 @@
 
 #include "core/comparison.hpp"
 #include "support/catch.hpp"
+#include "support/reduce.hpp"
 
 namespace graze::tests {
 namespace {
 
-constexpr std::uint64_t scene_count = 4000;
+constexpr std::uint64_t part_count = 10;
+constexpr std::uint64_t grid_scenes_of_part = GRAZE_RANDOM_SCENES / part_count;
+constexpr std::uint64_t generic_scenes_of_part = grid_scenes_of_part / 5;
 
-std::string scene_text(std::uint64_t seed, const oracle::RandomScene& scene) {
-  return "seed " + std::to_string(seed) + ", threshold " + std::to_string(scene.threshold) +
-         "\na: " + text_of(scene.a) + "b: " + text_of(scene.b);
+/// What is wrong with the library's answers about two shapes at rest, at every detail.
+std::string difference_of(const TwoShapes& scene) {
+  return compare(scene.a, scene.b, scene.threshold).difference;
+}
+
+/// How often the scenes so far reached each case.
+void count(oracle::Coverage& coverage, const oracle::RandomScene& scene) {
+  coverage.count(scene, oracle::features(scene.a, scene.b, scene.threshold),
+                 oracle::closest(scene.a, scene.b, scene.threshold),
+                 oracle::surface_distance(scene.a, scene.b));
+}
+
+/// Compares the scene of a seed and returns how many contacts that were; one that differs is reduced.
+std::size_t check(std::uint64_t seed, const oracle::RandomScene& scene) {
+  const Comparison comparison = compare(scene.a, scene.b, scene.threshold);
+  if (!comparison.difference.empty())
+    FAIL_CHECK("seed " << seed << ": " << comparison.difference << "reduced:\n"
+                       << reduced_text({scene.a, scene.b, scene.threshold}, difference_of));
+  return comparison.contacts;
 }
 
 }  // namespace
 
-TEST_CASE("features of random scenes are those of brute force") {
-  oracle::Coverage coverage;
+TEMPLATE_TEST_CASE_SIG("10,000 random scenes are those of brute force, part", "", ((int part), part), 0, 1, 2,
+                       3, 4, 5, 6, 7, 8, 9) {
   std::size_t contacts = 0;
-  for (std::uint64_t seed = 0; seed < scene_count; ++seed) {
-    const oracle::RandomScene scene = oracle::random_scene(seed);
-    const auto expected = oracle::features(scene.a, scene.b, scene.threshold);
-    const auto closest = oracle::closest(scene.a, scene.b, scene.threshold);
-    const auto distance = oracle::surface_distance(scene.a, scene.b);
-    coverage.count(scene, expected, closest, distance);
-    contacts += expected.size();
-    const Surface a = surface_of(scene.a);
-    const Surface b = surface_of(scene.b);
-    const Tolerance tolerance(scene.a, scene.b);
-    INFO(scene_text(seed, scene));
-
-    const PairAnswer all = detect(a, b, query_of(ContactDetail::features, scene.threshold));
-    CHECK(difference_of(all.contacts, expected, tolerance) == "");
-    CHECK(all.in_contact == !expected.empty());
-    CHECK(difference_of(all.distance, all.witness, distance, tolerance) == "");
-
-    const PairAnswer one = detect(a, b, query_of(ContactDetail::closest, scene.threshold));
-    CHECK(difference_of(one.contacts, closest ? std::vector{*closest} : std::vector<oracle::Named>{},
-                        tolerance) == "");
-    CHECK(difference_of(one.distance, one.witness, distance, tolerance) == "");
-
-    const PairAnswer none = detect(a, b, query_of(ContactDetail::none, scene.threshold));
-    CHECK(none.in_contact == closest.has_value());
-    CHECK(none.contacts.empty());
-    CHECK(difference_of(none.distance, none.witness, distance, tolerance) == "");
+  const std::uint64_t first = part * grid_scenes_of_part;
+  for (std::uint64_t i = first; i < first + grid_scenes_of_part; ++i) {
+    const oracle::RandomScene scene = oracle::random_scene(2 * i + 1);
+    REQUIRE(scene.on_grid);
+    contacts += check(2 * i + 1, scene);
   }
-  for (const std::size_t count : coverage.kinds) CHECK(count > 0);
-  for (const std::size_t count : coverage.closest_kinds) CHECK(count > 0);
+  for (std::uint64_t i = 0; i < generic_scenes_of_part; ++i) {
+    const std::uint64_t seed = 2 * (part * generic_scenes_of_part + i);
+    contacts += check(seed, oracle::random_scene(seed));
+  }
+  CHECK(contacts > grid_scenes_of_part);
+  std::cout << "compared " << grid_scenes_of_part << " random scenes on a grid and " << generic_scenes_of_part
+            << " generic ones, " << contacts << " contacts\n";
+}
+
+TEST_CASE("10,000 random scenes reach every case") {
+  oracle::Coverage coverage;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) count(coverage, oracle::random_scene(seed));
+  for (const std::size_t reached : coverage.kinds) CHECK(reached > 0);
+  for (const std::size_t reached : coverage.closest_kinds) CHECK(reached > 0);
   CHECK(coverage.piercings > 0);
   CHECK(coverage.folds > 0);
   CHECK(coverage.degenerate_faces > 0);
@@ -60,33 +71,6 @@ TEST_CASE("features of random scenes are those of brute force") {
   CHECK(coverage.zero_distances > 0);
   CHECK(coverage.at_threshold > 0);
   CHECK(coverage.without_contact > 0);
-  std::cout << "compared " << scene_count << " scenes, " << contacts << " feature contacts\n";
-}
-
-TEST_CASE("vertices and regions of random scenes are those of brute force") {
-  std::size_t contacts = 0;
-  for (std::uint64_t seed = 0; seed < scene_count; ++seed) {
-    const oracle::RandomScene scene = oracle::random_scene(seed);
-    const Surface a = surface_of(scene.a);
-    const Surface b = surface_of(scene.b);
-    const Tolerance tolerance(scene.a, scene.b);
-    const auto distance = oracle::vertex_distance(scene.a, scene.b);
-    INFO(scene_text(seed, scene));
-
-    const auto vertices = oracle::vertices(scene.a, scene.b, scene.threshold);
-    const PairAnswer all = detect(a, b, query_of(ContactDetail::vertices, scene.threshold));
-    CHECK(difference_of(all.contacts, vertices, tolerance) == "");
-    CHECK(difference_of(all.distance, all.witness, distance, tolerance) == "");
-    CHECK(all.in_contact == !vertices.empty());
-    contacts += vertices.size();
-
-    const auto regions = oracle::regions(scene.a, scene.b, scene.threshold, scene.a, scene.b);
-    const PairAnswer nearest = detect(a, b, query_of(ContactDetail::regions, scene.threshold));
-    CHECK(difference_of(nearest.contacts, regions, tolerance) == "");
-    CHECK(difference_of(nearest.distance, nearest.witness, distance, tolerance) == "");
-  }
-  CHECK(contacts > 0);
-  std::cout << "compared " << scene_count << " scenes, " << contacts << " vertex contacts\n";
 }
 
 }  // namespace graze::tests

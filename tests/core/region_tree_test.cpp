@@ -252,7 +252,7 @@ TEST_CASE("regions: a moved mesh has the same tree") {
 TEST_CASE("regions: a surface reads positions whole or not at all") {
   const oracle::Shape rest = box({0, 0, 0}, {1, 1, 1});
   Surface surface = surface_of(rest);
-  CHECK(surface.vertices_are_fitted());
+  CHECK(surface.motion_since_vertex_refit() == 0);
   std::vector<Vector3d> next = mapped(rest, 1, {0, 0, 2}).positions;
   next[5].y() = std::numeric_limits<double>::quiet_NaN();
   const auto refused = surface.set_positions(next);
@@ -260,13 +260,13 @@ TEST_CASE("regions: a surface reads positions whole or not at all") {
   CHECK(refused.bad_vertex == 5);
   CHECK(std::isnan(refused.bad_position.y()));
   CHECK(surface.position(0) == Vector3d(0, 0, 0));
-  CHECK(surface.vertices_are_fitted());
+  CHECK(surface.motion_since_vertex_refit() == 0);
   next[5].y() = 0;
   const auto taken = surface.set_positions(next);
   CHECK(taken.taken());
   CHECK(taken.displacement == 2);
-  CHECK_FALSE(surface.vertices_are_fitted());
-  CHECK_FALSE(surface.faces_are_fitted());
+  CHECK(surface.motion_since_vertex_refit() > 0);
+  CHECK(surface.motion_since_face_refit() > 0);
   CHECK(same(surface.box(), {{0, 0, 2}, {1, 1, 3}}));
   surface.refit_vertices();
   surface.refit_faces();

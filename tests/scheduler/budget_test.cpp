@@ -178,7 +178,7 @@ TEST_CASE("urgent pairs come first: those in contact, then the nearest") {
       return order;
     };
     std::size_t partly = 0;
-    for (std::uint64_t budget = 1; budget < 20000; budget += 1 + budget / 2) {
+    for (std::uint64_t budget = 1; budget < 20000; budget += 1 + budget / 8) {
       const auto order = completed(budget);
       REQUIRE(order.size() == 6);
       const auto is_complete = [](const auto& pair) { return pair.second; };
@@ -203,11 +203,12 @@ TEST_CASE("an undone pair keeps the phase it had") {
   // A second contact, of an object nearer to the plate: both were not in contact with each other before.
   const ObjectId other = scene.add(plate_mesh());
   scene.set_positions(other, lifted(*plate_mesh(), 3));
+  scene.set_positions(needle, lifted(*needle_mesh(), 0.375));  // what has not moved costs nothing
   const ReportHandle report = scene.step();
   REQUIRE(report->pairs().size() == 3);
   CHECK(find_pair(*report, plate, needle)->complete);
   CHECK(find_pair(*report, plate, needle)->phase == PairPhase::touching);
-  CHECK(find_pair(*report, plate, needle)->distance.upper == 0.25);
+  CHECK(find_pair(*report, plate, needle)->distance.upper == 0.375);
   CHECK(find_pair(*report, plate, other)->phase == PairPhase::near);
   CHECK_FALSE(find_pair(*report, plate, other)->complete);
   CHECK_FALSE(find_pair(*report, needle, other)->complete);

@@ -2,7 +2,9 @@
 
 #include <cfenv>
 #include <cmath>
+#include <iostream>
 #include <limits>
+#include <thread>
 
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
@@ -89,8 +91,14 @@ struct Prepared {
   }
 };
 
-/// Everything a program does with a scene, all of it in `mode`, which every call leaves as it was.
-std::vector<ReportHandle> play(const Prepared& prepared, unsigned threads, const Mode& mode) {
+/// What came of playing a scene in a mode.
+struct Played {
+  std::vector<ReportHandle> reports;
+  bool mode_was_kept = false;  ///< every call left it as it was
+};
+
+/// Everything a program does with a scene, all of it in `mode`.
+Played play(const Prepared& prepared, unsigned threads, const Mode& mode) {
   std::vector<ReportHandle> reports;
   SceneSettings settings = settings_of(0.05, 0.25);
   settings.threads = threads;
@@ -116,8 +124,7 @@ std::vector<ReportHandle> play(const Prepared& prepared, unsigned threads, const
       look();
     }
   }
-  CHECK(seen == std::vector(seen.size(), mode));
-  return reports;
+  return {reports, seen == std::vector(seen.size(), mode)};
 }
 
 /// The distance of a contact whose positions are of the size of the smallest denormals; -1 for none.
@@ -130,23 +137,45 @@ double denormal_distance(const Positions& positions) {
 
 }  // namespace
 
-TEST_CASE("what mode the caller computes in does not show, and is left as it was") {
+TEST_CASE("flush-to-zero, denormals-are-zero, each rounding mode: the same bits, and left as it was") {
   const Prepared prepared;
   for (const unsigned threads : {1U, 3U}) {
-    const auto expected = play(prepared, threads, Mode{});
+    const auto expected = play(prepared, threads, Mode{}).reports;
     std::size_t contacts = 0;
     for (const ReportHandle& report : expected) contacts += report->contacts().size();
     CHECK(contacts > 100);
     for (const Mode& mode : modes()) {
-      const auto found = play(prepared, threads, mode);
+      const Played played = play(prepared, threads, mode);
       INFO(threads << " threads, rounding " << mode.rounding << (mode.flush ? ", flushing" : ""));
+      CHECK(played.mode_was_kept);
       for (std::size_t frame = 0; frame < frame_count; ++frame)
-        REQUIRE(difference_of(*found[frame], *expected[frame]) == "");
+        REQUIRE(difference_of(*played.reports[frame], *expected[frame]) == "");
     }
+    std::cout << "compared " << modes().size() << " modes, " << contacts << " contacts each\n";
   }
 }
 
-TEST_CASE("denormal distances are right in every mode") {
+TEST_CASE("flush-to-zero and each rounding mode at once in foreign threads") {
+  const Prepared prepared;
+  const auto expected = play(prepared, 1, Mode{}).reports;
+  const auto all = modes();
+  for (const unsigned threads : {1U, 3U}) {
+    std::vector<Played> played(all.size());
+    std::vector<std::thread> foreign;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      foreign.emplace_back([&, i] { played[i] = play(prepared, threads, all[i]); });
+    for (std::thread& thread : foreign) thread.join();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      INFO(threads << " threads, rounding " << all[i].rounding << (all[i].flush ? ", flushing" : ""));
+      CHECK(played[i].mode_was_kept);
+      for (std::size_t frame = 0; frame < frame_count; ++frame)
+        REQUIRE(difference_of(*played[i].reports[frame], *expected[frame]) == "");
+    }
+    std::cout << "compared " << all.size() << " threads in modes of their own\n";
+  }
+}
+
+TEST_CASE("flush-to-zero and each rounding mode: denormal distances are right") {
   const Positions positions = {{0.25, 0.5, 0x1p-1070}, {0.125, 0.5, 4}, {0.375, 0.5, 4}};
   for (const Mode& mode : modes()) {
     double distance = 0;

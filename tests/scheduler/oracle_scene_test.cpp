@@ -16,34 +16,6 @@ constexpr std::array<ContactDetail, 5> details = {ContactDetail::none, ContactDe
                                                   ContactDetail::regions, ContactDetail::vertices,
                                                   ContactDetail::features};
 
-/// What brute force says of a pair.
-struct Expected {
-  std::vector<oracle::Named> contacts;
-  oracle::Pair distance;
-  bool in_contact = false;
-};
-
-Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail) {
-  const bool about_vertices = detail == ContactDetail::vertices || detail == ContactDetail::regions;
-  Expected expected;
-  expected.distance = about_vertices ? oracle::vertex_distance(a, b) : oracle::surface_distance(a, b);
-  if (detail == ContactDetail::features) expected.contacts = oracle::features(a, b, threshold);
-  if (detail == ContactDetail::vertices) expected.contacts = oracle::vertices(a, b, threshold);
-  if (detail == ContactDetail::regions) expected.contacts = oracle::regions(a, b, threshold, a, b);
-  if (detail == ContactDetail::closest || detail == ContactDetail::none)
-    if (const auto closest = oracle::closest(a, b, threshold)) expected.contacts = {*closest};
-  expected.in_contact = !expected.contacts.empty();
-  if (detail == ContactDetail::none) expected.contacts.clear();
-  return expected;
-}
-
-/// Whether a pair apart by `distance` is listed: strictly below the reach, decided exactly.
-bool is_within(const oracle::Pair& distance, double reach) {
-  if (reach == std::numeric_limits<double>::infinity()) return true;
-  const mpq_class exact(reach);
-  return distance.distance_squared < exact * exact;
-}
-
 /// Compares one row, or its absence, with what brute force says.
 void check_pair(const FrameReport& report, const PairReport* row, const Tolerance& tolerance,
                 const Expected& expected, double reach) {

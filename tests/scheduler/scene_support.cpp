@@ -8,16 +8,6 @@ std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
   return std::make_shared<const Mesh>(Mesh::from_polygons(data.positions, data.corners, data.corner_counts));
 }
 
-std::shared_ptr<const Mesh> mesh_of(const oracle::Shape& shape) {
-  models::MeshData data;
-  data.positions = shape.positions;
-  for (const auto& face : shape.faces) {
-    data.corners.insert(data.corners.end(), face.begin(), face.end());
-    data.corner_counts.push_back(static_cast<std::uint32_t>(face.size()));
-  }
-  return mesh_of(data);
-}
-
 std::shared_ptr<const Mesh> plate_mesh() {
   const Positions rest = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   const std::vector<std::array<std::uint32_t, 4>> faces = {{0, 1, 2, 3}};

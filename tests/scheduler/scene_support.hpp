@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "models/models.hpp"
-#include "support/oracle.hpp"
+#include "support/mesh_of.hpp"
 
 namespace graze::tests {
 
 using Positions = std::vector<Eigen::Vector3d>;
 
 std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data);
-std::shared_ptr<const Mesh> mesh_of(const oracle::Shape& shape);
 
 /// One square face of side 2 about the origin in z = 0, normal +z.
 std::shared_ptr<const Mesh> plate_mesh();

@@ -34,6 +34,17 @@ inline constexpr double round_up = 1 + 0x1p-50;
 /// sqrt(3 · 2^-1075).
 inline constexpr double lost_to_underflow = 0x1p-536;
 
+/// The box grown on every side by at least `by`.
+inline Box grown(const Box& box, double by) {
+  Box result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double slack = (std::max(std::abs(box.min[axis]), std::abs(box.max[axis])) + by) * 0x1p-50;
+    result.min[axis] = box.min[axis] - by - slack;
+    result.max[axis] = box.max[axis] + by + slack;
+  }
+  return result;
+}
+
 /// At most the distance of any two points of the boxes; 0 where they overlap.
 inline double lower_distance(const Box& a, const Box& b) {
   double squared = 0;

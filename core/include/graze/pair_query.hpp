@@ -6,6 +6,7 @@
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
 #include <graze/export.hpp>
+#include <graze/leaf_front.hpp>
 #include <graze/region_tree.hpp>
 #include <graze/surface.hpp>
 #include <limits>
@@ -22,6 +23,10 @@ struct PairQuery {
   double threshold = 0;  ///< strictly closer is a contact; margins included
   double reach = 0;      ///< at least `threshold`; pairs strictly closer are listed
   double tolerance = 0;  ///< of AccuracyMode::within
+  /// How far the surfaces may move until a front found now is of no more use; 0: none is kept.
+  double slack = 0;
+  /// A front of more pairs of leaves than this is not kept.
+  std::size_t front_limit = std::numeric_limits<std::size_t>::max();
   std::span<const double>
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
   /// Region pairs that may be tested; beyond it the answer is not complete.
@@ -36,7 +41,9 @@ struct PairQuery {
 struct GRAZE_API PairCounters {
   std::uint64_t region_pairs_tested = 0;
   std::uint64_t leaf_pairs_tested = 0;
-  std::uint64_t exact_decisions = 0;
+  std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices, of two leaves
+  std::uint64_t decided_in_double = 0;   ///< questions
+  std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
   /// Pairs of regions expanded, by level.
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
 
@@ -63,9 +70,16 @@ class GRAZE_API PairDetector {
   PairDetector(PairDetector&&) noexcept;
   PairDetector& operator=(PairDetector&&) noexcept;
 
-  /// Both surfaces are refitted: by `refit_vertices` for the details `regions` and `vertices`, by
-  /// `refit_faces` for the others. `answer` is overwritten, its memory used again; the work is added to
-  /// `counters`.
+  /// Both surfaces have been refitted, by `refit_vertices` for the details `regions` and `vertices`, by
+  /// `refit_faces` for the others: now for AccuracyMode::paper, otherwise ever; bounds are the looser the
+  /// further the surfaces have moved since. `answer` is overwritten, its memory used again; the work is added
+  /// to `counters`.
+  ///
+  /// `front` is the same pair's of an earlier query, or a new one, and is brought up to date. It saves work
+  /// and changes nothing in the answer, but in AccuracyMode::within which of the allowed bounds are given.
+  void detect(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
+              PairAnswer& answer, PairCounters& counters);
+  /// The same without a front.
   void detect(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer,
               PairCounters& counters);
 

@@ -51,6 +51,8 @@ class GRAZE_API RegionTree {
   [[nodiscard]] std::uint32_t level_count() const {
     return static_cast<std::uint32_t>(level_begin_.size()) - 1;
   }
+  /// The level of the leaf of the median vertex: how deep the tree is, but for where vertices crowd.
+  [[nodiscard]] std::uint32_t leaf_level() const { return leaf_level_; }
   /// The number of the first region of `level`; `level_count()` gives the number of regions.
   [[nodiscard]] std::uint32_t level_begin(std::uint32_t level) const { return level_begin_[level]; }
 
@@ -73,6 +75,7 @@ class GRAZE_API RegionTree {
 
  private:
   std::vector<Region> regions_;
+  std::uint32_t leaf_level_ = 0;
   std::vector<std::uint32_t> level_begin_;
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> faces_;

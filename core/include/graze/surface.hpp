@@ -13,8 +13,15 @@
 
 namespace graze {
 
-/// A mesh at the positions it has now, and the bounds of its regions there. One thread changes it at a time;
-/// while none does, any number may read.
+/// A mark on the way that a surface's vertices make. Between two marks of one epoch no vertex came further
+/// than the difference of their distances; a jump begins a new epoch.
+struct Travel {
+  std::uint64_t epoch = 0;
+  double distance = 0;
+};
+
+/// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago.
+/// One thread changes it at a time; while none does, any number may read.
 class GRAZE_API Surface {
  public:
   /// At the mesh's rest shape, not yet refitted. Throws Error for a null mesh.
@@ -47,14 +54,30 @@ class GRAZE_API Surface {
   /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
-  /// Makes the bounds of all regions those of the present positions; cheap if they are already.
+  /// Changes whenever any used vertex does, by any bit.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
+  [[nodiscard]] Travel travel() const { return travel_; }
+  /// At least how far any used vertex is from where it was at `then`; infinite where that is not known.
+  [[nodiscard]] double motion_since(const Travel& then) const;
+  /// ReadResult::displacement of the last positions taken.
+  [[nodiscard]] double displacement() const { return displacement_; }
+  /// About the size of a leaf: the longest side of the box, halved once for each level of
+  /// the tree down to where most leaves are.
+  [[nodiscard]] double leaf_size() const;
+
+  /// Makes the bounds of all regions those of the present positions; free if they are already.
   ///
   /// Vertex bounds: a radius about the middle vertex (eq. 2) and a box, of the region's vertices. Surface
   /// bounds: a box of the vertices and all corners of the faces and edges that the region owns.
   void refit_vertices();
   void refit_faces();
-  [[nodiscard]] bool vertices_are_fitted() const { return vertices_are_fitted_; }
-  [[nodiscard]] bool faces_are_fitted() const { return faces_are_fitted_; }
+  /// At least how far any used vertex is from where the last refit saw it: 0 where the bounds are those of
+  /// the present positions, infinite before the first refit and after a jump.
+  [[nodiscard]] double motion_since_vertex_refit() const;
+  [[nodiscard]] double motion_since_face_refit() const;
+  /// The boxes of one region at the present positions, made from its vertices and faces.
+  [[nodiscard]] Box vertex_box_now(const Region& region) const;
+  [[nodiscard]] Box face_box_now(const Region& region) const;
 
   /// Of the last refit_vertices: eq. 2, one for each region.
   [[nodiscard]] std::span<const double> radii() const { return radii_; }
@@ -72,8 +95,16 @@ class GRAZE_API Surface {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
+  /// When bounds were last made.
+  struct Refit {
+    std::uint64_t version = 0;  ///< 0 before the first
+    Travel travel;
+  };
+
   template <typename PositionOf>
   ReadResult take(const PositionOf& position_of);
+  void count_motion(double displacement, const Box& before);
+  [[nodiscard]] double motion_since(const Refit& refit) const;
 
   std::shared_ptr<const Mesh> mesh_;
   std::vector<Eigen::Vector3d> positions_;
@@ -84,8 +115,11 @@ class GRAZE_API Surface {
   std::vector<double> level_radii_;
   std::vector<Box> vertex_boxes_;
   std::vector<Box> face_boxes_;
-  bool vertices_are_fitted_ = false;
-  bool faces_are_fitted_ = false;
+  std::uint64_t version_ = 0;
+  Travel travel_;
+  double displacement_ = 0;
+  Refit vertex_refit_;
+  Refit face_refit_;
 };
 
 }  // namespace graze

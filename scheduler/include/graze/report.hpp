@@ -62,6 +62,7 @@ struct Diagnostic {
 /// Counters and times of one step.
 struct StepStatistics {
   std::uint64_t objects = 0;
+  std::uint64_t objects_unread = 0;  ///< not read, since promises say that they are far from everything
   std::uint64_t pairs_total = 0;     ///< n(n-1)/2
   std::uint64_t pairs_filtered = 0;  ///< boxes within reach or listed last, but filtered out
   std::uint64_t pairs_tested = 0;    ///< given to DMV
@@ -70,10 +71,13 @@ struct StepStatistics {
   std::uint64_t contacts = 0;
   std::uint64_t region_pairs_tested = 0;
   std::uint64_t leaf_pairs_tested = 0;
-  std::uint64_t exact_decisions = 0;  ///< questions that double could not decide
+  std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices that were certainly too far
+  std::uint64_t decided_in_double = 0;   ///< questions that double answered
+  std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
   /// Region pairs expanded, by level.
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
   std::uint64_t object_bytes = 0;  ///< positions, boxes and radii of all objects; meshes are not counted
+  std::uint64_t pair_bytes = 0;    ///< what is remembered of pairs from step to step
   std::uint64_t report_bytes = 0;
   double read_ms = 0;     ///< staged changes, positions, objects' boxes
   double pairs_ms = 0;    ///< broad phase and filters

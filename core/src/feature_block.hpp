@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "filter_frame.hpp"
+#include "kernels/filter.hpp"
+
+namespace graze {
+
+/// What a feature of a block is part of.
+enum class Part : std::uint8_t { vertex, edge, face, fold };
+
+/// Features of one kind as the kernels read them: `Corners` points each, of `Components` numbers in all.
+template <std::size_t Corners, std::size_t Components>
+class FeatureBlock {
+ public:
+  explicit FeatureBlock(Part part) : part_(part) {}
+
+  /// Empties it, and makes room for `most` features.
+  void begin(std::size_t most) {
+    stride_ = (most + kernels::lanes - 1) / kernels::lanes * kernels::lanes;
+    if (data_.size() < stride_ * Components) data_.resize(stride_ * Components);
+    owners_.clear();
+    touches_.clear();
+    owner_count_ = 0;
+  }
+
+  /// Adds the feature that `owner` stands for, and whether it may touch anything of the other leaf.
+  /// Coordinates too large for the kernels are left out, and its size says so.
+  void add(std::uint32_t owner, const FilterFrame& frame, const std::array<Eigen::Vector3d, Corners>& corners,
+           bool touches) {
+    double size = kernels::least_size;
+    std::array<Eigen::Vector3d, Corners> local;
+    for (std::size_t corner = 0; corner < Corners; ++corner) {
+      local[corner] = frame.to_local(corners[corner]);
+      for (int axis = 0; axis < 3; ++axis) size = std::max(size, std::abs(local[corner][axis]));
+    }
+    const bool fits = size <= kernels::largest_size;
+    float* at = data_.data() + owners_.size();
+    for (const Eigen::Vector3d& point : local)
+      for (int axis = 0; axis < 3; ++axis, at += stride_) *at = fits ? static_cast<float>(point[axis]) : 0.0F;
+    *at = fits ? static_cast<float>(size) : std::numeric_limits<float>::infinity();
+    if (owners_.empty() || owners_.back() != owner) ++owner_count_;
+    owners_.push_back(owner);
+    touches_.push_back(touches ? 1 : 0);
+  }
+
+  [[nodiscard]] Part part() const { return part_; }
+  [[nodiscard]] std::size_t count() const { return owners_.size(); }
+  /// Features of one owner, such as a quad's triangles, are added one after the other and count once here.
+  [[nodiscard]] std::size_t owner_count() const { return owner_count_; }
+  [[nodiscard]] std::uint32_t owner(std::size_t i) const { return owners_[i]; }
+  [[nodiscard]] bool touches(std::size_t i) const { return touches_[i] != 0; }
+  [[nodiscard]] float component(std::size_t k, std::size_t i) const { return data_[k * stride_ + i]; }
+  [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }
+  /// For what the kernels prepare.
+  [[nodiscard]] float* data() { return data_.data(); }
+  [[nodiscard]] std::size_t stride() const { return stride_; }
+
+ private:
+  std::vector<float> data_;
+  std::size_t stride_ = 0;
+  std::vector<std::uint32_t> owners_;
+  std::vector<std::uint8_t> touches_;
+  std::size_t owner_count_ = 0;
+  Part part_;
+};
+
+using PointBlock = FeatureBlock<1, kernels::point::count>;
+using SegmentBlock = FeatureBlock<2, kernels::segment::count>;
+using TriangleBlock = FeatureBlock<3, kernels::triangle::count>;
+
+/// One feature by itself.
+inline kernels::Point row_of(const PointBlock& block, std::size_t i) {
+  return {{block.component(0, i), block.component(1, i), block.component(2, i)}, block.component(3, i)};
+}
+inline kernels::Segment row_of(const SegmentBlock& block, std::size_t i) {
+  return {{block.component(0, i), block.component(1, i), block.component(2, i)},
+          {block.component(3, i), block.component(4, i), block.component(5, i)},
+          block.component(6, i)};
+}
+
+}  // namespace graze

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// Float kernels that say which pairs of features are certainly far apart. They are compiled once for each
+/// instruction set, so this header has no inline function that another translation unit might share with
+/// them. docs/numerics.md derives the margin.
+namespace graze::kernels {
+
+/// Features as a structure of arrays: component k of feature i is data[k * stride + i]. The stride is a
+/// multiple of `lanes`, and the values between count and stride may be anything.
+struct Block {
+  const float* data = nullptr;
+  std::size_t stride = 0;
+  std::size_t count = 0;
+};
+inline constexpr std::size_t lanes = 16;
+
+/// Components of a block. A feature's `size` is the largest magnitude of its coordinates, at least
+/// `least_size`; infinite where they are not to be trusted, and then the feature survives everything. What
+/// stands behind the size is filled in by `prepare_…`.
+namespace point {
+inline constexpr std::size_t position = 0, size = 3, count = 4;
+}
+namespace segment {
+inline constexpr std::size_t p = 0, q = 3, size = 6;
+inline constexpr std::size_t inverse_length_squared = 7, count = 8;
+}  // namespace segment
+namespace triangle {
+inline constexpr std::size_t corner0 = 0, corner1 = 3, corner2 = 6, size = 9;
+inline constexpr std::size_t box_min = 10, box_max = 13, normal = 16;
+inline constexpr std::size_t uu = 19, uv = 20, vv = 21;  // products of the sides u = 0-1 and v = 0-2
+inline constexpr std::size_t inverse_uu = 22, inverse_vv = 23, inverse_ww = 24, count = 25;  // w = 1-2
+}  // namespace triangle
+
+/// How far a lower bound may be above the truth, relative to the sum of the two features' sizes: 24 units of
+/// 2^-24, of which the analysis needs 17.
+inline constexpr float margin = 0x1.8p-20F;
+/// Below it underflow could count.
+inline constexpr float least_size = 0x1p-20F;
+/// Above it products could overflow.
+inline constexpr float largest_size = 0x1p20F;
+/// A separating axis shorter than this says nothing.
+inline constexpr float least_axis_squared = 0x1p-60F;
+
+/// One feature of a block by itself: its components up to and with its size.
+struct Point {
+  float position[3];
+  float size;
+};
+struct Segment {
+  float p[3], q[3];
+  float size;
+};
+
+/// What is left: numbers into the block, ascending, and a lower bound of each one's distance, which minus
+/// infinity stands for where a size is not to be trusted. Room for a whole block each.
+struct Survivors {
+  std::uint32_t* index = nullptr;
+  float* bound = nullptr;
+};
+
+/// The kernels of one instruction set. `prepare_…` computes what stands behind the sizes. `near_…` discards
+/// what is certainly further than `limit`, `maybe_pierced` the triangles that the segment certainly does not
+/// touch; both return how many are left.
+struct Filter {
+  void (*prepare_segments)(float* data, std::size_t stride, std::size_t count);
+  void (*prepare_triangles)(float* data, std::size_t stride, std::size_t count);
+  std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
+  std::size_t (*near_segments)(const Segment& segment, const Block& segments, float limit,
+                               const Survivors& out);
+  std::size_t (*near_triangles)(const Point& point, const Block& triangles, float limit,
+                                const Survivors& out);
+  std::size_t (*maybe_pierced)(const Segment& segment, const Block& triangles, const Survivors& out);
+};
+
+/// The kernels in use, chosen once; see graze/instruction_set.hpp.
+const Filter& filter();
+
+}  // namespace graze::kernels

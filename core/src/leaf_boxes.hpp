@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <graze/surface.hpp>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// The boxes of one surface's leaves where it is now: those of its refit where that is of now, otherwise made
+/// here when asked for. A query reads few leaves of a large surface, so they are not worth a refit of all.
+class LeafBoxes {
+ public:
+  /// For one query; `surface` does not change meanwhile.
+  void begin(const Surface& surface, bool about_vertices) {
+    surface_ = &surface;
+    about_vertices_ = about_vertices;
+    const bool fitted =
+        (about_vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit()) == 0;
+    fitted_ = {};
+    if (fitted) fitted_ = about_vertices ? surface.vertex_boxes() : surface.face_boxes();
+    if (fitted) return;
+    const std::size_t count = surface.mesh().regions().regions().size();
+    if (boxes_.size() < count) {
+      boxes_.resize(count);
+      made_in_.resize(count, 0);
+    }
+    if (++query_ == 0) {  // after 2^32 queries
+      std::fill(made_in_.begin(), made_in_.end(), 0);
+      query_ = 1;
+    }
+  }
+
+  /// Stays until the next `begin`.
+  const Box& of(std::uint32_t leaf) {
+    if (!fitted_.empty()) return fitted_[leaf];
+    if (made_in_[leaf] != query_) {
+      made_in_[leaf] = query_;
+      const Region& region = surface_->mesh().regions().region(leaf);
+      boxes_[leaf] = about_vertices_ ? surface_->vertex_box_now(region) : surface_->face_box_now(region);
+    }
+    return boxes_[leaf];
+  }
+
+ private:
+  const Surface* surface_ = nullptr;
+  bool about_vertices_ = false;
+  std::span<const Box> fitted_;
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> made_in_;  ///< in which query the box was made
+  std::uint32_t query_ = 0;
+};
+
+}  // namespace graze

@@ -1,0 +1,109 @@
+// The report is the same bit for bit, counters included, with the kernels of every instruction set.
+
+#include <graze/instruction_set.hpp>
+#include <graze/pair_query.hpp>
+#include <iostream>
+
+#include "scheduler/moving_scene.hpp"
+#include "scheduler/report_text.hpp"
+#include "support/catch.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+namespace {
+
+constexpr std::array<ContactDetail, 5> details = {ContactDetail::none, ContactDetail::closest,
+                                                  ContactDetail::regions, ContactDetail::vertices,
+                                                  ContactDetail::features};
+
+/// What steps counted, times left out.
+void require_same_counters(const StepStatistics& mine, const StepStatistics& theirs) {
+  REQUIRE(mine.pairs_tested == theirs.pairs_tested);
+  REQUIRE(mine.region_pairs_tested == theirs.region_pairs_tested);
+  REQUIRE(mine.leaf_pairs_tested == theirs.leaf_pairs_tested);
+  REQUIRE(mine.discarded_in_float == theirs.discarded_in_float);
+  REQUIRE(mine.decided_in_double == theirs.decided_in_double);
+  REQUIRE(mine.exact_decisions == theirs.exact_decisions);
+  REQUIRE(mine.regions_expanded == theirs.regions_expanded);
+}
+
+/// Runs `play`, which gives reports, once for each instruction set, and compares them with plain code's; how
+/// many pairs float discarded.
+template <typename Play>
+std::uint64_t compare_instruction_sets(const Play& play) {
+  const InstructionSet before = instruction_set();
+  use_instruction_set(InstructionSet::scalar);
+  const std::vector<ReportHandle> expected = play();
+  std::uint64_t discarded = 0;
+  for (const ReportHandle& report : expected) discarded += report->statistics().discarded_in_float;
+  for (const InstructionSet set : available_instruction_sets()) {
+    if (set == InstructionSet::scalar) continue;
+    use_instruction_set(set);
+    const std::vector<ReportHandle> found = play();
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      INFO(to_string(set) << ", report " << i);
+      REQUIRE(difference_of(*found[i], *expected[i]) == "");
+      require_same_counters(found[i]->statistics(), expected[i]->statistics());
+    }
+  }
+  use_instruction_set(before);
+  return discarded;
+}
+
+std::vector<Accuracy> accuracies_of(ContactDetail detail) {
+  std::vector<Accuracy> accuracies{Accuracy::exact(), Accuracy::within(0.02)};
+  if (is_about_vertices(detail)) {
+    accuracies.push_back(Accuracy::paper());
+    accuracies.push_back(Accuracy::paper({0.8, 0.4, 0.1}));
+  }
+  return accuracies;
+}
+
+/// The reports of a scene of each of many seeds.
+std::vector<ReportHandle> step_random_scenes(ContactDetail detail, const Accuracy& accuracy) {
+  std::vector<ReportHandle> reports;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const oracle::RandomScene random = oracle::random_scene(seed);
+    SceneSettings settings;
+    settings.contact_distance = random.threshold;
+    settings.range = 2 * random.threshold + 1;
+    settings.detail = detail;
+    settings.accuracy = accuracy;
+    settings.threads = 1;
+    Scene scene(settings);
+    scene.add(mesh_of(random.a));
+    scene.add(mesh_of(random.b));
+    reports.push_back(scene.step());
+  }
+  return reports;
+}
+
+}  // namespace
+
+TEST_CASE("a moving scene's reports are the same bit for bit with every instruction set") {
+  const MovingScene moving;
+  std::size_t runs = 0;
+  for (const ContactDetail detail : details)
+    for (const Accuracy& accuracy : accuracies_of(detail)) {
+      SceneSettings settings = settings_of(0.05, 0.25, detail);
+      settings.accuracy = accuracy;
+      settings.threads = 2;
+      CHECK(compare_instruction_sets([&] { return moving.play(settings, 12); }) > 5'000);
+      ++runs;
+    }
+  std::cout << "compared " << available_instruction_sets().size() << " instruction sets in " << runs
+            << " runs of 12 frames\n";
+}
+
+TEST_CASE("random scenes' reports are the same bit for bit with every instruction set") {
+  std::size_t scenes = 0;
+  for (const ContactDetail detail : details)
+    for (const Accuracy& accuracy : accuracies_of(detail)) {
+      CHECK(compare_instruction_sets([&] { return step_random_scenes(detail, accuracy); }) > 100);
+      scenes += 200;
+    }
+  std::cout << "compared " << scenes << " scenes\n";
+}
+
+}  // namespace graze::tests
