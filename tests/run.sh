@@ -1,6 +1,7 @@
 #!/bin/sh
 # The test command: installs what is missing, builds and runs all tests as users build graze, and once more under the
-# address and undefined-behaviour sanitizers with the structure validators on. Ends with a line of counts.
+# address and undefined-behaviour sanitizers with the structure validators on; then each fuzzer for a short time. Ends
+# with a line of counts.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -29,6 +30,9 @@ run_preset() {
 run_preset release --parallel "$(nproc)"
 # The contract's programs build libraries of their own: one run of them is enough.
 run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_'
+
+# Each fuzzer for a short time, from its seeds (docs/fuzzing.md).
+run_preset fuzz --parallel "$(nproc)"
 
 # ctest counts in each results file's first element.
 count() {

@@ -27,6 +27,8 @@ class BodyReader {
     first_ = static_cast<std::uint32_t>(result_.body.vertices.size());
     add_faces(mesh);
     if (!has_surface(mesh)) return;
+    if (mesh.mVertices == nullptr)
+      fail(path_, joined("mesh '", mesh.mName.C_Str(), "': it has no positions; export it again"));
     for (unsigned i = 0; i < mesh.mNumVertices; ++i)
       result_.body.vertices.push_back(to_eigen(mesh.mVertices[i]));
     add_targets(mesh);
@@ -130,7 +132,12 @@ NodeObject read_node_object(const std::filesystem::path& path, const aiScene& sc
                             std::uint32_t node, bool use_rest_weights) {
   BodyReader reader(path, nodes, node, use_rest_weights);
   const aiNode& source = *nodes.sources[node];
-  for (unsigned i = 0; i < source.mNumMeshes; ++i) reader.add(*scene.mMeshes[source.mMeshes[i]]);
+  for (const unsigned mesh : std::span(source.mMeshes, source.mNumMeshes)) {
+    if (mesh >= scene.mNumMeshes)
+      fail(path, joined("node '", source.mName.C_Str(), "' names mesh ", mesh, " of ", scene.mNumMeshes,
+                        "; export the file again"));
+    reader.add(*scene.mMeshes[mesh]);
+  }
   return reader.finish();
 }
 

@@ -20,7 +20,8 @@ struct NodeObject {
 };
 
 /// Joins the meshes of a node and welds their vertices. `use_rest_weights`: whether the file's format gives
-/// morph targets a weight while nothing plays. Throws InputError for a corner that names no vertex.
+/// morph targets a weight while nothing plays. Throws InputError for a number that names no
+/// mesh or vertex.
 NodeObject read_node_object(const std::filesystem::path& path, const aiScene& scene, const NodeTable& nodes,
                             std::uint32_t node, bool use_rest_weights);
 

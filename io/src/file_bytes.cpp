@@ -8,10 +8,7 @@
 namespace graze::io {
 
 void fail(const std::filesystem::path& path, const std::string& what) {
-  std::string message = joined(path.string(), ": ", what);
-  std::replace_if(
-      message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  throw InputError(message);
+  throw InputError(joined(path.string(), ": ", what));
 }
 
 void fail(const std::filesystem::path& path, std::size_t line, const std::string& what) {

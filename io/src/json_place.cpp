@@ -27,13 +27,18 @@ std::string line_and_column(std::string_view text, std::size_t end) {
   return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_start + 1);
 }
 
-/// Refuses a key that an object has twice: the parser would keep the last without a word.
-class KeyGuard {
+/// Refuses a key that an object has twice (the parser would keep the last without a word), and values so deep
+/// that showing them, which recurses, would end the stack.
+class Guard {
  public:
-  explicit KeyGuard(std::string file) : file_(std::move(file)) {}
+  explicit Guard(std::string file) : file_(std::move(file)) {}
 
-  bool operator()(int /*depth*/, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
+  bool operator()(int depth, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
+    constexpr int deepest = 200;
     using Event = nlohmann::json::parse_event_t;
+    if (depth > deepest)
+      throw InputError(file_ + ": nested deeper than " + std::to_string(deepest) +
+                       " levels; write it without the brackets");
     if (event == Event::object_start) open_.emplace_back();
     if (event == Event::object_end) open_.pop_back();
     if (event == Event::key && !open_.back().insert(parsed.get<std::string>()).second)
@@ -59,7 +64,7 @@ std::string shown(const nlohmann::json& value) {
 nlohmann::json parse_json_file(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   try {
-    KeyGuard guard(path.string());
+    Guard guard(path.string());
     return nlohmann::json::parse(text, std::ref(guard));
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(path.string() + ": " + line_and_column(text, error.byte) +

@@ -9,6 +9,7 @@
 #include "object_file.hpp"
 #include "raw_object.hpp"
 #include "rig.hpp"
+#include "text_lines.hpp"
 
 namespace graze::io {
 
@@ -75,6 +76,7 @@ MeshFile MeshFile::read(const std::filesystem::path& path) {
     content->objects.push_back(std::move(loaded));
   }
   if (content->objects.empty()) fail(path, "there is no face in it; a mesh needs at least one");
+  for (std::string& warning : content->warnings) warning = one_line(std::move(warning));
   source.rig.bodies = std::move(bodies);
   for (const auto& clip : source.rig.clips) content->animations.push_back(clip.name);
   content->rig = std::move(source.rig);

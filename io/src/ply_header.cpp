@@ -1,5 +1,6 @@
 #include "ply_header.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -102,6 +103,9 @@ class PlyHeaderReader {
 
   PlyHeader finished() {
     if (!has_format_) fail_line("the header has no format line; add one");
+    const auto vertices = std::ranges::count(header_.elements, "vertex", &PlyElement::name);
+    if (vertices == 0) fail(path_, "header: there is no element 'vertex'; add the vertices");
+    if (vertices > 1) fail(path_, "header: element 'vertex' stands twice; join the two");
     header_.body_begin = bytes_.size() - lines_.rest().size();
     return std::move(header_);
   }

@@ -32,7 +32,7 @@ struct PlyHeader {
   std::size_t body_begin = 0;  ///< in bytes
 };
 
-/// Throws InputError.
+/// Exactly one element is called `vertex`. Throws InputError.
 PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace graze::io

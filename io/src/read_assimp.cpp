@@ -10,9 +10,7 @@
 #include <memory>
 #include <span>
 
-#include "assimp_body.hpp"
-#include "assimp_clips.hpp"
-#include "assimp_nodes.hpp"
+#include "assimp_scene.hpp"
 #include "file_bytes.hpp"
 #include "gltf_source.hpp"
 
@@ -61,43 +59,6 @@ void require_all_faces(const std::filesystem::path& path, const aiScene& scene, 
   }
 }
 
-std::string object_name(const aiScene& scene, const aiNode& node) {
-  std::string name = node.mName.C_Str();
-  // Names such as "<STL_ROOT>" are assimp's own.
-  if (!name.empty() && name.front() != '<') return name;
-  return scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
-}
-
-RiggedFile convert(const std::filesystem::path& path, const aiScene& scene, const SteppedTracks& steps) {
-  const std::string extension = lower_extension(path);
-  const bool use_rest_weights = extension == ".gltf" || extension == ".glb" || extension == ".dae";
-  NodeTable nodes(scene);
-  RiggedFile result;
-  result.rig.clips = read_clips(scene, nodes, steps);
-  std::size_t small_faces = 0;
-  for (std::uint32_t node = 0; node < nodes.sources.size(); ++node) {
-    if (nodes.sources[node]->mNumMeshes == 0) continue;
-    NodeObject object = read_node_object(path, scene, nodes, node, use_rest_weights);
-    small_faces += object.small_faces;
-    for (const auto& bone : object.missing_bones)
-      result.file.warnings.push_back(
-          joined(path.string(), ": bone '", bone, "' has no node; its weights were left out"));
-    if (object.faces.corner_counts.empty()) continue;
-    result.file.objects.push_back({object_name(scene, *nodes.sources[node]), std::move(object.faces)});
-    result.rig.bodies.push_back(std::move(object.body));
-  }
-  result.rig.nodes = std::move(nodes.nodes);
-  for (std::size_t i = 0; i < result.rig.bodies.size(); ++i) {
-    RawSurface& surface = result.file.objects[i].surface;
-    pose(result.rig, result.rig.bodies[i], nullptr, 0, surface.positions);
-    if (is_mirrored(result.rig, result.rig.bodies[i])) turn_faces(surface);
-  }
-  if (small_faces > 0)
-    result.file.warnings.push_back(joined(path.string(), ": ", small_faces,
-                                          " points, lines or faces with fewer than 3 corners were left out"));
-  return result;
-}
-
 }  // namespace
 
 RiggedFile read_assimp(const std::filesystem::path& path) {
@@ -110,9 +71,9 @@ RiggedFile read_assimp(const std::filesystem::path& path) {
   Assimp::Importer importer;
   if (gltf) importer.SetIOHandler(std::make_unique<PreparedFile>(path.string(), gltf->bytes).release());
   const aiScene& scene = load(path, importer);
-  if (!gltf) return convert(path, scene, {});
+  if (!gltf) return convert_scene(path, scene, {});
   require_all_faces(path, scene, *gltf);
-  RiggedFile result = convert(path, scene, gltf->steps);
+  RiggedFile result = convert_scene(path, scene, gltf->steps);
   result.file.warnings.insert(result.file.warnings.begin(), gltf->warnings.begin(), gltf->warnings.end());
   return result;
 }

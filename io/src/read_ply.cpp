@@ -1,6 +1,7 @@
 // PLY is read here and not by assimp (5.2), which keeps single precision only and takes corners that name no
 // vertex.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -70,6 +71,10 @@ class PlyNumbers {
   bool swap_;
 };
 
+std::uint64_t vertex_rows(const PlyHeader& header) {
+  return std::ranges::find(header.elements, "vertex", &PlyElement::name)->row_count;
+}
+
 class PlyReader {
  public:
   PlyReader(const std::filesystem::path& path, std::string_view bytes)
@@ -78,9 +83,7 @@ class PlyReader {
         numbers_(bytes.substr(header_.body_begin), header_.encoding) {}
 
   RawFile read() {
-    std::uint64_t vertex_count = 0;
-    for (const auto& element : header_.elements)
-      if (element.name == "vertex") vertex_count = element.row_count;
+    const std::uint64_t vertex_count = vertex_rows(header_);
     for (const auto& element : header_.elements) read_element(element, vertex_count);
     RawFile file;
     file.objects.push_back({"", std::move(surface_)});
@@ -211,9 +214,7 @@ RawFile read_ply(const std::filesystem::path& path) {
 
 std::uint64_t announced_ply_vertices(const std::filesystem::path& path) {
   const std::string bytes = read_bytes(path, header_bytes);
-  for (const auto& element : read_ply_header(path, bytes).elements)
-    if (element.name == "vertex") return element.row_count;
-  fail(path, "header: there is no element 'vertex'; add the vertices");
+  return vertex_rows(read_ply_header(path, bytes));
 }
 
 }  // namespace graze::io

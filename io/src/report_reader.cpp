@@ -7,6 +7,7 @@
 #include <graze/io/scene_file.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "statistics_fields.hpp"
 
@@ -42,6 +43,17 @@ typename Enumerators::value_type named(const Enumerators& all, const json& value
   return *found;
 }
 
+/// A whole number that `Whole` holds; the parser's own conversion takes any number, rounded or wrapped
+/// around.
+template <typename Whole>
+Whole read_whole(const json& value) {
+  const bool fits = value.is_number_integer() &&
+                    (value.is_number_unsigned() ? std::in_range<Whole>(value.get<std::uint64_t>())
+                                                : std::in_range<Whole>(value.get<std::int64_t>()));
+  if (!fits) throw BadLine("a number is not whole, or too large or small for its place");
+  return value.get<Whole>();
+}
+
 double read_real(const json& value) {
   if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (value == "infinity") return std::numeric_limits<double>::infinity();
@@ -53,9 +65,13 @@ Eigen::Vector3d read_point(const json& value) {
   return {read_real(value.at(0)), read_real(value.at(1)), read_real(value.at(2))};
 }
 
+EdgeVertices read_edge(const json& value) {
+  return {read_whole<std::uint32_t>(value.at(0)), read_whole<std::uint32_t>(value.at(1))};
+}
+
 Feature read_feature(const json& value, EdgeVertices& edge) {
-  const Feature feature{named(feature_kinds, value.at(0)), value.at(1).get<std::uint32_t>()};
-  if (feature.kind == FeatureKind::edge) edge = value.at(2).get<EdgeVertices>();
+  const Feature feature{named(feature_kinds, value.at(0)), read_whole<std::uint32_t>(value.at(1))};
+  if (feature.kind == FeatureKind::edge) edge = read_edge(value.at(2));
   return feature;
 }
 
@@ -75,8 +91,8 @@ ReportedContact read_contact(const json& value) {
 
 ReportedPair read_pair(const json& value) {
   ReportedPair pair;
-  pair.a = value.at("a").get<std::uint32_t>();
-  pair.b = value.at("b").get<std::uint32_t>();
+  pair.a = read_whole<std::uint32_t>(value.at("a"));
+  pair.b = read_whole<std::uint32_t>(value.at("b"));
   pair.phase = named(phases, value.at("phase"));
   pair.complete = value.value("complete", true);
   pair.stale = value.value("stale", false);
@@ -93,7 +109,7 @@ ReportedPair read_pair(const json& value) {
 ReportedDiagnostic read_diagnostic(const json& value) {
   ReportedDiagnostic diagnostic;
   if (const json& object = value.at("object"); !object.is_null())
-    diagnostic.object = object.get<std::uint32_t>();
+    diagnostic.object = read_whole<std::uint32_t>(object);
   diagnostic.kind = named(diagnostic_kinds, value.at("kind"));
   diagnostic.message = value.at("message").get<std::string>();
   return diagnostic;
@@ -101,11 +117,13 @@ ReportedDiagnostic read_diagnostic(const json& value) {
 
 StepStatistics read_statistics(const json& value) {
   StepStatistics statistics;
-  for (const auto& [name, member] : counter_fields) statistics.*member = value.at(name).get<std::uint64_t>();
+  for (const auto& [name, member] : counter_fields)
+    statistics.*member = read_whole<std::uint64_t>(value.at(name));
   const json& expanded = value.at("regions_expanded");
   if (expanded.size() > statistics.regions_expanded.size())
     throw BadLine("regions_expanded has too many levels");
-  std::ranges::copy(expanded.get<std::vector<std::uint64_t>>(), statistics.regions_expanded.begin());
+  for (std::size_t level = 0; level < expanded.size(); ++level)
+    statistics.regions_expanded[level] = read_whole<std::uint64_t>(expanded.at(level));
   for (const auto& [name, member] : time_fields)
     if (const auto found = value.find(name); found != value.end()) statistics.*member = read_real(*found);
   return statistics;
@@ -113,7 +131,7 @@ StepStatistics read_statistics(const json& value) {
 
 ReportedFrame read_frame(const json& value) {
   ReportedFrame frame;
-  frame.frame = value.at("frame").get<std::uint64_t>();
+  frame.frame = read_whole<std::uint64_t>(value.at("frame"));
   frame.complete = value.at("complete").get<bool>();
   for (const json& pair : value.at("pairs")) frame.pairs.push_back(read_pair(pair));
   for (const json& diagnostic : value.at("diagnostics"))
@@ -137,14 +155,15 @@ SceneSettings read_settings(const json& value) {
   settings.detail = *detail;
   settings.accuracy = read_accuracy(value.at("accuracy"));
   if (value.contains("time_budget_us"))
-    settings.time_budget = std::chrono::microseconds(value.at("time_budget_us").get<std::int64_t>());
-  if (value.contains("work_budget")) settings.work_budget = value.at("work_budget").get<std::uint64_t>();
+    settings.time_budget = std::chrono::microseconds(read_whole<std::int64_t>(value.at("time_budget_us")));
+  if (value.contains("work_budget"))
+    settings.work_budget = read_whole<std::uint64_t>(value.at("work_budget"));
   return settings;
 }
 
 ReportedObject read_object(const json& value) {
-  return {value.at("id").get<std::uint32_t>(), value.at("name").get<std::string>(),
-          value.at("vertices").get<std::uint32_t>(), value.at("faces").get<std::uint32_t>()};
+  return {read_whole<std::uint32_t>(value.at("id")), value.at("name").get<std::string>(),
+          read_whole<std::uint32_t>(value.at("vertices")), read_whole<std::uint32_t>(value.at("faces"))};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 namespace graze::io {
@@ -31,6 +32,13 @@ class TextLines {
   std::string_view rest_;
   std::size_t line_ = 0;
 };
+
+/// The text with a blank for each end of a line.
+inline std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
 
 /// Without blanks at both ends.
 inline std::string_view trimmed(std::string_view text) {

@@ -125,7 +125,9 @@ TEST_CASE("PLY errors name the line or the row") {
        "y\n"
        "property double z\nend_header\n0123456789",
        "vertex 0 (counted from 0): the file ends here"},
-      {"ply\nformat ascii 1.0\nelement nothing 4000000000\nend_header\n", "there is no face in it"},
+      {"ply\nformat ascii 1.0\nelement nothing 4000000000\nelement vertex 0\nproperty float x\nproperty "
+       "float y\nproperty float z\nend_header\n",
+       "there is no face in it"},
   };
   for (const auto& [text, message] : table) {
     INFO(text);

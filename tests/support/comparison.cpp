@@ -56,6 +56,32 @@ std::string difference_of(const Contact& contact, const oracle::Named& expected,
 
 }  // namespace
 
+Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail,
+                     const oracle::Shape& rest_a, const oracle::Shape& rest_b) {
+  const bool about_vertices = detail == ContactDetail::vertices || detail == ContactDetail::regions;
+  Expected expected;
+  expected.distance = about_vertices ? oracle::vertex_distance(a, b) : oracle::surface_distance(a, b);
+  if (detail == ContactDetail::features) expected.contacts = oracle::features(a, b, threshold);
+  if (detail == ContactDetail::vertices) expected.contacts = oracle::vertices(a, b, threshold);
+  if (detail == ContactDetail::regions) expected.contacts = oracle::regions(a, b, threshold, rest_a, rest_b);
+  if (detail == ContactDetail::closest)
+    if (const auto closest = oracle::closest(a, b, threshold)) expected.contacts = {*closest};
+  expected.in_contact = !expected.contacts.empty();
+  if (detail == ContactDetail::none)
+    expected.in_contact = expected.distance.pierced || is_within(expected.distance, threshold);
+  return expected;
+}
+
+Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail) {
+  return expected_of(a, b, threshold, detail, a, b);
+}
+
+bool is_within(const oracle::Pair& distance, double reach) {
+  if (reach == std::numeric_limits<double>::infinity()) return true;
+  const mpq_class exact(reach);
+  return distance.distance_squared < exact * exact;
+}
+
 Tolerance::Tolerance(const oracle::Shape& a, const oracle::Shape& b)
     : a_{a, oracle::edges_of(a)}, b_{b, oracle::edges_of(b)} {}
 

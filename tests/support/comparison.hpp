@@ -29,6 +29,20 @@ class Tolerance {
   Side b_;
 };
 
+/// What brute force says of a pair in exact mode.
+struct Expected {
+  std::vector<oracle::Named> contacts;
+  oracle::Pair distance;
+  bool in_contact = false;
+};
+Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail,
+                     const oracle::Shape& rest_a, const oracle::Shape& rest_b);
+/// The same for shapes at rest.
+Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail);
+
+/// Whether a pair is strictly closer than `reach`, decided exactly.
+bool is_within(const oracle::Pair& distance, double reach);
+
 /// What is wrong with contacts measured against the oracle's: another set, or a value off by more than the
 /// contract allows. Empty where all is well.
 std::string difference_of(std::span<const Contact> contacts, const std::vector<oracle::Named>& expected,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <graze/error.hpp>
+#include <string>
 
 namespace graze::io {
 
@@ -8,7 +9,8 @@ namespace graze::io {
 /// as "liver.obj: line 12: a face names vertex 99 of 8; remove the face or add the vertex".
 class GRAZE_API InputError : public graze::Error {
  public:
-  using graze::Error::Error;
+  /// Ends of lines in `message`, which names of the file may bring in, become blanks.
+  explicit InputError(const std::string& message);
 };
 
 }  // namespace graze::io

@@ -1,0 +1,188 @@
+// Writes the inputs that fuzzers start from: make_corpus FOLDER [ASSIMP_MODELS]. FOLDER gets a folder for
+// each target; of assimp's test models the small ones of our formats are taken.
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <graze/graze.hpp>
+#include <graze/io/report_json.hpp>
+#include <iostream>
+#include <limits>
+
+#include "gltf_texts.hpp"
+#include "mesh_text.hpp"
+#include "pair_case.hpp"
+#include "report_meshes.hpp"
+#include "scene_files.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::fuzz {
+namespace {
+
+/// One target's folder.
+class Seeds {
+ public:
+  Seeds(const std::filesystem::path& corpus, const std::string& target) : folder_(corpus / target) {
+    std::filesystem::create_directories(folder_);
+  }
+
+  void add(const std::string& bytes) {
+    std::ofstream(folder_ / ("seed_" + std::to_string(count_++)), std::ios::binary) << bytes;
+  }
+  /// Bytes by chance, for targets that build their case from them.
+  void add_random(std::uint64_t seed, std::size_t size) {
+    oracle::Random random(seed);
+    std::string bytes;
+    for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(random.below(256));
+    add(bytes);
+  }
+  [[nodiscard]] std::filesystem::path next_path() { return folder_ / ("seed_" + std::to_string(count_++)); }
+
+ private:
+  std::filesystem::path folder_;
+  std::size_t count_ = 0;
+};
+
+template <typename Number>
+std::string bytes_of(Number number, bool is_big_endian) {
+  std::string bytes(sizeof number, '\0');
+  std::memcpy(bytes.data(), &number, sizeof number);
+  if (is_big_endian) std::reverse(bytes.begin(), bytes.end());
+  return bytes;
+}
+
+std::string binary_ply(bool is_big_endian) {
+  std::string text = "ply\nformat binary_" + std::string(is_big_endian ? "big" : "little") +
+                     "_endian 1.0\ncomment four corners\nelement vertex 4\nproperty double x\n"
+                     "property float y\nproperty short z\nproperty uchar red\nelement face 2\n"
+                     "property list uchar uint vertex_index\nelement tristrips 1\n"
+                     "property list int int vertex_indices\nend_header\n";
+  for (int i = 0; i < 4; ++i)
+    text += bytes_of(0.5 * i, is_big_endian) + bytes_of(static_cast<float>(i * i), is_big_endian) +
+            bytes_of(static_cast<std::int16_t>(i % 2), is_big_endian) +
+            bytes_of(std::uint8_t{7}, is_big_endian);
+  for (const std::vector<std::uint32_t>& face : {std::vector<std::uint32_t>{0, 1, 2, 3}, {3, 1, 0}}) {
+    text += static_cast<char>(face.size());
+    for (const std::uint32_t corner : face) text += bytes_of(corner, is_big_endian);
+  }
+  for (const int number : {7, 0, 1, 2, 3, -1, 2, 1}) text += bytes_of(number, is_big_endian);
+  return text;
+}
+
+std::vector<std::string> mesh_texts(MeshFormat format) {
+  io::RawSurface surface;
+  surface.positions = {{0, 0, 0}, {1, -0.0, 1e-310}, {1, 1, 0.1}, {0, 1, -1e300}, {0.5, 2, 0}};
+  for (const std::vector<std::uint32_t>& face :
+       {std::vector<std::uint32_t>{0, 1, 2, 3}, {3, 2, 4}, {0, 1, 2, 4, 3}})
+    surface.add_face(face);
+  std::vector<std::string> texts = {mesh_text(format, surface)};
+  surface.positions.emplace_back(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  texts.push_back(mesh_text(format, surface));
+  if (format == MeshFormat::obj)
+    texts.emplace_back(
+        "# two\no box\nv 0 0 0\nv 1e2 0 0 \\\n\nv +0 1 0\ng a\nf 1//2 2/1 -1/3/4\ng b\r\nf 3 2 1 1\n");
+  if (format == MeshFormat::off)
+    texts.emplace_back("COFF 3 1 0 # c\n0 0 0 1 1 1 1\n1 0 0\n0 1 0\n\n3 0 1 2 255\n");
+  if (format == MeshFormat::ply) {
+    texts.push_back(binary_ply(false));
+    texts.push_back(binary_ply(true));
+  }
+  return texts;
+}
+
+/// What a few moving objects give, at every detail.
+void write_reports(Seeds& seeds) {
+  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
+                                     ContactDetail::vertices, ContactDetail::features}) {
+    SceneSettings settings;
+    settings.contact_distance = 0.25;
+    settings.range = detail == ContactDetail::none ? std::numeric_limits<double>::infinity() : 2;
+    settings.detail = detail;
+    if (detail == ContactDetail::regions) settings.accuracy = Accuracy::paper({1, 0.5});
+    if (detail == ContactDetail::closest) settings.work_budget = 3;
+    settings.threads = 1;
+    Scene scene(settings);
+    std::vector<io::SceneObject> objects;
+    for (const std::uint32_t count : {3U, 4U, 5U}) {
+      const auto mesh = report_mesh(count, 2);
+      const std::string name = "o\"" + std::to_string(count);
+      objects.push_back({scene.add(mesh, {.name = name}), name, mesh});
+    }
+    io::ReportWriter writer(seeds.next_path(), objects, settings,
+                            {.include_times = detail == ContactDetail::none});
+    std::vector<Eigen::Vector3d> positions(3, Eigen::Vector3d(0, 0.125, 0));
+    for (std::uint64_t frame = 0; frame < 2; ++frame) {
+      scene.set_positions(objects[0].id, positions);
+      writer.write(frame, *scene.step());
+      positions[1].x() = std::numeric_limits<double>::infinity();
+    }
+    writer.close();
+  }
+}
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// The models that are small enough to be mutated usefully.
+void add_models(const std::filesystem::path& models, Seeds& mesh_seeds, Seeds& gltf_seeds) {
+  constexpr std::uintmax_t largest = 16384;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(models))
+    if (entry.is_regular_file() && entry.file_size() > 0 && entry.file_size() <= largest)
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    const std::string extension = file.extension().string();
+    if (extension == ".gltf" || extension == ".glb")
+      gltf_seeds.add((extension == ".glb" ? '\1' : '\0') + read(file));
+    for (std::size_t i = 0; i < mesh_formats.size(); ++i)
+      if (extension == extension_of(mesh_formats[i])) mesh_seeds.add(static_cast<char>(i) + read(file));
+  }
+}
+
+void make_corpus(const std::filesystem::path& corpus, const std::filesystem::path& models) {
+  Seeds mesh_seeds(corpus, "mesh_text");
+  Seeds motion_seeds(corpus, "motion_file");
+  for (std::size_t i = 0; i < mesh_formats.size(); ++i)
+    for (const std::string& text : mesh_texts(mesh_formats[i])) {
+      mesh_seeds.add(static_cast<char>(i) + text);
+      std::string sequence = {static_cast<char>(2 + i), 4};  // of five vertices, as the first text has
+      for (int frame = 0; frame < 2; ++frame)
+        sequence.append(bytes_of(static_cast<std::uint16_t>(text.size()), false)).append(text);
+      motion_seeds.add(sequence);
+    }
+  motion_seeds.add(std::string("\0\2", 2) + cache_seed(true, 3, 2));
+  motion_seeds.add(std::string("\1\0", 2) + cache_seed(false, 1, 3));
+
+  Seeds scene_seeds(corpus, "scene_file");
+  for (const std::string& text : scene_file_seeds()) scene_seeds.add(text);
+  Seeds gltf_seeds(corpus, "gltf");
+  for (const std::string& text : gltf_texts()) gltf_seeds.add('\0' + text);
+  Seeds report_seeds(corpus, "report_json");
+  write_reports(report_seeds);
+  Seeds assimp_seeds(corpus, "assimp_data");
+  for (std::uint64_t seed = 0; seed < 40; ++seed) assimp_seeds.add_random(seed, 100 + 40 * seed);
+  Seeds pair_seeds(corpus, "pair");
+  for (std::uint64_t seed = 0; seed < 240; ++seed) {
+    const oracle::RandomScene scene = oracle::random_scene(seed);
+    pair_seeds.add(
+        pair_case_bytes({scene.a, scene.b, scene.threshold}, static_cast<ContactDetail>(seed / 8 % 5)));
+  }
+  Seeds step_seeds(corpus, "scene_steps");
+  for (std::uint64_t seed = 0; seed < 60; ++seed) step_seeds.add_random(1000 + seed, 200 + 20 * seed);
+  if (!models.empty()) add_models(models, mesh_seeds, gltf_seeds);
+}
+
+}  // namespace
+}  // namespace graze::fuzz
+
+int main(int count, char** arguments) {
+  if (count < 2) {
+    std::cerr << "usage: make_corpus FOLDER [ASSIMP_MODELS]\n";
+    return 2;
+  }
+  graze::fuzz::make_corpus(arguments[1], count > 2 ? arguments[2] : "");
+  return 0;
+}

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <graze/scene.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace graze::fuzz {
+
+using Positions = std::vector<Eigen::Vector3d>;
+using PoseRows = std::array<double, 12>;
+
+/// An object of the scene as the contract says it is.
+struct ModelBody {
+  ObjectId id;
+  std::shared_ptr<const Mesh> mesh;
+  ObjectSettings settings;
+  bool is_alive = true;
+  bool is_frozen = false;
+  Positions seen;                ///< where the last step saw it
+  std::optional<PoseRows> pose;  ///< the last that was taken
+
+  // What the next step takes up.
+  std::optional<Positions> copied;
+  std::optional<PoseRows> staged_pose;
+  bool is_bound = false;
+  BindPolicy policy = BindPolicy::every_step;
+  bool is_told = false;
+  bool is_promised = false;            ///< bound memory that is written now needs a new promise
+  std::unique_ptr<Positions> doubles;  ///< bound memory, one of the two; freed as soon as the contract allows
+  std::unique_ptr<std::vector<Eigen::Vector3f>> floats;
+
+  /// What a read of the bound memory would give.
+  [[nodiscard]] Positions memory() const;
+  void write_memory(const Positions& positions);
+  [[nodiscard]] bool can_take(const Positions& positions) const;
+};
+
+/// A promise of how far vertices move: none, one that is kept, or none that makes sense.
+enum class Promise { none, kept, senseless };
+
+/// Makes calls on a Scene, knows from the contract alone what each must come to, and compares every step with
+/// a scene built afresh. Bodies are named by the order in which they were added; those removed stay, as stale
+/// ids.
+class SceneModel {
+ public:
+  explicit SceneModel(const SceneSettings& settings);
+
+  [[nodiscard]] const std::vector<ModelBody>& bodies() const { return bodies_; }
+
+  void add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
+  void remove(std::size_t body);
+  void set_positions(std::size_t body, const Positions& positions, Promise promise);
+  void bind(std::size_t body, const Positions& positions, bool as_floats, BindPolicy policy);
+  void write(std::size_t body, const Positions& positions, bool tell, Promise promise);
+  void unbind(std::size_t body);
+  void set_pose(std::size_t body, const PoseRows& rows, bool is_rotation);
+  void set_ignored(std::size_t a, std::size_t b, bool ignored);
+  void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
+  /// A view that no object takes: of a wrong count, or null.
+  void give_bad_view(std::size_t body, bool is_null);
+
+  void step();
+
+ private:
+  using BodyPair = std::pair<std::size_t, std::size_t>;
+  /// What a scene built afresh says of one pair, at any distance.
+  struct Fresh {
+    ReportHandle report;
+    const PairReport* row = nullptr;
+    bool in_contact = false;
+  };
+
+  void expect_diagnostic(ObjectId id, DiagnosticKind kind) { expected_.emplace(id, kind); }
+  /// The body where the call is for a live deformable one; otherwise the diagnostic is noted.
+  ModelBody* deformable(std::size_t body);
+  double promise_of(const ModelBody& body, const Positions& positions, Promise promise);
+  void read(ModelBody& body);
+  void read_bound(ModelBody& body);
+
+  [[nodiscard]] PairRule rule_of(const BodyPair& pair) const;
+  [[nodiscard]] double threshold_of(const BodyPair& pair) const;
+  [[nodiscard]] std::map<BodyPair, Fresh> build_afresh() const;
+  void check_diagnostics(const FrameReport& report);
+  void check_rows(const FrameReport& report, const std::map<BodyPair, Fresh>& fresh);
+  void check_row(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                 const Fresh* fresh) const;
+  void check_values(const FrameReport& report, const PairReport& row, const Fresh& fresh) const;
+  [[nodiscard]] bool is_frozen(const BodyPair& pair) const;
+  [[nodiscard]] bool must_be_listed(const BodyPair& pair, const Fresh& fresh) const;
+
+  Scene scene_;
+  std::vector<ModelBody> bodies_;
+  std::map<ObjectId, std::size_t> body_of_;
+  std::multiset<std::pair<ObjectId, DiagnosticKind>> expected_;
+  std::set<BodyPair> ignored_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, PairRule> rules_;
+  std::set<BodyPair> in_contact_;  ///< of the last step
+  std::uint64_t frame_ = 0;
+};
+
+}  // namespace graze::fuzz

@@ -1,0 +1,175 @@
+// What each step of a scene must say.
+
+#include <algorithm>
+#include <limits>
+
+#include "finding.hpp"
+#include "scene_model.hpp"
+#include "scheduler/report_text.hpp"
+
+namespace graze::fuzz {
+namespace {
+
+bool is_contact(const PairReport& row) {
+  return row.phase == PairPhase::began || row.phase == PairPhase::touching;
+}
+
+/// Every bit of a row and its contacts, but for what depends on the steps before and on the objects' ids.
+std::string timeless(const FrameReport& report, PairReport row) {
+  row.a = {};
+  row.b = {};
+  row.phase = PairPhase::near;
+  return tests::text_of(report, row);
+}
+
+}  // namespace
+
+bool SceneModel::is_frozen(const BodyPair& pair) const {
+  return bodies_[pair.first].is_frozen || bodies_[pair.second].is_frozen;
+}
+
+PairRule SceneModel::rule_of(const BodyPair& pair) const {
+  const auto kinds = std::minmax(bodies_[pair.first].settings.kind, bodies_[pair.second].settings.kind);
+  const auto rule = rules_.find(kinds);
+  if (rule != rules_.end()) return rule->second;
+  return {scene_.settings().contact_distance, scene_.settings().range};
+}
+
+double SceneModel::threshold_of(const BodyPair& pair) const {
+  return rule_of(pair).contact_distance +
+         (bodies_[pair.first].settings.margin + bodies_[pair.second].settings.margin);
+}
+
+std::map<SceneModel::BodyPair, SceneModel::Fresh> SceneModel::build_afresh() const {
+  SceneSettings settings = scene_.settings();
+  settings.range = std::numeric_limits<double>::infinity();
+  settings.accuracy = Accuracy::exact();
+  settings.threads = 1;
+  settings.time_budget.reset();
+  settings.work_budget.reset();
+  Scene afresh(settings);
+  std::vector<ObjectId> ids(bodies_.size());
+  std::map<ObjectId, std::size_t> body_of;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const ModelBody& body = bodies_[i];
+    if (!body.is_alive || body.is_frozen) continue;
+    ids[i] = afresh.add(body.mesh, body.settings);
+    body_of[ids[i]] = i;
+    if (body.settings.motion == Motion::deformable)
+      afresh.set_positions(ids[i], body.seen);
+    else if (body.pose)
+      afresh.set_pose_rows(ids[i], *body.pose);
+  }
+  for (const auto& [a, b] : ignored_)
+    if (ids[a] != ObjectId{} && ids[b] != ObjectId{}) afresh.ignore(ids[a], ids[b]);
+  for (auto [kinds, rule] : rules_) {
+    rule.range = settings.range;
+    afresh.set_rule(kinds.first, kinds.second, rule);
+  }
+  std::map<BodyPair, Fresh> rows;
+  const ReportHandle report = afresh.step();
+  expect(report->diagnostics().empty(), "a scene built afresh has a diagnostic");
+  for (const PairReport& row : report->pairs())
+    rows[{body_of.at(row.a), body_of.at(row.b)}] = {report, &row, is_contact(row)};
+  return rows;
+}
+
+void SceneModel::step() {
+  for (ModelBody& body : bodies_)
+    if (body.is_alive) read(body);
+  const ReportHandle report = scene_.step();
+  expect(report->frame() == ++frame_, "frames are not counted one by one");
+  expect(scene_.latest_report()->frame() == frame_, "the latest report is not the last step's");
+  const auto alive =
+      std::count_if(bodies_.begin(), bodies_.end(), [](const ModelBody& body) { return body.is_alive; });
+  expect(scene_.object_count() == static_cast<std::size_t>(alive), "another number of objects");
+  const std::string problem = tests::inconsistency_of(*report);
+  if (!problem.empty()) finding(problem);
+  check_diagnostics(*report);
+  check_rows(*report, build_afresh());
+}
+
+void SceneModel::check_diagnostics(const FrameReport& report) {
+  std::multiset<std::pair<ObjectId, DiagnosticKind>> found;
+  std::string messages;
+  for (const Diagnostic& diagnostic : report.diagnostics()) {
+    found.emplace(diagnostic.object, diagnostic.kind);
+    messages += diagnostic.message + "\n";
+  }
+  std::string wanted;
+  for (const auto& [id, kind] : expected_)
+    wanted += std::string(to_string(kind)) + " of " + std::to_string(id.index) + "\n";
+  if (found != expected_) finding("diagnostics:\n" + messages + "instead of:\n" + wanted);
+  expected_.clear();
+}
+
+bool SceneModel::must_be_listed(const BodyPair& pair, const Fresh& fresh) const {
+  const double reach = std::max(rule_of(pair).range, threshold_of(pair));
+  // Bounds are the distance rounded down and up: it is below a double exactly where the lower one is.
+  return fresh.in_contact || fresh.row->distance.lower < reach;
+}
+
+void SceneModel::check_rows(const FrameReport& report, const std::map<BodyPair, Fresh>& fresh) {
+  std::set<BodyPair> listed;
+  std::set<BodyPair> now_in_contact;
+  for (const PairReport& row : report.pairs()) {
+    expect(body_of_.contains(row.a) && body_of_.contains(row.b), "a row of an object that never was");
+    const BodyPair pair(body_of_.at(row.a), body_of_.at(row.b));
+    expect(pair.first < pair.second && (listed.empty() || *listed.rbegin() < pair), "rows out of order");
+    listed.insert(pair);
+    expect(bodies_[pair.first].is_alive && bodies_[pair.second].is_alive, "a row of an object that is gone");
+    const auto known = fresh.find(pair);
+    check_row(report, row, pair, known == fresh.end() ? nullptr : &known->second);
+    if (is_contact(row)) now_in_contact.insert(pair);
+  }
+  const bool is_paper = scene_.settings().accuracy.mode() == AccuracyMode::paper;
+  for (const auto& [pair, known] : fresh)
+    if (must_be_listed(pair, known) && !is_paper)
+      expect(listed.contains(pair), "a pair that is near is not listed");
+  for (const BodyPair& pair : in_contact_)
+    if (!is_frozen(pair)) expect(listed.contains(pair), "a pair that was in contact is not listed");
+  in_contact_ = now_in_contact;
+}
+
+void SceneModel::check_row(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                           const Fresh* fresh) const {
+  const bool was = in_contact_.contains(pair);
+  if (is_frozen(pair)) {
+    expect(row.stale || row.phase == PairPhase::ended, "a row of an object that cannot be read is not stale");
+    return;
+  }
+  expect(!row.stale, "a row of objects that can be read is stale");
+  if (fresh == nullptr)
+    return expect(row.phase == PairPhase::ended && was, "a row of a pair that is filtered out");
+  check_values(report, row, *fresh);
+  if (scene_.settings().accuracy.mode() == AccuracyMode::paper) return;
+  if (!row.complete)
+    return expect(row.phase == (was ? PairPhase::touching : PairPhase::near),
+                  "the phase of a row that is not complete");
+  const PairPhase expected = fresh->in_contact ? (was ? PairPhase::touching : PairPhase::began)
+                                               : (was ? PairPhase::ended : PairPhase::near);
+  if (row.phase != expected)
+    finding("phase " + std::string(to_string(row.phase)) + " instead of " + std::string(to_string(expected)));
+  expect(
+      expected != PairPhase::near || row.distance.lower < std::max(rule_of(pair).range, threshold_of(pair)),
+      "a pair that is not near is listed");
+}
+
+void SceneModel::check_values(const FrameReport& report, const PairReport& row, const Fresh& fresh) const {
+  const Accuracy& accuracy = scene_.settings().accuracy;
+  const DistanceBounds& truth = fresh.row->distance;
+  // The truth lies between two neighbouring doubles, or is one.
+  expect(row.distance.lower <= truth.lower, "the lower bound is above the distance");
+  expect(row.distance.upper >= truth.upper, "the upper bound is below the distance");
+  if (accuracy.mode() == AccuracyMode::paper || !row.complete) return;
+  if (accuracy.mode() == AccuracyMode::within && !fresh.in_contact) {
+    const double rounding = 0x1p-50 * row.distance.upper;
+    return expect(row.distance.upper - row.distance.lower <= accuracy.tolerance() + rounding,
+                  "bounds further apart than the tolerance");
+  }
+  const std::string mine = timeless(report, row);
+  const std::string other = timeless(*fresh.report, *fresh.row);
+  if (mine != other) finding("a row of the scene:\n" + mine + "\nand of one built afresh:\n" + other);
+}
+
+}  // namespace graze::fuzz
