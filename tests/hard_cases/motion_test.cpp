@@ -1,0 +1,182 @@
+// Coherence is never fooled: whatever moved however, a report is that of a scene built afresh.
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <set>
+
+#include "hard_cases/random_motion.hpp"
+#include "hard_cases/scene_comparison.hpp"
+#include "scheduler/report_text.hpp"
+#include "support/catch.hpp"
+
+namespace graze::tests {
+namespace {
+
+/// Two objects by their places in the order of addition.
+using Places = std::pair<std::size_t, std::size_t>;
+
+bool is_in_contact(const PairReport& row) {
+  return row.phase == PairPhase::began || row.phase == PairPhase::touching;
+}
+
+/// Every bit of each row and its contacts but for ids, and of the phase only whether it is a contact.
+std::map<Places, std::string> rows_by_place(const FrameReport& report, const std::vector<ObjectId>& ids) {
+  std::map<Places, std::string> rows;
+  const auto place_of = [&](ObjectId id) {
+    return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+  };
+  for (PairReport row : report.pairs()) {
+    const Places places(place_of(row.a), place_of(row.b));
+    row.a = row.b = {};
+    row.phase = is_in_contact(row) ? PairPhase::touching : PairPhase::near;
+    rows[places] = text_of(report, row);
+  }
+  return rows;
+}
+
+/// The ids of a scene made afresh.
+std::vector<ObjectId> fresh_ids(std::size_t count) {
+  std::vector<ObjectId> ids;
+  for (std::uint32_t i = 0; i < count; ++i) ids.push_back({i, 1});
+  return ids;
+}
+
+/// Follows one random motion and compares each report with that of a scene built afresh.
+class Judge {
+ public:
+  Judge(std::uint64_t seed, const SceneSettings& settings) : motion_(seed, settings) {}
+
+  /// Empty while all is well.
+  std::string step() {
+    const ReportHandle report = motion_.step();
+    const ReportHandle afresh = motion_.built_afresh();
+    ids_ = motion_.ids();
+    if (!report->diagnostics().empty()) return report->diagnostics()[0].message;
+    std::string problem = inconsistency_of(*report);
+    if (problem.empty()) problem = rows_differ(*report, *afresh);
+    if (problem.empty()) problem = phases_differ(*report, *afresh);
+    return problem;
+  }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] std::size_t contacts() const { return contacts_; }
+  [[nodiscard]] const std::set<PairPhase>& phases() const { return phases_; }
+
+ private:
+  std::string rows_differ(const FrameReport& report, const FrameReport& afresh) {
+    const auto found = rows_by_place(report, ids_);
+    const auto expected = rows_by_place(afresh, fresh_ids(ids_.size()));
+    for (const auto& [places, text] : expected) {
+      const auto row = found.find(places);
+      if (row == found.end()) return "missing: " + text + shapes_of(places);
+      if (row->second != text) return row->second + "\ninstead of\n" + text + shapes_of(places);
+      ++rows_;
+    }
+    contacts_ += afresh.contacts().size();
+    return {};
+  }
+
+  /// Rows beyond those of the other scene have just ended, and every phase is the one that follows.
+  std::string phases_differ(const FrameReport& report, const FrameReport& afresh) {
+    std::set<std::pair<ObjectId, ObjectId>> now;
+    for (const PairReport& row : afresh.pairs())
+      if (is_in_contact(row)) now.emplace(ids_[row.a.index], ids_[row.b.index]);
+    const auto expected = rows_by_place(afresh, fresh_ids(ids_.size()));
+    const auto found = rows_by_place(report, ids_);
+    auto place = found.begin();
+    for (const PairReport& row : report.pairs()) {
+      const bool is = now.contains({row.a, row.b});
+      const bool was = before_.contains({row.a, row.b});
+      const PairPhase phase =
+          is ? (was ? PairPhase::touching : PairPhase::began) : (was ? PairPhase::ended : PairPhase::near);
+      phases_.insert(row.phase);
+      if (row.phase != phase) return "phase " + std::string(to_string(row.phase)) + shapes_of(place->first);
+      if (!expected.contains(place->first) && phase != PairPhase::ended)
+        return "too much: " + place->second + shapes_of(place->first);
+      ++place;
+    }
+    before_ = now;
+    return {};
+  }
+
+  [[nodiscard]] std::string shapes_of(const Places& places) const {
+    return "\nobjects " + std::to_string(places.first) + " and " + std::to_string(places.second) + "\n" +
+           text_of(motion_.shape(ids_[places.first])) + text_of(motion_.shape(ids_[places.second]));
+  }
+
+  RandomMotion motion_;
+  std::vector<ObjectId> ids_;
+  std::set<std::pair<ObjectId, ObjectId>> before_;
+  std::set<PairPhase> phases_;
+  std::size_t rows_ = 0;
+  std::size_t contacts_ = 0;
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG(
+    "teleport, tunnelling, collapse and back, inside out: as built afresh, at random, detail", "",
+    ((int number), number), 0, 1, 2, 3, 4) {
+  const auto detail = static_cast<ContactDetail>(number);
+  std::size_t rows = 0;
+  std::size_t contacts = 0;
+  std::size_t frames = 0;
+  std::set<PairPhase> phases;
+  for (std::uint64_t seed = 0; seed < GRAZE_MOTIONS; ++seed) {
+    SceneSettings settings = settings_of(0.05, seed % 3 == 0 ? infinity : 0.3, detail);
+    settings.threads = 1 + static_cast<unsigned>(seed % 2);
+    Judge judge(seed, settings);
+    for (int frame = 0; frame < 80; ++frame) {
+      const std::string problem = judge.step();
+      INFO("seed " << seed << ", frame " << frame);
+      REQUIRE(problem == "");
+      ++frames;
+    }
+    rows += judge.rows();
+    contacts += judge.contacts();
+    phases.insert(judge.phases().begin(), judge.phases().end());
+  }
+  CHECK(phases.size() == 4);
+  CHECK(rows > 3 * frames);
+  if (detail != ContactDetail::none) CHECK(contacts > frames / 2);
+  std::cout << "compared " << frames << " frames of random motion, " << rows << " pairs, " << contacts
+            << " contacts\n";
+}
+
+TEST_CASE("teleport, tunnelling, collapse to a point and back, inside out: each by itself") {
+  const oracle::Shape ball = shape_of(models::sphere(16, 9));
+  const oracle::Shape other = mapped(turned(ball, 1), 1, {1.9, 0.1, 0});
+  const auto at = [&](const Eigen::Vector3d& place, double size = 1) {
+    return Body(ball, mapped(ball, size, place));
+  };
+  using Path = std::vector<Body>;
+  const std::vector<std::pair<const char*, Path>> paths{
+      {"teleport",
+       {at({0, 0, 0}), at({1e6, 0, 0}), at({0, 0, 0}), at({0.5, 0, 0}), at({-1e6, 1, 1}), at({0, 0, 0})}},
+      {"tunnelling",
+       {at({-3, 0, 0}), at({0, 0, 0}), at({4, 0, 0}), at({0, 0, 0}), at({3.8, 0.1, 0}), at({-3, 0, 0})}},
+      {"collapse",
+       {at({0, 0, 0}), at({0, 0, 0}, 0), at({1, 0, 0}, 0), at({0, 0, 0}), at({0, 0, 0}, 1e-12),
+        at({0, 0, 0})}},
+      {"inside out",
+       {at({0, 0, 0}), at({0, 0, 0}, -1), at({0, 0, 0}), at({0.2, 0, 0}, -1), at({0, 0, 0}, -1),
+        at({0, 0, 0})}},
+      {"rest", {at({0, 0, 0}), at({0, 0, 0}), at({0, 0, 0}), at({0, 0, 0}), at({0, 0, 1e-9}), at({0, 0, 0})}},
+  };
+  std::size_t compared = 0;
+  for (const auto& [name, path] : paths)
+    for (const ContactDetail detail : all_details) {
+      BodyScene scene({ball, other}, settings_of(0.1, 5, detail));
+      for (std::size_t frame = 0; frame < path.size(); ++frame) {
+        INFO(name << ", detail " << static_cast<int>(detail) << ", frame " << frame);
+        const ReportHandle report = scene.step({path[frame], other});
+        BodyScene fresh({ball, other}, settings_of(0.1, 5, detail));
+        const ReportHandle afresh = fresh.step({path[frame], other});
+        CHECK(timeless_rows_of(*report, 5) == timeless_rows_of(*afresh, 5));
+        ++compared;
+      }
+    }
+  std::cout << "compared " << compared << " frames of single motions\n";
+}
+
+}  // namespace graze::tests

@@ -1,0 +1,71 @@
+// Broken promises of motion, and poses that are no rotations.
+
+#include <iostream>
+
+#include "hard_cases/scene_comparison.hpp"
+#include "scheduler/report_text.hpp"
+#include "support/catch.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+
+TEST_CASE("a broken promise of motion: a diagnostic, and nothing wrong where it was noticed") {
+  std::size_t noticed = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    oracle::Random random(seed);
+    const oracle::RandomScene given = oracle::random_scene(seed);
+    for (const ContactDetail detail : all_details)
+      for (const bool bound : {false, true}) {
+        INFO("seed " << seed << ", detail " << static_cast<int>(detail) << (bound ? ", bound" : ", copied"));
+        const SceneSettings settings = settings_of(given.threshold, infinity, detail);
+        BodyScene scene({given.a, given.b}, settings);
+        Scene& running = scene.scene();
+        Positions memory = given.b.positions;
+        if (bound) running.bind_positions(scene.ids()[1], memory, BindPolicy::when_told);
+        running.step();
+        const double way = random.between(0.01, 2);
+        for (Eigen::Vector3d& position : memory) position.x() += way;
+        if (bound)
+          running.positions_changed(scene.ids()[1], way / 2);
+        else
+          running.set_positions(scene.ids()[1], memory, way / 2);
+        const ReportHandle report = running.step();
+        REQUIRE(kinds_of(*report) == std::vector{DiagnosticKind::broken_promise});
+        CHECK(report->diagnostics()[0].object == scene.ids()[1]);
+        BodyScene fresh({given.a, given.b}, settings);
+        const ReportHandle afresh = fresh.step({given.a, Body(given.b, {memory, given.b.faces})});
+        CHECK(timeless_rows_of(*report, infinity) == timeless_rows_of(*afresh, infinity));
+        ++noticed;
+      }
+  }
+  std::cout << "compared " << noticed << " scenes with a broken promise\n";
+}
+
+TEST_CASE("a pose 1e-4 off a rotation: a diagnostic, and the old one stands") {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    oracle::Random random(seed);
+    const oracle::RandomScene given = oracle::random_scene(2 * seed);
+    Scene scene(settings_of(given.threshold, infinity));
+    scene.add(mesh_of(given.a));
+    const ObjectId rigid = scene.add(mesh_of(given.b), motion_of(Motion::rigid));
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() =
+        Eigen::AngleAxisd(random.between(0, 6), Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    scene.set_pose(rigid, pose);
+    const ReportHandle before = scene.step();
+    CHECK(before->diagnostics().empty());
+    Eigen::Isometry3d off = pose;
+    off.matrix()(static_cast<int>(random.below(3)), static_cast<int>(random.below(3))) += 1e-4;
+    off.translation().x() += 1;
+    scene.set_pose(rigid, off);
+    const ReportHandle report = scene.step();
+    REQUIRE(kinds_of(*report) == std::vector{DiagnosticKind::bad_pose});
+    CHECK(report->diagnostics()[0].object == rigid);
+    CHECK(timeless_rows_of(*report, infinity) == timeless_rows_of(*before, infinity));
+    ++compared;
+  }
+  std::cout << "compared " << compared << " scenes with a bad pose\n";
+}
+
+}  // namespace graze::tests
