@@ -145,6 +145,8 @@ void check_statistics(const graze::StepStatistics& read, const graze::StepStatis
   CHECK(read.contacts == written.contacts);
   CHECK(read.region_pairs_tested == written.region_pairs_tested);
   CHECK(read.leaf_pairs_tested == written.leaf_pairs_tested);
+  CHECK(read.discarded_in_float == written.discarded_in_float);
+  CHECK(read.decided_in_double == written.decided_in_double);
   CHECK(read.exact_decisions == written.exact_decisions);
   CHECK(read.object_bytes == written.object_bytes);
   CHECK(read.report_bytes == written.report_bytes);
@@ -219,7 +221,7 @@ TEST_CASE("a report without times has none, and the rest unchanged") {
   CHECK(check_round_trip(sheets, 4, false) > 50);
 }
 
-TEST_CASE("a program-wide locale with decimal commas and grouped digits changes no report") {
+TEST_CASE("a locale with a decimal comma and grouped digits changes no report") {
   struct Commas : std::numpunct<char> {
     [[nodiscard]] char do_decimal_point() const override { return ','; }
     [[nodiscard]] char do_thousands_sep() const override { return '.'; }

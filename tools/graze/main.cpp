@@ -4,18 +4,23 @@
 #include <graze/error.hpp>
 #include <string>
 
+#if GRAZE_HAS_ORACLES
+#include "accuracy/command.hpp"
+#endif
+#include "check_failed.hpp"
 #include "inspect_command.hpp"
 #include "run_command.hpp"
 
 namespace {
 
+constexpr int check_failed = 1;
 constexpr int bad_input = 2;
 
-int complain(std::string message) {
+int complain(std::string message, int exit_code) {
   for (char& letter : message)
     if (letter == '\n') letter = ' ';
   std::fprintf(stderr, "graze: %s\n", message.c_str());
-  return bad_input;
+  return exit_code;
 }
 
 int run_program(int argument_count, char** arguments) {
@@ -24,11 +29,14 @@ int run_program(int argument_count, char** arguments) {
   app.require_subcommand(1);
   graze::tools::add_run_command(app);
   graze::tools::add_inspect_command(app);
+#if GRAZE_HAS_ORACLES
+  graze::tools::add_accuracy_command(app);
+#endif
   try {
     app.parse(argument_count, arguments);  // runs the subcommand
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return complain(std::string(error.what()) + "; graze --help says what can be asked for");
+    return complain(std::string(error.what()) + "; graze --help says what can be asked for", bad_input);
   }
   return 0;
 }
@@ -38,7 +46,9 @@ int run_program(int argument_count, char** arguments) {
 int main(int argument_count, char** arguments) {
   try {
     return run_program(argument_count, arguments);
+  } catch (const graze::tools::CheckFailed& error) {
+    return complain(error.what(), check_failed);
   } catch (const std::exception& error) {
-    return complain(error.what());
+    return complain(error.what(), bad_input);
   }
 }

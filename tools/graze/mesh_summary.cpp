@@ -1,24 +1,14 @@
 #include "mesh_summary.hpp"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "text_format.hpp"
+
 namespace graze::tools {
 namespace {
-
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[200];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string counts_line(const Mesh& mesh) {
   std::uint32_t quads = 0;

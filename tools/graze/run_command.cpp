@@ -1,7 +1,5 @@
 #include "run_command.hpp"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
@@ -18,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "progress.hpp"
 #include "run_summary.hpp"
 
 namespace graze::tools {
@@ -98,30 +97,6 @@ io::SceneDescription describe(const RunOptions& options) {
   return scene;
 }
 
-/// One line on a terminal that says how far the run is; nothing when piped.
-class Progress {
- public:
-  explicit Progress(std::uint32_t frames) : frames_(frames), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void at(std::uint32_t frame) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
-    std::fprintf(stderr, "\rframe %u of %u", frame + 1, frames_);
-    std::fflush(stderr);
-  }
-
- private:
-  std::uint32_t frames_;
-  bool shown_;
-  std::chrono::steady_clock::time_point last_;
-};
-
 /// Keeps the frame to be drawn: the one asked for, or the first with the most contacts.
 class PictureChoice {
  public:
@@ -161,7 +136,7 @@ class PictureChoice {
 RunSummary play(io::Player& player, std::optional<io::ReportWriter>& writer,
                 std::optional<PictureChoice>& picture) {
   RunSummary summary(player.objects());
-  Progress progress(player.frame_count());
+  Progress progress("frame", player.frame_count());
   for (std::uint32_t frame = 0; frame < player.frame_count(); ++frame) {
     progress.at(frame);
     player.advance(frame);
