@@ -1,6 +1,7 @@
 #include "triangulate.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace graze::io {
@@ -20,11 +21,13 @@ double doubled_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Ei
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// A polygon in its plane, counter-clockwise, losing one corner after the other.
+/// A polygon in its plane, counter-clockwise, losing one corner after the other. Cutting off an ear changes
+/// what its two neighbours are and nothing else, so n corners of which r are not convex cost n·r tests,
+/// whatever the polygon looks like.
 class EarClipper {
  public:
   EarClipper(std::span<const Eigen::Vector3d> positions, std::span<const std::uint32_t> polygon)
-      : corners_(polygon.begin(), polygon.end()) {
+      : polygon_(polygon), previous_(polygon.size()), next_(polygon.size()), is_ear_(polygon.size()) {
     const Eigen::Vector3d normal = polygon_normal(positions, polygon);
     Eigen::Index axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
@@ -32,52 +35,79 @@ class EarClipper {
     const Eigen::Index v = (axis + 2) % 3;
     const double sign = normal[axis] < 0 ? -1.0 : 1.0;
     for (const auto vertex : polygon) flat_.emplace_back(positions[vertex][u], sign * positions[vertex][v]);
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      previous_[i] = (i + n - 1) % n;
+      next_[i] = (i + 1) % n;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      if (!is_convex(i)) blocking_.push_back(i);
+    for (std::size_t i = 0; i < n; ++i) set_ear(i, tests_as_ear(i));
   }
 
   std::vector<std::array<std::uint32_t, 3>> run() {
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::size_t start = 0;
-    while (corners_.size() > 3) {
-      const std::size_t ear = find_ear(start);
-      triangles.push_back({corners_[previous(ear)], corners_[ear], corners_[next(ear)]});
-      corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(ear));
-      flat_.erase(flat_.begin() + static_cast<std::ptrdiff_t>(ear));
-      start = ear % corners_.size();
+    std::size_t ear = 0;
+    for (std::size_t left = polygon_.size(); left > 3; --left) {
+      ear = find_ear(ear);
+      triangles.push_back({polygon_[previous_[ear]], polygon_[ear], polygon_[next_[ear]]});
+      cut_off(ear);
+      ear = next_[ear];
     }
-    triangles.push_back({corners_[0], corners_[1], corners_[2]});
+    triangles.push_back({polygon_[previous_[ear]], polygon_[ear], polygon_[next_[ear]]});
     return triangles;
   }
 
  private:
-  [[nodiscard]] std::size_t previous(std::size_t i) const {
-    return (i + corners_.size() - 1) % corners_.size();
-  }
-  [[nodiscard]] std::size_t next(std::size_t i) const { return (i + 1) % corners_.size(); }
-
   /// The first ear from `start` on; `start` itself where rounding or crossing edges leave none.
   [[nodiscard]] std::size_t find_ear(std::size_t start) const {
-    for (std::size_t step = 0; step < corners_.size(); ++step) {
-      const std::size_t corner = (start + step) % corners_.size();
-      if (is_ear(corner)) return corner;
-    }
-    return start;
+    if (ears_ == 0) return start;
+    std::size_t corner = start;
+    while (!is_ear_[corner]) corner = next_[corner];
+    return corner;
   }
 
-  [[nodiscard]] bool is_ear(std::size_t corner) const {
-    const auto& a = flat_[previous(corner)];
+  void cut_off(std::size_t ear) {
+    const std::array neighbours{previous_[ear], next_[ear]};
+    next_[neighbours[0]] = neighbours[1];
+    previous_[neighbours[1]] = neighbours[0];
+    std::erase_if(blocking_, [&](std::size_t corner) {
+      return corner == ear || ((corner == neighbours[0] || corner == neighbours[1]) && is_convex(corner));
+    });
+    set_ear(ear, false);
+    for (const std::size_t corner : neighbours) set_ear(corner, tests_as_ear(corner));
+  }
+
+  void set_ear(std::size_t corner, bool is_ear) {
+    if (is_ear != is_ear_[corner]) ears_ = is_ear ? ears_ + 1 : ears_ - 1;
+    is_ear_[corner] = is_ear;
+  }
+
+  [[nodiscard]] bool is_convex(std::size_t corner) const {
+    return doubled_area(flat_[previous_[corner]], flat_[corner], flat_[next_[corner]]) > 0;
+  }
+
+  /// Of the corners inside a triangle at least one is not convex, so the others need not be looked at.
+  [[nodiscard]] bool tests_as_ear(std::size_t corner) const {
+    if (!is_convex(corner)) return false;
+    const auto& a = flat_[previous_[corner]];
     const auto& b = flat_[corner];
-    const auto& c = flat_[next(corner)];
-    if (!(doubled_area(a, b, c) > 0)) return false;
-    for (const auto& point : flat_) {
-      if (point == a || point == b || point == c) continue;
-      if (doubled_area(a, b, point) >= 0 && doubled_area(b, c, point) >= 0 && doubled_area(c, a, point) >= 0)
-        return false;
-    }
-    return true;
+    const auto& c = flat_[next_[corner]];
+    return std::ranges::none_of(blocking_, [&](std::size_t other) {
+      const auto& point = flat_[other];
+      if (point == a || point == b || point == c) return false;
+      return doubled_area(a, b, point) >= 0 && doubled_area(b, c, point) >= 0 &&
+             doubled_area(c, a, point) >= 0;
+    });
   }
 
-  std::vector<std::uint32_t> corners_;
+  std::span<const std::uint32_t> polygon_;
   std::vector<Eigen::Vector2d> flat_;
+  std::vector<std::size_t> previous_, next_;
+  std::vector<bool> is_ear_;
+  std::size_t ears_ = 0;
+  /// The corners that are not convex.
+  std::vector<std::size_t> blocking_;
 };
 
 }  // namespace
