@@ -11,16 +11,30 @@ namespace graze {
 /// Which of the names at the least distance are kept.
 enum class Ties : std::uint8_t { lowest, all };
 
-/// The names at the least distance among those offered, and a bound on that distance that only shrinks.
+/// The names at the least distance among some, and a bound on that distance.
+struct Closest {
+  std::vector<ContactName> names;
+  /// At least the least distance; infinite before the first offer.
+  double upper = std::numeric_limits<double>::infinity();
+  /// Whether an edge pierces a face, among the names offered.
+  bool pierced = false;
+
+  void clear() {
+    names.clear();
+    upper = std::numeric_limits<double>::infinity();
+    pierced = false;
+  }
+};
+
+/// Takes offers of names; the bound only shrinks.
 class ClosestSet {
  public:
-  ClosestSet(const SurfacePair& pair, Ties ties, std::vector<ContactName>& names)
-      : pair_(pair), ties_(ties), names_(names) {
-    names_.clear();
-  }
+  /// Goes on from what is in `closest`.
+  ClosestSet(const SurfacePair& pair, Ties ties, Closest& closest)
+      : pair_(pair), ties_(ties), closest_(closest), names_(closest.names) {}
 
   void offer(const ContactName& name) {
-    if (name.meeting == Meeting::pierced) pierced_ = pierced_ || is_edge_through_face(name);
+    if (name.meeting == Meeting::pierced) closest_.pierced = closest_.pierced || is_edge_through_face(name);
     if (names_.empty()) return replace(name);
     if (ties_ == Ties::lowest && name == names_.front()) return;
     const auto place = std::lower_bound(names_.begin(), names_.end(), name);
@@ -34,24 +48,20 @@ class ClosestSet {
       names_.front() = name;
   }
 
-  /// At least the least distance; infinite before the first offer.
-  [[nodiscard]] double upper() const { return upper_; }
-  /// Whether an edge pierces a face, among the names offered.
-  [[nodiscard]] bool pierced() const { return pierced_; }
+  [[nodiscard]] double upper() const { return closest_.upper; }
   [[nodiscard]] const std::vector<ContactName>& names() const { return names_; }
 
  private:
   static bool is_edge_through_face(const ContactName& name) { return name.kind == ContactKind::EF; }
   void replace(const ContactName& name) {
     names_.assign(1, name);
-    upper_ = upper_distance(pair_, name);
+    closest_.upper = upper_distance(pair_, name);
   }
 
   const SurfacePair& pair_;
   Ties ties_;
+  Closest& closest_;
   std::vector<ContactName>& names_;
-  double upper_ = std::numeric_limits<double>::infinity();
-  bool pierced_ = false;
 };
 
 }  // namespace graze

@@ -6,6 +6,7 @@
 #include <graze/leaf_front.hpp>
 #include <graze/pair_query.hpp>
 #include <graze/region_tree.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -50,13 +51,15 @@ struct Expansion {
   bool b = false;
 };
 
-/// DMV (paper, figure 3): walks the pairs of regions of two trees breadth first, from the pair of roots.
+/// DMV (paper, figure 3): walks the pairs of regions of two trees breadth first, from those in
+/// `scratch.front`; leaves the rest there where a level has more than `most`.
 /// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf; neither
 /// ends it there. A leaf stays what it is. `leaves(pair, a, b)` takes each pair of leaves that is reached.
 /// False when the budget ran out on the way.
 template <typename Expand, typename Leaves>
 bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch, WorkMeter& meter,
-         const Expand& expand, const Leaves& leaves) {
+         const Expand& expand, const Leaves& leaves,
+         std::size_t most = std::numeric_limits<std::size_t>::max()) {
   const auto push_children = [&](const RegionPair& pair, const Region& a, const Region& b,
                                  const Expansion& expansion) {
     const bool a_stays = a.is_leaf() || !expansion.a;
@@ -68,8 +71,7 @@ bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch
     for (std::uint32_t i = 0; i < count_a; ++i)
       for (std::uint32_t j = 0; j < count_b; ++j) scratch.next.push_back({first_a + i, first_b + j});
   };
-  scratch.front.assign(1, RegionPair{});
-  while (!scratch.front.empty()) {
+  while (!scratch.front.empty() && scratch.front.size() <= most) {
     scratch.next.clear();
     for (const RegionPair& pair : scratch.front) {
       const Region& a = tree_a.region(pair.a);

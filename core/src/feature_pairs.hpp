@@ -1,17 +1,20 @@
 #pragma once
 
-#include <graze/pair_query.hpp>
 #include <vector>
 
 #include "contact_name.hpp"
 #include "leaf_names.hpp"
-#include "leaf_pairs.hpp"
 
 namespace graze {
 
-/// Appends the names of `ContactDetail::features`, sorted, each pair of features once. False when the budget
-/// ran out.
-bool find_feature_pairs(const SurfacePair& pair, const PairQuery& query, LeafPairs& leaf_pairs,
+/// Appends the names of `ContactDetail::features` between two leaves: all contacts strictly closer than
+/// `threshold` and every edge that pierces a face. A name may be met in several pairs of leaves.
+void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double threshold,
                         LeafScratch& scratch, std::vector<ContactName>& names);
+
+/// Sorts names and keeps one for each pair of features. Where two features meet in several pieces (a fold and
+/// a triangle, two crossings), the nearest stands for them; a piercing sorts first, and of equally near ones
+/// the first.
+void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names);
 
 }  // namespace graze

@@ -12,15 +12,20 @@ namespace graze {
 /// here when asked for. A query reads few leaves of a large surface, so they are not worth a refit of all.
 class LeafBoxes {
  public:
-  /// For one query; `surface` does not change meanwhile.
+  /// For one query; `surface` does not change meanwhile. What was made for a query about the same positions
+  /// is kept.
   void begin(const Surface& surface, bool about_vertices) {
     surface_ = &surface;
-    about_vertices_ = about_vertices;
     const bool fitted =
         (about_vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit()) == 0;
     fitted_ = {};
     if (fitted) fitted_ = about_vertices ? surface.vertex_boxes() : surface.face_boxes();
-    if (fitted) return;
+    const bool same =
+        serial_ == surface.serial() && version_ == surface.version() && about_vertices_ == about_vertices;
+    if (fitted || same) return;
+    serial_ = surface.serial();
+    version_ = surface.version();
+    about_vertices_ = about_vertices;
     const std::size_t count = surface.mesh().regions().regions().size();
     if (boxes_.size() < count) {
       boxes_.resize(count);
@@ -47,6 +52,8 @@ class LeafBoxes {
   const Surface* surface_ = nullptr;
   bool about_vertices_ = false;
   std::span<const Box> fitted_;
+  std::uint64_t serial_ = 0;  ///< of the surface and the positions that the boxes are of
+  std::uint64_t version_ = 0;
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> made_in_;  ///< in which query the box was made
   std::uint32_t query_ = 0;

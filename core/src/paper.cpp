@@ -21,6 +21,8 @@ class Paper {
         nearest_(pair, Ties::lowest, scratch.closest) {}
 
   PaperFound run() {
+    scratch_.closest.clear();
+    scratch_.dmv.front.assign(1, RegionPair{});
     found_.complete = dmv(
         pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
         [&](const RegionPair& regions, const Region& a, const Region& b) {
@@ -73,6 +75,7 @@ class Paper {
 
   /// Moves both ends to the nearest of their neighbours and themselves; false where nothing is nearer.
   bool step_to_neighbour(ContactName& name) {
+    scratch_.leaf_closest.clear();
     ClosestSet around(pair_, Ties::lowest, scratch_.leaf_closest);
     around.offer(name);
     const std::uint32_t a = name.a.feature.index;

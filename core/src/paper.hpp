@@ -12,8 +12,8 @@ namespace graze {
 struct PaperScratch {
   DmvScratch dmv;
   LeafScratch leaves;
-  std::vector<ContactName> closest;
-  std::vector<ContactName> leaf_closest;
+  Closest closest;
+  Closest leaf_closest;
 };
 
 /// What the paper's method found of a pair.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <graze/error.hpp>
@@ -11,7 +12,16 @@
 
 namespace graze {
 
-Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) {
+namespace {
+
+std::uint64_t next_serial() {
+  static std::atomic<std::uint64_t> count{0};
+  return count.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
+}  // namespace
+
+Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), serial_(next_serial()) {
   if (mesh_ == nullptr) throw Error("surface: there is no mesh");
   positions_.assign(mesh_->vertex_count(), Eigen::Vector3d::Zero());
   incoming_ = positions_;

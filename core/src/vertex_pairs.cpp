@@ -1,20 +1,10 @@
 #include "vertex_pairs.hpp"
 
-#include "closest_set.hpp"
-
 namespace graze {
 namespace {
 
 ContactName vertex_pair(std::uint32_t a, std::uint32_t b) {
   return ContactName::of(vertex_piece(a), vertex_piece(b));
-}
-
-LeafOf leaf_a(LeafPairs& leaf_pairs, const RegionPair& leaves) {
-  return {leaf_pairs.leaf_a(leaves), leaf_pairs.box_a(leaves)};
-}
-
-LeafOf leaf_b(LeafPairs& leaf_pairs, const RegionPair& leaves) {
-  return {leaf_pairs.leaf_b(leaves), leaf_pairs.box_b(leaves)};
 }
 
 /// What is nearer than a fixed distance.
@@ -37,24 +27,6 @@ struct AsNear {
 
 }  // namespace
 
-bool find_vertex_pairs(const SurfacePair& pair, const PairQuery& query, LeafPairs& leaf_pairs,
-                       LeafScratch& scratch, std::vector<ContactName>& names) {
-  return leaf_pairs.each_below_threshold(false, [&](const RegionPair& leaves) {
-    add_close_vertices(pair, leaf_a(leaf_pairs, leaves), leaf_b(leaf_pairs, leaves), query.threshold, scratch,
-                       names);
-  });
-}
-
-bool find_region_pairs(const SurfacePair& pair, const PairQuery& query, LeafPairs& leaf_pairs,
-                       LeafScratch& scratch, std::vector<ContactName>& closest,
-                       std::vector<ContactName>& names) {
-  return leaf_pairs.each_below_threshold(false, [&](const RegionPair& leaves) {
-    const ContactName name =
-        closest_vertices(pair, leaf_a(leaf_pairs, leaves), leaf_b(leaf_pairs, leaves), scratch, closest);
-    if (is_closer_than(pair, name, query.threshold)) names.push_back(name);
-  });
-}
-
 void add_close_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double limit,
                         LeafScratch& scratch, std::vector<ContactName>& names) {
   Below range{limit};
@@ -64,7 +36,8 @@ void add_close_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const Lea
 }
 
 ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
-                             LeafScratch& scratch, std::vector<ContactName>& closest) {
+                             LeafScratch& scratch, Closest& closest) {
+  closest.clear();
   ClosestSet set(pair, Ties::lowest, closest);
   set.offer(vertex_pair(leaf_a.region.middle, leaf_b.region.middle));
   AsNear range{set};

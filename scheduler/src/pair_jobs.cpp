@@ -82,55 +82,133 @@ void PairJobs::refit(std::span<const PairJob> jobs) {
 void PairJobs::run(std::span<const PairJob> jobs, std::uint64_t rules_version, Clock::time_point start) {
   jobs_ = jobs;
   rules_version_ = rules_version;
+  deadline_ = deadline_of(start, settings_.time_budget);
   if (answers_.size() < jobs_.size()) answers_.resize(jobs_.size());
   std::fill(counters_.begin(), counters_.end(), PairCounters{});
-  const Clock::time_point deadline = deadline_of(start, settings_.time_budget);
+  order_.clear();
+  for (std::uint32_t index = 0; index < jobs_.size(); ++index)
+    if (jobs_[index].is_looked_at()) order_.push_back(index);
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
-  if (settings_.work_budget) return run_within_work(*settings_.work_budget, deadline);
-  // A task writes the answers of its own jobs, and the detector and counters of its own worker. Surfaces are
-  // only read.
-  tasks_.run(jobs_.size(), [&](unsigned worker, std::size_t item) {
-    detect(settings_.time_budget ? urgent_[item] : item, worker, unlimited, deadline);
-  });
+  if (settings_.work_budget) return run_within_work(*settings_.work_budget);
+  if (settings_.time_budget) return run_by_urgency();
+  run_group(order_);
 }
 
-void PairJobs::detect(std::size_t index, unsigned worker, std::uint64_t work_limit,
-                      Clock::time_point deadline) {
+bool PairJobs::is_large(const PairJob& job) {
+  return std::min(job.a->surface->mesh().vertex_count(), job.b->surface->mesh().vertex_count()) >=
+         LargePair::least_vertex_count;
+}
+
+/// Small pairs in batches and the begin of the large ones side by side, then the slices of the large ones.
+///
+/// A task writes the answers, fronts and memories of its own jobs, and the detector and counters of its own
+/// worker; a slice writes its own place in its pair. Surfaces are only read.
+void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
+  small_jobs_.clear();
+  large_jobs_.clear();
+  for (const std::uint32_t index : jobs)
+    (is_large(jobs_[index]) ? large_jobs_ : small_jobs_).push_back(index);
+  while (large_.size() < large_jobs_.size()) large_.emplace_back();
+  answered_.assign(large_jobs_.size(), 0);
+  // Enough batches for any number of threads, and few enough that taking one costs nothing.
+  const std::size_t each = std::clamp<std::size_t>(small_jobs_.size() / 256, 1, 16);
+  const std::size_t batches = (small_jobs_.size() + each - 1) / each;
+  tasks_.run(large_jobs_.size() + batches, [&](unsigned worker, std::size_t item) {
+    if (item < large_jobs_.size()) return begin_large(static_cast<std::uint32_t>(item), worker);
+    const std::size_t begin = (item - large_jobs_.size()) * each;
+    const std::size_t end = std::min(begin + each, small_jobs_.size());
+    for (std::size_t i = begin; i < end; ++i) detect(small_jobs_[i], worker, unlimited);
+  });
+  run_rounds_of_slices();
+}
+
+void PairJobs::begin_large(std::uint32_t place, unsigned worker) {
+  const std::uint32_t index = large_jobs_[place];
   const PairJob& job = jobs_[index];
-  if (!job.is_looked_at()) return;
+  PairQuery query = query_of(job);
+  query.deadline = deadline_;
+  answered_[place] = 1;
+  if (is_late()) return PairDetector::outer_bounds(*job.a->surface, *job.b->surface, query, answers_[index]);
+  large_[place].begin(*job.a->surface, *job.b->surface, query, job.memory->front, answers_[index]);
+  answered_[place] = large_[place].advance(detectors_[worker], counters_[worker]) ? 1 : 0;
+  if (answered_[place] != 0) was_detected(index);
+}
+
+/// The slices of all large pairs as one list, until every pair is answered.
+void PairJobs::run_rounds_of_slices() {
+  while (true) {
+    slices_.clear();
+    for (std::uint32_t place = 0; place < large_jobs_.size(); ++place)
+      if (answered_[place] == 0)
+        for (std::uint32_t slice = 0; slice < large_[place].slice_count(); ++slice)
+          slices_.push_back({place, slice});
+    if (slices_.empty()) return;
+    tasks_.run(slices_.size(), [&](unsigned worker, std::size_t item) {
+      const auto [place, slice] = slices_[item];
+      large_[place].run_slice(slice, detectors_[worker], counters_[worker]);
+    });
+    tasks_.run(large_jobs_.size(), [&](unsigned worker, std::size_t place) {
+      if (answered_[place] != 0 || !large_[place].advance(detectors_[worker], counters_[worker])) return;
+      answered_[place] = 1;
+      was_detected(large_jobs_[place]);
+    });
+  }
+}
+
+bool PairJobs::is_late() const {
+  return deadline_ != PairQuery::no_deadline && Clock::now() >= deadline_;
+}
+
+void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit) {
+  const PairJob& job = jobs_[index];
   PairQuery query = query_of(job);
   query.work_limit = work_limit;
-  query.deadline = deadline;
+  query.deadline = deadline_;
   const Surface& a = *job.a->surface;
   const Surface& b = *job.b->surface;
-  if (work_limit == 0 || (deadline != PairQuery::no_deadline && Clock::now() >= deadline))
-    return PairDetector::outer_bounds(a, b, query, answers_[index]);
-  PairMemory& memory = *job.memory;
-  detectors_[worker].detect(a, b, query, memory.front, answers_[index], counters_[worker]);
+  if (work_limit == 0 || is_late()) return PairDetector::outer_bounds(a, b, query, answers_[index]);
+  detectors_[worker].detect(a, b, query, job.memory->front, answers_[index], counters_[worker]);
+  was_detected(index);
+}
+
+/// Remembers what the answer was about.
+void PairJobs::was_detected(std::uint32_t index) {
+  const PairJob& job = jobs_[index];
   const bool whole = answers_[index].complete && job.task == PairJob::Task::detect;
-  memory.version_a = whole ? a.version() : 0;
-  memory.version_b = whole ? b.version() : 0;
-  memory.rules_version = rules_version_;
+  job.memory->version_a = whole ? job.a->surface->version() : 0;
+  job.memory->version_b = whole ? job.b->surface->version() : 0;
+  job.memory->rules_version = rules_version_;
 }
 
 /// In contact first, then the smallest lower bound.
 void PairJobs::sort_by_urgency() {
-  urgent_.resize(jobs_.size());
-  std::vector<std::tuple<bool, double, std::uint32_t>> order;
-  order.reserve(jobs_.size());
-  for (std::uint32_t index = 0; index < jobs_.size(); ++index)
-    order.emplace_back(!jobs_[index].was_in_contact(),
-                       lower_distance(jobs_[index].a->box, jobs_[index].b->box), index);
-  std::sort(order.begin(), order.end());
-  for (std::size_t i = 0; i < order.size(); ++i) urgent_[i] = std::get<2>(order[i]);
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t left, std::uint32_t right) {
+    const auto urgency = [&](std::uint32_t index) {
+      const PairJob& job = jobs_[index];
+      return std::tuple(!job.was_in_contact(), lower_distance(job.a->box, job.b->box), index);
+    };
+    return urgency(left) < urgency(right);
+  });
+}
+
+/// A large pair has all threads to itself when its turn comes, so that no pair less urgent goes before it.
+void PairJobs::run_by_urgency() {
+  const std::span<const std::uint32_t> order(order_);
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin + 1;
+    if (!is_large(jobs_[order[begin]]))
+      while (end < order.size() && !is_large(jobs_[order[end]])) ++end;
+    run_group(order.subspan(begin, end - begin));
+    begin = end;
+  }
 }
 
 /// One after the other: what a pair leaves of the budget is for the next, so the answer is the same on any
 /// machine.
-void PairJobs::run_within_work(std::uint64_t budget, Clock::time_point deadline) {
-  for (const std::uint32_t index : urgent_) {
+void PairJobs::run_within_work(std::uint64_t budget) {
+  for (const std::uint32_t index : order_) {
     const std::uint64_t before = counters_[0].region_pairs_tested;
-    detect(index, 0, budget, deadline);
+    detect(index, 0, budget);
     budget -= std::min(budget, counters_[0].region_pairs_tested - before);
   }
 }

@@ -88,6 +88,7 @@ class GRAZE_API PairDetector {
   static void outer_bounds(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer);
 
  private:
+  friend class LargePair;
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;
 };

@@ -54,6 +54,8 @@ class GRAZE_API Surface {
   /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
+  /// Never another surface's in this process.
+  [[nodiscard]] std::uint64_t serial() const { return serial_; }
   /// Changes whenever any used vertex does, by any bit.
   [[nodiscard]] std::uint64_t version() const { return version_; }
   [[nodiscard]] Travel travel() const { return travel_; }
@@ -115,6 +117,7 @@ class GRAZE_API Surface {
   std::vector<double> level_radii_;
   std::vector<Box> vertex_boxes_;
   std::vector<Box> face_boxes_;
+  std::uint64_t serial_;
   std::uint64_t version_ = 0;
   Travel travel_;
   double displacement_ = 0;

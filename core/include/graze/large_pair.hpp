@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <graze/export.hpp>
+#include <graze/leaf_front.hpp>
+#include <graze/pair_query.hpp>
+#include <graze/surface.hpp>
+#include <memory>
+
+namespace graze {
+
+class PairSearch;
+
+/// A query about one pair of large surfaces, cut into slices that any threads may run at once. The answer is
+/// that of PairDetector::detect, bit for bit; how it is cut depends on the surfaces and the query only.
+///
+///     large.begin(a, b, query, front, answer);
+///     while (!large.advance(detector, counters))
+///       for (i in 0 … large.slice_count() - 1)  // at once, in any order, each with a detector of its own
+///         large.run_slice(i, detector, counters);
+///
+/// One thread at a time but for `run_slice`, of which calls with different numbers may overlap.
+class GRAZE_API LargePair {
+ public:
+  /// From how many vertices of both surfaces on a pair is worth being cut.
+  static constexpr std::uint32_t least_vertex_count = 4096;
+
+  LargePair();
+  ~LargePair();
+  LargePair(LargePair&&) noexcept;
+  LargePair& operator=(LargePair&&) noexcept;
+
+  /// As PairDetector::detect; what is referred to stays until the query is answered.
+  void begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
+             PairAnswer& answer);
+  /// Does what is not cut. True: the answer is there. False: there are slices to be run.
+  bool advance(PairDetector& detector, PairCounters& counters);
+  [[nodiscard]] std::size_t slice_count() const;
+  void run_slice(std::size_t index, PairDetector& detector, PairCounters& counters);
+
+ private:
+  std::unique_ptr<PairSearch> search_;
+};
+
+}  // namespace graze

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <graze/pair_query.hpp>
+
+#include "closest_set.hpp"
+#include "leaf_names.hpp"
+#include "leaf_pairs.hpp"
+
+namespace graze {
+
+/// What a search for the closest points has found so far.
+struct ClosestFound {
+  Closest closest;
+  /// Nothing was left out that is nearer than this, but for the names found.
+  double lower = std::numeric_limits<double>::infinity();
+
+  void clear() {
+    closest.clear();
+    lower = std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Branch and bound over pairs of regions: middle vertices give an upper bound, boxes a lower one. What is
+/// certainly not below the reach is not looked at, and in AccuracyMode::within nothing that is neither below
+/// the threshold nor more than the tolerance nearer than what is known.
+class ClosestRange {
+ public:
+  /// Goes on from `found`.
+  ClosestRange(const SurfacePair& pair, const PairQuery& query, Ties ties, ClosestFound& found)
+      : pair_(pair), query_(query), found_(found), set_(pair, ties, found.closest) {}
+
+  /// Whether something this near could still matter, now or before the surfaces have moved by `slack`; what
+  /// is left out bounds the answer from below.
+  bool keep(double lower_bound, double slack = 0) {
+    const double nearest = std::max(0.0, lower_bound - slack);
+    if (nearest > set_.upper()) return false;
+    const bool below_reach = nearest < query_.reach || nearest == 0;
+    const bool loose = query_.mode == AccuracyMode::within && nearest >= query_.threshold && nearest > 0 &&
+                       nearest >= set_.upper() - query_.tolerance;
+    if (below_reach && !loose) return true;
+    found_.lower = std::min(found_.lower, lower_bound);
+    return false;
+  }
+
+  /// What is certainly further than this does not matter now; in units of the scene.
+  [[nodiscard]] double limit() const {
+    const double reached = std::min(set_.upper(), query_.reach);
+    if (query_.mode != AccuracyMode::within) return reached;
+    return std::min(reached, std::max(query_.threshold, set_.upper() - query_.tolerance));
+  }
+  /// Something was left out that is further than an earlier or the present limit.
+  void left_out(double limit) {
+    if (limit < set_.upper()) found_.lower = std::min(found_.lower, limit);
+  }
+
+  void offer(const ContactName& name) { set_.offer(name); }
+  void offer_middles(const RegionPair& regions) {
+    const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;
+    const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
+    if (upper_distance(pair_.a.position(a), pair_.b.position(b)) < set_.upper())
+      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+  }
+  void offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
+    for_each_name(pair_, leaf_a, leaf_b, scratch, *this, [&](const ContactName& name) { set_.offer(name); });
+  }
+  void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
+    for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {
+      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+    });
+  }
+
+ private:
+  const SurfacePair& pair_;
+  const PairQuery& query_;
+  ClosestFound& found_;
+  ClosestSet set_;
+};
+
+}  // namespace graze

@@ -1,0 +1,467 @@
+#include "pair_search.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "feature_pairs.hpp"
+#include "measure.hpp"
+#include "parallel.hpp"
+#include "validate.hpp"
+#include "vertex_pairs.hpp"
+
+namespace graze {
+namespace {
+
+// How stages are cut. A slice is some tens of microseconds of work, against about one for giving it to a
+// thread; below that a pair is not cut at all.
+constexpr std::size_t roots_of_sliced_walk = 1024;
+constexpr std::size_t roots_each = 64;
+constexpr std::size_t front_pairs_each = 256;
+constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound tight before others are cut
+constexpr std::size_t closest_each = 64;
+constexpr std::size_t contacts_each = 1024;
+
+/// Merges sorted runs that stand one after the other; `ends` are where they end.
+void merge_runs(std::vector<ContactName>& names, std::vector<std::size_t>& ends,
+                std::vector<ContactName>& spare) {
+  while (ends.size() > 1) {
+    spare.clear();
+    std::size_t kept = 0;
+    std::size_t begin = 0;
+    for (std::size_t run = 0; run < ends.size(); run += 2) {
+      const std::size_t middle = ends[run];
+      const std::size_t end = run + 1 < ends.size() ? ends[run + 1] : middle;
+      const auto at = [&](std::size_t place) { return names.begin() + static_cast<std::ptrdiff_t>(place); };
+      std::merge(at(begin), at(middle), at(middle), at(end), std::back_inserter(spare));
+      ends[kept++] = begin = end;
+    }
+    ends.resize(kept);
+    names.swap(spare);
+  }
+}
+
+}  // namespace
+
+/// One thread's view of the search.
+class PairSearch::Worker {
+ public:
+  Worker(const PairSearch& search, SearchScratch& given, PairCounters& counters)
+      : scratch(given),
+        pair{*search.a_, *search.b_, decisions_},
+        meter(search.query_, counters),
+        leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {}
+  ~Worker() {
+    meter.counters().discarded_in_float += decisions_.discarded_in_float;
+    meter.counters().decided_in_double += decisions_.in_double;
+    meter.counters().exact_decisions += decisions_.exact;
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+ private:
+  DecisionCount decisions_;
+
+ public:
+  SearchScratch& scratch;
+  const SurfacePair pair;
+  WorkMeter meter;
+  LeafPairs leaf_pairs;
+};
+
+void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
+                       PairAnswer& answer, bool sliced) {
+  a_ = &a;
+  b_ = &b;
+  query_ = query;
+  front_ = &front;
+  answer_ = &answer;
+  sliced_ = sliced;
+  stage_ = Stage::start;
+  slice_count_ = 0;
+  answer.in_contact = answer.listed = false;
+  answer.complete = true;
+  answer.contacts.clear();
+}
+
+bool PairSearch::advance(SearchScratch& scratch, PairCounters& counters) {
+  Worker worker(*this, scratch, counters);
+  while (stage_ != Stage::done) {
+    next_stage(worker);
+    if (slice_count_ > 1) return false;
+    if (slice_count_ == 1) run(slices_.front(), worker);
+  }
+  return true;
+}
+
+void PairSearch::run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters) {
+  Worker worker(*this, scratch, counters);
+  run(slices_[index], worker);
+}
+
+void PairSearch::next_stage(Worker& worker) {
+  for (std::size_t i = 0; i < slice_count_; ++i)
+    if (!slices_[i].complete) return give_up();
+  switch (stage_) {
+    case Stage::start:
+      if (query_.mode == AccuracyMode::paper) return as_in_paper(worker);
+      if (query_.detail == ContactDetail::none || query_.detail == ContactDetail::closest)
+        return begin_approach(worker);
+      return begin_contacts(worker);
+    case Stage::contacts:
+      return finish_contacts(worker);
+    case Stage::measured:
+      return finish_measuring(worker);
+    case Stage::approach:
+      return begin_closest(worker);
+    case Stage::closest:
+      return finish_closest(worker);
+    case Stage::done:
+      return;
+  }
+}
+
+void PairSearch::run(Slice& slice, Worker& worker) {
+  switch (stage_) {
+    case Stage::contacts:
+      return run_contacts(slice, worker);
+    case Stage::measured:
+      for (std::size_t i = slice.begin; i < slice.end; ++i)
+        answer_->contacts[i] = measure(worker.pair, names_[i]);
+      return;
+    case Stage::approach:
+      return run_approach(slice, worker);
+    case Stage::closest:
+      seed(slice);
+      slice.complete = look_into(slice.begin, slice.end, slice.closest, worker);
+      return;
+    default:
+      return;
+  }
+}
+
+// ---- Slices
+
+PairSearch::Slice& PairSearch::add_slice() {
+  if (slices_.size() == slice_count_) slices_.emplace_back();
+  Slice& slice = slices_[slice_count_++];
+  slice.start = {};
+  slice.begin = slice.end = 0;
+  slice.complete = true;
+  slice.found.clear();
+  slice.names.clear();
+  slice.closest.clear();
+  return slice;
+}
+
+/// Cuts what starts at `pairs`.
+void PairSearch::add_slices_of(std::span<const RegionPair> pairs, std::size_t each) {
+  if (!sliced_) each = pairs.size();
+  for (std::size_t begin = 0; begin < pairs.size(); begin += each)
+    add_slice().start = pairs.subspan(begin, std::min(each, pairs.size() - begin));
+}
+
+/// Cuts a range.
+void PairSearch::add_slices_of(std::size_t begin, std::size_t end, std::size_t each) {
+  if (!sliced_) each = end - begin;
+  for (; begin < end; begin += std::min(each, end - begin)) {
+    Slice& slice = add_slice();
+    slice.begin = begin;
+    slice.end = std::min(begin + each, end);
+  }
+}
+
+/// The slices of the front of the last query.
+void PairSearch::slice_front() {
+  if (!about_vertices()) validate(*front_, *a_, *b_);
+  slice_count_ = 0;
+  add_slices_of(front_->leaves, front_pairs_each);
+}
+
+/// Walks until there is enough for many slices; what was found on the way is that of the first slice.
+template <typename Keep, typename Meet>
+void PairSearch::slice_walk(Worker& worker, const Keep& keep, const Meet& meet) {
+  slice_count_ = 0;
+  Slice& first = add_slice();
+  const RegionPair root;
+  const std::size_t most = sliced_ ? roots_of_sliced_walk : std::numeric_limits<std::size_t>::max();
+  first.complete = worker.leaf_pairs.walk({&root, 1}, keep, meet, first.found, most);
+  if (!first.complete) return;
+  const auto rest = worker.leaf_pairs.front();
+  roots_.assign(rest.begin(), rest.end());
+  add_slices_of(roots_, roots_each);
+}
+
+/// Puts the leaf pairs of the slices together.
+void PairSearch::gather_found() {
+  found_.clear();
+  if (slice_count_ == 1) return std::swap(found_, slices_.front().found);
+  for (std::size_t i = 0; i < slice_count_; ++i) {
+    const LeafPairList& found = slices_[i].found;
+    found_.leaves.insert(found_.leaves.end(), found.leaves.begin(), found.leaves.end());
+    found_.beyond = std::min(found_.beyond, found.beyond);
+  }
+}
+
+/// After a walk: makes its leaf pairs the front, but for those that do not matter before the surfaces have
+/// moved by the slack, where what is looked for is nearer than `wanted`.
+void PairSearch::remember(double wanted) {
+  front_->forget();
+  if (query_.slack <= 0) return;
+  for (const LeafPair& leaves : found_.leaves) {
+    if (leaves.lower <= wanted + query_.slack)
+      front_->leaves.push_back(leaves.pair);
+    else
+      found_.beyond = std::min(found_.beyond, leaves.lower);
+  }
+  if (front_->leaves.size() > query_.front_limit) return front_->forget();
+  front_->beyond = found_.beyond;
+  front_->travel_a = a_->travel();
+  front_->travel_b = b_->travel();
+}
+
+void PairSearch::give_up() {
+  slice_count_ = 0;
+  stage_ = Stage::done;
+  PairDetector::outer_bounds(*a_, *b_, query_, *answer_);
+}
+
+void PairSearch::set_distance(Worker& worker, const ContactName& nearest) {
+  answer_->distance = rounded_distance(worker.pair, nearest);
+  answer_->witness = witness_of(measure(worker.pair, nearest));
+}
+
+// ---- All contacts of a detail; where there are none, the closest points
+
+/// Whether pairs of leaves this far apart can have a contact; surfaces pierce each other at every threshold.
+bool PairSearch::may_touch(double lower) const {
+  return lower < query_.threshold || (query_.detail == ContactDetail::features && lower == 0);
+}
+
+void PairSearch::begin_contacts(Worker& worker) {
+  stage_ = Stage::contacts;
+  from_front_ = front_->beyond_now(*a_, *b_) > query_.threshold;
+  if (from_front_) return slice_front();
+  slice_walk(
+      worker, [&](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); },
+      [](const RegionPair&) {});
+}
+
+void PairSearch::run_contacts(Slice& slice, Worker& worker) {
+  if (from_front_)
+    worker.leaf_pairs.take(slice.start, slice.found);
+  else if (!slice.start.empty())
+    slice.complete = worker.leaf_pairs.walk(
+        slice.start, [&](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); },
+        [](const RegionPair&) {}, slice.found);
+  for (const LeafPair& leaves : slice.found.leaves) {
+    slice.complete = slice.complete && (!from_front_ || worker.meter.spend());
+    if (!slice.complete) return;
+    if (!may_touch(leaves.lower)) continue;
+    ++worker.meter.counters().leaf_pairs_tested;
+    add_contacts(leaves.pair, slice, worker);
+  }
+  if (query_.detail == ContactDetail::features)
+    keep_nearest_of_each(worker.pair, slice.names);
+  else
+    std::sort(slice.names.begin(), slice.names.end());
+}
+
+void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) {
+  const LeafOf a = worker.leaf_pairs.leaf_a(leaves);
+  const LeafOf b = worker.leaf_pairs.leaf_b(leaves);
+  LeafScratch& scratch = worker.scratch.features;
+  if (query_.detail == ContactDetail::features)
+    return add_close_features(worker.pair, a, b, query_.threshold, scratch, slice.names);
+  if (query_.detail == ContactDetail::vertices)
+    return add_close_vertices(worker.pair, a, b, query_.threshold, scratch, slice.names);
+  const ContactName name = closest_vertices(worker.pair, a, b, scratch, worker.scratch.nearest_of_leaves);
+  if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
+}
+
+void PairSearch::finish_contacts(Worker& worker) {
+  gather_found();
+  gather_names(worker);
+  if (!from_front_) remember(query_.threshold);
+  slice_count_ = 0;
+  if (names_.empty() && query_.reach <= query_.threshold) {
+    stage_ = Stage::done;
+  } else if (names_.empty()) {
+    begin_approach(worker);
+  } else {
+    stage_ = Stage::measured;
+    answer_->contacts.resize(names_.size());
+    add_slices_of(0, names_.size(), contacts_each);
+  }
+}
+
+void PairSearch::gather_names(Worker& worker) {
+  names_.clear();
+  if (slice_count_ == 1) return names_.swap(slices_.front().names);
+  run_ends_.clear();
+  for (std::size_t i = 0; i < slice_count_; ++i) {
+    const auto& names = slices_[i].names;
+    names_.insert(names_.end(), names.begin(), names.end());
+    if (!names.empty()) run_ends_.push_back(names_.size());
+  }
+  merge_runs(names_, run_ends_, merged_);
+  // An edge between two slices' faces is met in both.
+  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, names_);
+}
+
+void PairSearch::finish_measuring(Worker& worker) {
+  set_distance(worker, lowest_measured(worker));
+  answer_->in_contact = answer_->listed = true;
+  slice_count_ = 0;
+  stage_ = Stage::done;
+}
+
+/// The lowest name at the least distance, among contacts that have been measured.
+ContactName PairSearch::lowest_measured(Worker& worker) const {
+  worker.scratch.lowest.clear();
+  ClosestSet closest(worker.pair, Ties::lowest, worker.scratch.lowest);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : answer_->contacts) nearest = std::min(nearest, contact.distance);
+  // More than the rounding of a contact's distance, which is relative to the size of its features and their
+  // gap; those are inside the objects' boxes.
+  const double size = (a_->box().max - a_->box().min).maxCoeff() + (b_->box().max - b_->box().min).maxCoeff();
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const double distance = answer_->contacts[i].distance;
+    if (distance <= nearest + (size + distance) * 0x1p-44) closest.offer(names_[i]);
+  }
+  return closest.names().front();
+}
+
+// ---- The closest points
+
+/// ContactDetail::closest wants all names at the least distance; the distance alone needs one.
+Ties PairSearch::ties() const {
+  return query_.detail == ContactDetail::closest ? Ties::all : Ties::lowest;
+}
+
+void PairSearch::begin_approach(Worker& worker) {
+  beyond_front_ = front_->beyond_now(*a_, *b_);
+  from_front_ = beyond_front_ > 0;
+  closest_.clear();
+  ClosestRange(worker.pair, query_, ties(), closest_).offer_middles({});
+  approach(worker);
+}
+
+/// Finds the pairs of leaves to look into.
+void PairSearch::approach(Worker& worker) {
+  stage_ = Stage::approach;
+  if (from_front_) return slice_front();
+  ClosestRange range(worker.pair, query_, ties(), closest_);
+  slice_walk(
+      worker, [&](double lower, double slack) { return range.keep(lower, slack); },
+      [&](const RegionPair& regions) { range.offer_middles(regions); });
+}
+
+/// A slice goes on from what was known when it was cut, not from what others find meanwhile.
+void PairSearch::seed(Slice& slice) const {
+  slice.closest.clear();
+  slice.closest.closest.names.assign(1, closest_.closest.names.front());
+  slice.closest.closest.upper = closest_.closest.upper;
+}
+
+void PairSearch::run_approach(Slice& slice, Worker& worker) {
+  if (from_front_) return worker.leaf_pairs.take(slice.start, slice.found);
+  if (slice.start.empty()) return;
+  seed(slice);
+  ClosestRange range(worker.pair, query_, ties(), slice.closest);
+  slice.complete = worker.leaf_pairs.walk(
+      slice.start, [&](double lower, double slack) { return range.keep(lower, slack); },
+      [&](const RegionPair& regions) { range.offer_middles(regions); }, slice.found);
+}
+
+void PairSearch::take_up_closest(Worker& worker) {
+  ClosestSet set(worker.pair, ties(), closest_.closest);
+  for (std::size_t i = 0; i < slice_count_; ++i) {
+    const ClosestFound& found = slices_[i].closest;
+    for (const ContactName& name : found.closest.names) set.offer(name);
+    closest_.closest.pierced = closest_.closest.pierced || found.closest.pierced;
+    closest_.lower = std::min(closest_.lower, found.lower);
+  }
+}
+
+void PairSearch::begin_closest(Worker& worker) {
+  gather_found();
+  take_up_closest(worker);
+  slice_count_ = 0;
+  stage_ = Stage::closest;
+  auto& leaves = found_.leaves;
+  std::sort(leaves.begin(), leaves.end(), [](const LeafPair& left, const LeafPair& right) {
+    return std::tie(left.lower, left.pair.a, left.pair.b) < std::tie(right.lower, right.pair.a, right.pair.b);
+  });
+  const std::size_t first = sliced_ ? std::min(leaves.size(), closest_first) : leaves.size();
+  if (!look_into(0, first, closest_, worker)) return give_up();
+  // Leaf pairs are kept or not by their lower bounds alone, which ascend.
+  ClosestRange range(worker.pair, query_, ties(), closest_);
+  std::size_t end = first;
+  while (end < leaves.size() && range.keep(leaves[end].lower)) ++end;
+  add_slices_of(first, end, closest_each);
+}
+
+/// Looks into a range of the leaf pairs found; false when the budget ran out.
+bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const {
+  ClosestRange range(worker.pair, query_, ties(), found);
+  for (std::size_t i = begin; i < end; ++i) {
+    const LeafPair& leaves = found_.leaves[i];
+    if (!range.keep(leaves.lower)) continue;
+    if (!worker.meter.spend()) return false;
+    ++worker.meter.counters().leaf_pairs_tested;
+    const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
+    const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
+    if (about_vertices())
+      range.offer_vertices(a, b, worker.scratch.features);
+    else
+      range.offer_features(a, b, worker.scratch.features);
+  }
+  return true;
+}
+
+void PairSearch::finish_closest(Worker& worker) {
+  take_up_closest(worker);
+  slice_count_ = 0;
+  if (from_front_) {
+    // Settled, unless something outside the front may be as near as what is in it.
+    if (ClosestRange(worker.pair, query_, ties(), closest_).keep(beyond_front_)) {
+      from_front_ = false;
+      closest_.lower = std::numeric_limits<double>::infinity();
+      return approach(worker);
+    }
+  } else {
+    remember(std::max(query_.threshold, std::min(closest_.closest.upper, query_.reach)));
+  }
+  stage_ = Stage::done;
+  report_closest(worker);
+}
+
+void PairSearch::report_closest(Worker& worker) {
+  const ContactName& nearest = closest_.closest.names.front();
+  answer_->in_contact = (!about_vertices() && closest_.closest.pierced) ||
+                        is_closer_than(worker.pair, nearest, query_.threshold);
+  const bool in_reach = closest_.lower < query_.reach || is_closer_than(worker.pair, nearest, query_.reach);
+  answer_->listed = answer_->in_contact || in_reach;
+  if (!answer_->listed) return;
+  set_distance(worker, nearest);
+  answer_->distance.lower = std::min(answer_->distance.lower, closest_.lower);
+  if (query_.detail != ContactDetail::closest || !answer_->in_contact) return;
+  answer_->contacts.push_back(closest_contact(worker.pair, closest_.closest.names));
+  answer_->witness = witness_of(answer_->contacts.front());
+}
+
+// ---- As in the paper
+
+void PairSearch::as_in_paper(Worker& worker) {
+  names_.clear();
+  const PaperFound found = find_as_in_paper(worker.pair, query_, worker.scratch.paper, worker.meter, names_);
+  if (!found.complete) return give_up();
+  stage_ = Stage::done;
+  for (const ContactName& name : names_) answer_->contacts.push_back(measure(worker.pair, name));
+  set_distance(worker, worker.scratch.paper.closest.names.front());
+  answer_->distance.lower = std::min(answer_->distance.lower, found.lower);
+  answer_->in_contact = !names_.empty();
+  answer_->listed = answer_->in_contact || answer_->distance.lower < query_.reach;
+}
+
+}  // namespace graze

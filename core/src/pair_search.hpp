@@ -1,0 +1,117 @@
+#pragma once
+
+#include <graze/pair_query.hpp>
+#include <span>
+#include <vector>
+
+#include "closest_range.hpp"
+#include "contact_name.hpp"
+#include "leaf_names.hpp"
+#include "leaf_pairs.hpp"
+#include "paper.hpp"
+
+namespace graze {
+
+/// Working memory of one thread.
+struct SearchScratch {
+  LeafPairScratch leaf_pairs;
+  LeafScratch features;
+  Closest nearest_of_leaves;
+  PaperScratch paper;
+  Closest lowest;
+};
+
+/// One query about one pair of surfaces: DMV, DV and contact determination, as stages of slices. A slice
+/// reads what the stage has in common and writes its own place, so slices may run on any threads in any
+/// order; between stages `advance` puts the slices' results together in their order. How a stage is cut
+/// depends on the surfaces and the query only, so the answer does not depend on who ran what.
+class PairSearch {
+ public:
+  /// What is pointed to stays until the query is answered. `sliced`: a stage may be of many slices.
+  void begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front, PairAnswer& answer,
+             bool sliced);
+
+  /// Goes on to the next stage of several slices; true when the answer is there instead. Otherwise each of
+  /// the slices below `slice_count` is to be run once, and then this called again.
+  bool advance(SearchScratch& scratch, PairCounters& counters);
+  [[nodiscard]] std::size_t slice_count() const { return slice_count_; }
+  void run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters);
+
+ private:
+  /// What the slices that were made last are for.
+  enum class Stage : std::uint8_t {
+    start,
+    contacts,  ///< the names of all contacts
+    measured,  ///< the contacts themselves
+    approach,  ///< pairs of leaves where the closest points may be
+    closest,   ///< the closest points in them
+    done,
+  };
+  struct Slice {
+    std::span<const RegionPair> start;  ///< where to walk from, or part of a front
+    std::size_t begin = 0;              ///< a range of leaf pairs or names
+    std::size_t end = 0;
+    bool complete = true;
+    LeafPairList found;
+    std::vector<ContactName> names;
+    ClosestFound closest;
+  };
+  class Worker;
+
+  void next_stage(Worker& worker);
+  void run(Slice& slice, Worker& worker);
+  void give_up();
+  void as_in_paper(Worker& worker);
+
+  void begin_contacts(Worker& worker);
+  void run_contacts(Slice& slice, Worker& worker);
+  void add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker);
+  void finish_contacts(Worker& worker);
+  void gather_names(Worker& worker);
+  void finish_measuring(Worker& worker);
+  [[nodiscard]] ContactName lowest_measured(Worker& worker) const;
+  [[nodiscard]] bool may_touch(double lower) const;
+
+  void begin_approach(Worker& worker);
+  void approach(Worker& worker);
+  void run_approach(Slice& slice, Worker& worker);
+  void begin_closest(Worker& worker);
+  bool look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const;
+  void take_up_closest(Worker& worker);
+  void finish_closest(Worker& worker);
+  void report_closest(Worker& worker);
+  void seed(Slice& slice) const;
+
+  Slice& add_slice();
+  void add_slices_of(std::span<const RegionPair> pairs, std::size_t each);
+  void add_slices_of(std::size_t begin, std::size_t end, std::size_t each);
+  void slice_front();
+  template <typename Keep, typename Meet>
+  void slice_walk(Worker& worker, const Keep& keep, const Meet& meet);
+  void gather_found();
+  void remember(double wanted);
+  void set_distance(Worker& worker, const ContactName& nearest);
+  [[nodiscard]] Ties ties() const;
+  [[nodiscard]] bool about_vertices() const { return is_about_vertices(query_.detail); }
+
+  const Surface* a_ = nullptr;
+  const Surface* b_ = nullptr;
+  PairQuery query_;
+  LeafFront* front_ = nullptr;
+  PairAnswer* answer_ = nullptr;
+  bool sliced_ = false;
+  bool from_front_ = false;  ///< the slices begin at the last query's front
+  double beyond_front_ = -1;
+
+  Stage stage_ = Stage::done;
+  std::vector<Slice> slices_;  ///< kept longer than `slice_count_` for their memory
+  std::size_t slice_count_ = 0;
+  std::vector<RegionPair> roots_;  ///< where the slices walk from
+  LeafPairList found_;
+  std::vector<ContactName> names_;
+  std::vector<std::size_t> run_ends_;  ///< of the slices' names in names_
+  std::vector<ContactName> merged_;
+  ClosestFound closest_;
+};
+
+}  // namespace graze
