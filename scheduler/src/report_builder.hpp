@@ -18,13 +18,14 @@ class ReportBuilder {
     report_.diagnostics_.clear();
     report_.statistics_ = {};
   }
-  /// Appends a pair and its contacts.
-  void add(PairReport pair, std::span<const Contact> contacts) {
+  /// Appends a pair and its contacts, and gives these back for what else is to be said of them.
+  std::span<Contact> add(PairReport pair, std::span<const Contact> contacts) {
     pair.first_contact = report_.contacts_.size();
     pair.contact_count = contacts.size();
     report_.contacts_.insert(report_.contacts_.end(), contacts.begin(), contacts.end());
     report_.pairs_.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
+    return std::span(report_.contacts_).subspan(pair.first_contact);
   }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }

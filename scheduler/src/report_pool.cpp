@@ -26,8 +26,10 @@ ReportHandle ReportPool::latest() noexcept {
 FrameReport& ReportPool::begin() {
   const auto published = static_cast<std::uint32_t>(current_.load(std::memory_order_relaxed) >> count_bits);
   // Acquire: the last handle's reads are over before the slot is written again.
-  for (std::uint32_t index = 0; index < slot_count_; ++index)
+  const bool any_free = free_count_.load(std::memory_order_acquire) > 0;
+  for (std::uint32_t index = 0; any_free && index < slot_count_; ++index)
     if (index != published && slot(index).references.load(std::memory_order_acquire) == 0) {
+      free_count_.fetch_sub(1, std::memory_order_relaxed);
       filling_ = index;
       return slot(index).report;
     }
@@ -49,12 +51,17 @@ void ReportPool::retire(std::uint64_t taken) noexcept {
   const auto index = static_cast<std::uint32_t>(taken >> count_bits);
   const std::int64_t change = static_cast<std::int64_t>(taken & count_mask) - bias;
   owners_.fetch_add(1, std::memory_order_relaxed);
-  if (slot(index).references.fetch_add(change, std::memory_order_acq_rel) + change == 0) drop_owner();
+  if (slot(index).references.fetch_add(change, std::memory_order_acq_rel) + change == 0) was_freed();
 }
 
 void ReportPool::release(std::uint32_t index) noexcept {
   // Release: this handle's reads are over; acquire, should it be the last: so are all others'.
-  if (slot(index).references.fetch_sub(1, std::memory_order_acq_rel) == 1) drop_owner();
+  if (slot(index).references.fetch_sub(1, std::memory_order_acq_rel) == 1) was_freed();
+}
+
+void ReportPool::was_freed() noexcept {
+  free_count_.fetch_add(1, std::memory_order_release);
+  drop_owner();
 }
 
 void ReportPool::drop_owner() noexcept {

@@ -60,10 +60,13 @@ class ReportPool {
   }
   void release(std::uint32_t index) noexcept;
   void retire(std::uint64_t taken) noexcept;
+  void was_freed() noexcept;
   void drop_owner() noexcept;
 
   std::atomic<std::uint64_t> current_{0};
   std::atomic<std::int64_t> owners_{1};
+  /// Slots that can be filled again; a look through them all is saved while there are none.
+  std::atomic<std::uint32_t> free_count_{0};
   // A chunk is written before any slot of it is published, and read only through an index taken from
   // `current_`.
   std::array<std::unique_ptr<Chunk>, chunk_capacity> chunks_;

@@ -1,5 +1,7 @@
 #include "report_rows.hpp"
 
+#include <tuple>
+
 namespace graze {
 
 std::optional<PairReport> repeated_row(const PairJob& job) {
@@ -31,6 +33,18 @@ std::optional<PairReport> row_of(const PairJob& job, const PairAnswer& answer) {
     row.phase = was ? PairPhase::ended : PairPhase::near;
   if (answer.listed || was) return row;
   return std::nullopt;
+}
+
+void set_ages(std::span<const Contact> last, std::span<Contact> contacts) {
+  const auto key_of = [](const Contact& contact) {
+    return std::tie(contact.kind, contact.feature_a, contact.feature_b);
+  };
+  auto before = last.begin();
+  for (Contact& contact : contacts) {
+    while (before != last.end() && key_of(*before) < key_of(contact)) ++before;
+    const bool is_old = before != last.end() && key_of(*before) == key_of(contact);
+    contact.age = is_old ? before->age + 1 : 0;
+  }
 }
 
 }  // namespace graze

@@ -3,6 +3,7 @@
 #include <graze/pair_query.hpp>
 #include <graze/report.hpp>
 #include <optional>
+#include <span>
 
 #include "pair_job.hpp"
 
@@ -13,5 +14,9 @@ std::optional<PairReport> row_of(const PairJob& job, const PairAnswer& answer);
 
 /// The same of a pair that was not looked at: its last row again.
 std::optional<PairReport> repeated_row(const PairJob& job);
+
+/// Sets the ages of a pair's contacts, which follow those of the last report; both are sorted by their
+/// features.
+void set_ages(std::span<const Contact> last, std::span<Contact> contacts);
 
 }  // namespace graze

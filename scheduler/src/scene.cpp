@@ -1,4 +1,5 @@
 #include <atomic>
+#include <exception>
 #include <graze/error.hpp>
 #include <graze/floating_point_scope.hpp>
 #include <graze/scene.hpp>
@@ -17,19 +18,27 @@ const SceneSettings& checked(const SceneSettings& settings) {
   return settings;
 }
 
-/// Says that a step runs, for as long as it does; throws where one already ran.
-class StepGuard {
+/// Says whether a step runs. Shared with the step, so that it can be told to a scene that then goes away.
+using Stepping = std::shared_ptr<std::atomic<bool>>;
+
+void begin_stepping(const Stepping& stepping) {
+  if (stepping->exchange(true, std::memory_order_acquire))
+    throw Error("scene: a step of this scene is already running on another thread");
+}
+
+/// Says that it runs no more, when this goes.
+class SteppingEnd {
  public:
-  explicit StepGuard(std::atomic<bool>& stepping) : stepping_(stepping) {
-    if (stepping_.exchange(true, std::memory_order_acquire))
-      throw Error("scene: a step of this scene is already running on another thread");
+  explicit SteppingEnd(Stepping stepping) : stepping_(std::move(stepping)) {}
+  ~SteppingEnd() {
+    stepping_->store(false, std::memory_order_release);
+    stepping_->notify_all();
   }
-  ~StepGuard() { stepping_.store(false, std::memory_order_release); }
-  StepGuard(const StepGuard&) = delete;
-  StepGuard& operator=(const StepGuard&) = delete;
+  SteppingEnd(const SteppingEnd&) = delete;
+  SteppingEnd& operator=(const SteppingEnd&) = delete;
 
  private:
-  std::atomic<bool>& stepping_;
+  Stepping stepping_;
 };
 
 }  // namespace
@@ -38,16 +47,28 @@ class Scene::State {
  public:
   explicit State(const SceneSettings& given)
       : settings(checked(given)), step(settings, staging), reports(ReportPool::create()) {}
-  ~State() { reports->close(); }
+  ~State() {
+    stepping->wait(true, std::memory_order_acquire);
+    reports->close();
+  }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
+
+  ReportHandle run_step() {
+    const FloatingPointScope scope;
+    FrameReport& report = reports->begin();
+    const ReportHandle previous = reports->latest();
+    step.run(++frame, *previous, report);
+    return reports->publish();
+  }
 
   const SceneSettings settings;
   Staging staging;
   Step step;
   ReportPool* const reports;  ///< deletes itself when the scene and all handles are gone
-  std::atomic<bool> stepping{false};
+  const Stepping stepping = std::make_shared<std::atomic<bool>>(false);
   std::uint64_t frame = 0;
+  std::exception_ptr problem;  ///< of the last step_async
 };
 
 Scene::Scene(const SceneSettings& settings) : state_(std::make_unique<State>(settings)) {}
@@ -104,12 +125,36 @@ void Scene::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule&
 }
 
 ReportHandle Scene::step() {
-  const StepGuard guard(state_->stepping);
-  const FloatingPointScope scope;
-  FrameReport& report = state_->reports->begin();
-  const ReportHandle previous = state_->reports->latest();
-  state_->step.run(++state_->frame, *previous, report);
-  return state_->reports->publish();
+  begin_stepping(state_->stepping);
+  const SteppingEnd end(state_->stepping);
+  state_->step.take_calls();
+  return state_->run_step();
+}
+
+void Scene::step_async() {
+  begin_stepping(state_->stepping);
+  State* const state = state_.get();
+  state->step.take_calls();
+  state->step.tasks().start([state] {
+    // After this the scene may be gone.
+    const SteppingEnd end(state->stepping);
+    state->problem = nullptr;
+    try {
+      (void)state->run_step();
+    } catch (...) {
+      state->problem = std::current_exception();
+    }
+  });
+}
+
+bool Scene::is_stepping() const {
+  return state_->stepping->load(std::memory_order_acquire);
+}
+
+ReportHandle Scene::wait() {
+  state_->stepping->wait(true, std::memory_order_acquire);
+  if (state_->problem) std::rethrow_exception(std::exchange(state_->problem, nullptr));
+  return latest_report();
 }
 
 ReportHandle Scene::latest_report() const {

@@ -28,7 +28,10 @@ class Lap {
 }  // namespace
 
 Step::Step(const SceneSettings& settings, Staging& staging)
-    : staging_(staging), tasks_(settings.threads), pairs_(settings, store_), jobs_(settings, tasks_) {}
+    : staging_(staging),
+      tasks_(settings.threads, settings.arena),
+      pairs_(settings, store_),
+      jobs_(settings, tasks_) {}
 
 void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& report) {
   const Clock::time_point start = Clock::now();
@@ -54,7 +57,6 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
 }
 
 void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
-  staging_.take(commands_);
   for (Command& command : commands_)
     std::visit(Overloaded{[&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
                           [&](SetRule& rule) {
@@ -91,7 +93,8 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
     if (in_contact)
       contacts =
           repeats ? previous.contacts(*job.last) : std::span<const Contact>(jobs_.answer(index).contacts);
-    builder.add(*row, contacts);
+    const auto reported = builder.add(*row, contacts);
+    if (job.last != nullptr && !row->stale) set_ages(previous.contacts(*job.last), reported);
     listed_.push_back(&job);
     ++statistics.pairs_near;
     if (in_contact) ++statistics.pairs_in_contact;

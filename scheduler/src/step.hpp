@@ -19,8 +19,12 @@ class Step {
  public:
   Step(const SceneSettings& settings, Staging& staging);
 
+  /// Takes the calls made so far for the next `run`.
+  void take_calls() { staging_.take(commands_); }
   /// Fills `report` with frame `frame`, which follows `previous`.
   void run(std::uint64_t frame, const FrameReport& previous, FrameReport& report);
+
+  [[nodiscard]] TaskPool& tasks() { return tasks_; }
 
  private:
   using Clock = std::chrono::steady_clock;

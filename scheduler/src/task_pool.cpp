@@ -8,23 +8,24 @@
 #include <algorithm>
 #include <atomic>
 #include <graze/floating_point_scope.hpp>
+#include <utility>
 
 namespace graze {
 
 struct TaskPool::Arena {
-  /// No more threads than oneTBB gives in this process: it would only complain on the caller's terminal.
-  explicit Arena(std::size_t threads)
-      : arena(
-            static_cast<int>(std::min(threads, oneapi::tbb::global_control::active_value(
-                                                   oneapi::tbb::global_control::max_allowed_parallelism)))) {}
+  explicit Arena(int threads, unsigned reserved_for_callers = 1) : arena(threads, reserved_for_callers) {}
   oneapi::tbb::task_arena arena;
 };
 
-TaskPool::TaskPool(unsigned threads)
+TaskPool::TaskPool(unsigned threads, ArenaPolicy policy)
     : worker_count_(threads == 0
                         ? static_cast<unsigned>(std::max(1, oneapi::tbb::info::default_concurrency()))
                         : threads) {
-  if (worker_count_ > 1) arena_ = std::make_unique<Arena>(worker_count_);
+  // No more threads than oneTBB gives in this process: it would only complain on the caller's terminal.
+  const std::size_t allowed =
+      oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
+  if (worker_count_ > 1 && policy == ArenaPolicy::own)
+    arena_ = std::make_unique<Arena>(static_cast<int>(std::min<std::size_t>(worker_count_, allowed)));
 }
 
 TaskPool::~TaskPool() = default;
@@ -39,7 +40,7 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
   // Each task is a worker that takes the next item until none is left. Items write to places of their own, so
   // which worker takes which does not show in the result.
   std::atomic<std::size_t> next{0};
-  arena_->arena.execute([&] {
+  const auto run_workers = [&] {
     oneapi::tbb::parallel_for(
         0U, workers,
         [&](unsigned worker) {
@@ -49,7 +50,16 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
             work(worker, item);
         },
         oneapi::tbb::simple_partitioner());
-  });
+  };
+  if (arena_) return arena_->arena.execute(run_workers);
+  // In the caller's arena a thread that waits must not take up the caller's own tasks in the middle of a
+  // step.
+  oneapi::tbb::this_task_arena::isolate(run_workers);
+}
+
+void TaskPool::start(std::function<void()> work) {
+  if (!beside_) beside_ = std::make_unique<Arena>(1, 0);
+  beside_->arena.enqueue(std::move(work));
 }
 
 }  // namespace graze

@@ -2,16 +2,17 @@
 
 #include <cstddef>
 #include <functional>
+#include <graze/settings.hpp>
 #include <memory>
 
 namespace graze {
 
 /// Threads of the caller's process, through oneTBB. With one thread everything runs on the caller's, without
-/// a task.
+/// a task. Nothing here changes how many threads oneTBB has.
 class TaskPool {
  public:
   /// 0: as many threads as the machine has.
-  explicit TaskPool(unsigned threads);
+  TaskPool(unsigned threads, ArenaPolicy policy);
   ~TaskPool();
   TaskPool(const TaskPool&) = delete;
   TaskPool& operator=(const TaskPool&) = delete;
@@ -23,9 +24,13 @@ class TaskPool {
   /// the calls of one worker never overlap. Every worker computes in a FloatingPointScope.
   void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work);
 
+  /// Calls `work` on another thread, once; it must not throw.
+  void start(std::function<void()> work);
+
  private:
   struct Arena;
-  std::unique_ptr<Arena> arena_;
+  std::unique_ptr<Arena> arena_;   ///< null with one thread, and in the caller's arena
+  std::unique_ptr<Arena> beside_;  ///< of `start`; made when first asked for
   unsigned worker_count_ = 1;
 };
 

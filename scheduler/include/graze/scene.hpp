@@ -84,6 +84,15 @@ class GRAZE_API Scene {
   /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
   /// of this scene is running, or when 65,536 reports are held by handles.
   ReportHandle step();
+  /// Begins a step on another thread and returns; it takes up the calls made until now. Throws Error when a
+  /// step is running. Calls made meanwhile are for the step after; bound memory stays as it is until `wait`
+  /// has returned.
+  void step_async();
+  /// Whether a step is running.
+  [[nodiscard]] bool is_stepping() const;
+  /// Waits for the end of the last step_async, if there was one, and returns its report, which is
+  /// `latest_report`. Throws what went wrong in it, as `step` does. From one thread at a time.
+  ReportHandle wait();
   /// The last published report; of frame 0 and empty before the first step. Wait-free.
   [[nodiscard]] ReportHandle latest_report() const;
 

@@ -17,6 +17,10 @@ enum class Motion : std::uint8_t { deformable, rigid, fixed };
 /// When bound memory is read: in every step, or only in the step after `Scene::positions_changed`.
 enum class BindPolicy : std::uint8_t { every_step, when_told };
 
+/// Where a step's tasks run: in an arena of the scene's own, or in the one of the thread that calls `step`,
+/// at most as many at once as that has threads.
+enum class ArenaPolicy : std::uint8_t { own, callers };
+
 /// What a scene is told of an object when it is added.
 struct ObjectSettings {
   std::string name = {};
@@ -41,7 +45,8 @@ struct SceneSettings {
   double range = 0;             ///< pairs closer than this are listed with their distance
   ContactDetail detail = ContactDetail::features;
   Accuracy accuracy = Accuracy::exact();
-  unsigned threads = 0;  ///< 0: as many as the machine has
+  unsigned threads = 0;  ///< 0: as many as the machine has; 1: all on the thread that calls `step`
+  ArenaPolicy arena = ArenaPolicy::own;
   /// A step's deadline for pairs; positions are always read and bounds refreshed first.
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;
   /// The same in region pairs, reproducibly.
