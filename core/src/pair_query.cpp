@@ -2,6 +2,7 @@
 
 #include "bounds.hpp"
 #include "pair_detector_scratch.hpp"
+#include "region_distances.hpp"
 
 namespace graze {
 
@@ -11,6 +12,7 @@ void PairCounters::add(const PairCounters& other) {
   discarded_in_float += other.discarded_in_float;
   decided_in_double += other.decided_in_double;
   exact_decisions += other.exact_decisions;
+  fronts_left_out += other.fronts_left_out;
   for (std::size_t level = 0; level < regions_expanded.size(); ++level)
     regions_expanded[level] += other.regions_expanded[level];
 }
@@ -41,6 +43,8 @@ void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQu
   answer.in_contact = false;
   answer.complete = false;
   answer.contacts.clear();
+  answer.region_distances.clear();
+  answer.region_distances_left_out = 0;
   set_outer_bounds(a, b, answer);
   answer.listed = answer.distance.lower < query.reach || answer.distance.lower == 0;
 }
@@ -55,6 +59,12 @@ void PairDetector::detect(const Surface& a, const Surface& b, const PairQuery& q
                           PairAnswer& answer, PairCounters& counters) {
   scratch_->search.begin(a, b, query, front, answer, false);
   scratch_->search.advance(scratch_->memory, counters);
+}
+
+void PairDetector::region_distances(const Surface& a, const Surface& b, const PairQuery& query,
+                                    PairAnswer& answer) {
+  DecisionCount decisions;
+  find_region_distances({a, b, decisions}, query, scratch_->memory.leaf_pairs.dmv, answer);
 }
 
 }  // namespace graze

@@ -204,7 +204,7 @@ void PairSearch::gather_found() {
 
 /// After a walk: makes its leaf pairs the front, but for those that do not matter before the surfaces have
 /// moved by the slack, where what is looked for is nearer than `wanted`.
-void PairSearch::remember(double wanted) {
+void PairSearch::remember(double wanted, Worker& worker) {
   front_->forget();
   if (query_.slack <= 0) return;
   for (const LeafPair& leaves : found_.leaves) {
@@ -213,7 +213,10 @@ void PairSearch::remember(double wanted) {
     else
       found_.beyond = std::min(found_.beyond, leaves.lower);
   }
-  if (front_->leaves.size() > query_.front_limit) return front_->forget();
+  if (front_->leaves.size() > query_.front_limit) {
+    ++worker.meter.counters().fronts_left_out;
+    return front_->forget();
+  }
   front_->beyond = found_.beyond;
   front_->travel_a = a_->travel();
   front_->travel_b = b_->travel();
@@ -281,7 +284,7 @@ void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& wo
 void PairSearch::finish_contacts(Worker& worker) {
   gather_found();
   gather_names(worker);
-  if (!from_front_) remember(query_.threshold);
+  if (!from_front_) remember(query_.threshold, worker);
   slice_count_ = 0;
   if (names_.empty() && query_.reach <= query_.threshold) {
     stage_ = Stage::done;
@@ -430,7 +433,7 @@ void PairSearch::finish_closest(Worker& worker) {
       return approach(worker);
     }
   } else {
-    remember(std::max(query_.threshold, std::min(closest_.closest.upper, query_.reach)));
+    remember(std::max(query_.threshold, std::min(closest_.closest.upper, query_.reach)), worker);
   }
   stage_ = Stage::done;
   report_closest(worker);

@@ -89,7 +89,7 @@ class PairSearch {
   template <typename Keep, typename Meet>
   void slice_walk(Worker& worker, const Keep& keep, const Meet& meet);
   void gather_found();
-  void remember(double wanted);
+  void remember(double wanted, Worker& worker);
   void set_distance(Worker& worker, const ContactName& nearest);
   [[nodiscard]] Ties ties() const;
   [[nodiscard]] bool about_vertices() const { return is_about_vertices(query_.detail); }

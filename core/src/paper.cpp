@@ -8,6 +8,17 @@
 namespace graze {
 namespace {
 
+ContactName middles_of(const Region& a, const Region& b) {
+  return ContactName::of(vertex_piece(a.middle), vertex_piece(b.middle));
+}
+
+double epsilon_of(const SurfacePair& pair, const PairQuery& query, const Region& a, const Region& b) {
+  if (query.epsilon.empty()) return pair.a.level_radii()[a.level] + pair.b.level_radii()[b.level];
+  const std::size_t level = std::max<std::size_t>(1, std::max(a.level, b.level));
+  const std::size_t last = std::max<std::size_t>(1, query.epsilon.size() - 1);
+  return query.epsilon[std::min(level, last) - 1];
+}
+
 class Paper {
  public:
   Paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch, WorkMeter& meter,
@@ -41,20 +52,10 @@ class Paper {
   /// Eq. 4: expand when the middle vertices are closer than the level's epsilon; the pair of roots always.
   bool expand(const RegionPair& regions, const Region& a, const Region& b) {
     if (std::max(a.level, b.level) == 0) return true;
-    const ContactName middles = ContactName::of(vertex_piece(a.middle), vertex_piece(b.middle));
-    nearest_.offer(middles);
-    if (is_closer_than(pair_, middles, epsilon(a, b))) return true;
+    nearest_.offer(middles_of(a, b));
+    if (passes_as_in_paper(pair_, query_, a, b)) return true;
     found_.lower = std::min(found_.lower, bounds_.lower(regions));
     return false;
-  }
-
-  /// The numbers given for levels 1 to k-1, the last of them for deeper levels; without numbers eq. 3 summed
-  /// as in eq. 6, each region by its own level.
-  [[nodiscard]] double epsilon(const Region& a, const Region& b) const {
-    if (query_.epsilon.empty()) return pair_.a.level_radii()[a.level] + pair_.b.level_radii()[b.level];
-    const std::size_t level = std::max<std::size_t>(1, std::max(a.level, b.level));
-    const std::size_t last = std::max<std::size_t>(1, query_.epsilon.size() - 1);
-    return query_.epsilon[std::min(level, last) - 1];
   }
 
   /// DV at two leaves: from their closest vertices (eq. 5) along the meshes' edges while the distance
@@ -106,6 +107,10 @@ class Paper {
 };
 
 }  // namespace
+
+bool passes_as_in_paper(const SurfacePair& pair, const PairQuery& query, const Region& a, const Region& b) {
+  return is_closer_than(pair, middles_of(a, b), epsilon_of(pair, query, a, b));
+}
 
 PaperFound find_as_in_paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch,
                             WorkMeter& meter, std::vector<ContactName>& names) {

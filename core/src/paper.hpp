@@ -23,6 +23,11 @@ struct PaperFound {
   double lower = std::numeric_limits<double>::infinity();
 };
 
+/// Eq. 4: whether the middle vertices are closer than their level's epsilon: the numbers given for levels 1
+/// to k-1, the last of them for deeper levels; without numbers eq. 3 summed as in eq. 6, each region by its
+/// own level.
+bool passes_as_in_paper(const SurfacePair& pair, const PairQuery& query, const Region& a, const Region& b);
+
 /// The paper's method (sections 3.2 and 3.3): DMV with eq. 4's test, and at two leaves DV. Appends the names
 /// of its answer, sorted, each once: with `regions` where DV's walk ended below the threshold, with
 /// `vertices` all pairs of the leaves reached below it. `scratch.closest` holds the nearest pair of vertices

@@ -51,6 +51,10 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.epsilon = job.thresholds.epsilon;
   query.threshold = job.thresholds.threshold;
   query.reach = job.thresholds.reach;
+  query.region_distance_reach = query.reach;
+  query.region_distance_limit = settings_.region_distances == 0
+                                    ? 0
+                                    : std::max<std::size_t>(1, settings_.region_distances / jobs_.size());
   if (job.was_in_contact()) query.reach = infinity;
   query.slack = slack_of(*job.a->surface, *job.b->surface);
   query.front_limit = front_pairs_of_all / jobs_.size();
@@ -73,7 +77,8 @@ void PairJobs::refit(std::span<const PairJob> jobs) {
     const bool about_vertices = is_about_vertices(settings_.detail);
     const double motion =
         about_vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit();
-    const bool to_the_letter = settings_.accuracy.mode() == AccuracyMode::paper;
+    const bool to_the_letter =
+        settings_.accuracy.mode() == AccuracyMode::paper || settings_.region_distances > 0;
     if (!to_the_letter && motion <= stale_leaf_sizes * surface.leaf_size()) return;
     about_vertices ? surface.refit_vertices() : surface.refit_faces();
   });
@@ -131,7 +136,7 @@ void PairJobs::begin_large(std::uint32_t place, unsigned worker) {
   if (is_late()) return PairDetector::outer_bounds(*job.a->surface, *job.b->surface, query, answers_[index]);
   large_[place].begin(*job.a->surface, *job.b->surface, query, job.memory->front, answers_[index]);
   answered_[place] = large_[place].advance(detectors_[worker], counters_[worker]) ? 1 : 0;
-  if (answered_[place] != 0) was_detected(index);
+  if (answered_[place] != 0) was_detected(index, worker);
 }
 
 /// The slices of all large pairs as one list, until every pair is answered.
@@ -150,7 +155,7 @@ void PairJobs::run_rounds_of_slices() {
     tasks_.run(large_jobs_.size(), [&](unsigned worker, std::size_t place) {
       if (answered_[place] != 0 || !large_[place].advance(detectors_[worker], counters_[worker])) return;
       answered_[place] = 1;
-      was_detected(large_jobs_[place]);
+      was_detected(large_jobs_[place], worker);
     });
   }
 }
@@ -168,12 +173,14 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
   const Surface& b = *job.b->surface;
   if (work_limit == 0 || is_late()) return PairDetector::outer_bounds(a, b, query, answers_[index]);
   detectors_[worker].detect(a, b, query, job.memory->front, answers_[index], counters_[worker]);
-  was_detected(index);
+  was_detected(index, worker);
 }
 
 /// Remembers what the answer was about.
-void PairJobs::was_detected(std::uint32_t index) {
+void PairJobs::was_detected(std::uint32_t index, unsigned worker) {
   const PairJob& job = jobs_[index];
+  if (settings_.region_distances > 0)
+    detectors_[worker].region_distances(*job.a->surface, *job.b->surface, query_of(job), answers_[index]);
   const bool whole = answers_[index].complete && job.task == PairJob::Task::detect;
   job.memory->version_a = whole ? job.a->surface->version() : 0;
   job.memory->version_b = whole ? job.b->surface->version() : 0;

@@ -15,11 +15,17 @@ class ReportBuilder {
     report_.complete_ = true;
     report_.pairs_.clear();
     report_.contacts_.clear();
+    report_.region_distances_.clear();
     report_.diagnostics_.clear();
     report_.statistics_ = {};
   }
-  /// Appends a pair and its contacts, and gives these back for what else is to be said of them.
-  std::span<Contact> add(PairReport pair, std::span<const Contact> contacts) {
+  /// Appends a pair with what belongs to it, and gives its contacts back for what else is to be said of them.
+  std::span<Contact> add(PairReport pair, std::span<const Contact> contacts,
+                         std::span<const RegionDistance> region_distances) {
+    pair.first_region_distance = report_.region_distances_.size();
+    pair.region_distance_count = region_distances.size();
+    report_.region_distances_.insert(report_.region_distances_.end(), region_distances.begin(),
+                                     region_distances.end());
     pair.first_contact = report_.contacts_.size();
     pair.contact_count = contacts.size();
     report_.contacts_.insert(report_.contacts_.end(), contacts.begin(), contacts.end());
@@ -31,6 +37,7 @@ class ReportBuilder {
   StepStatistics& statistics() { return report_.statistics_; }
   [[nodiscard]] std::size_t byte_count() const {
     return report_.pairs_.capacity() * sizeof(PairReport) + report_.contacts_.capacity() * sizeof(Contact) +
+           report_.region_distances_.capacity() * sizeof(RegionDistance) +
            report_.diagnostics_.capacity() * sizeof(Diagnostic);
   }
 

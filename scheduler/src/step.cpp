@@ -89,11 +89,15 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
     if (!row) continue;
     if (repeats && !job.allowed) row->phase = PairPhase::ended;
     const bool in_contact = row->phase == PairPhase::began || row->phase == PairPhase::touching;
+    const PairAnswer& answer = jobs_.answer(index);
     std::span<const Contact> contacts;
     if (in_contact)
-      contacts =
-          repeats ? previous.contacts(*job.last) : std::span<const Contact>(jobs_.answer(index).contacts);
-    const auto reported = builder.add(*row, contacts);
+      contacts = repeats ? previous.contacts(*job.last) : std::span<const Contact>(answer.contacts);
+    const auto regions = repeats ? previous.region_distances(*job.last)
+                                 : std::span<const RegionDistance>(answer.region_distances);
+    const auto reported = builder.add(*row, contacts, regions);
+    statistics.region_distances += regions.size();
+    if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
     if (job.last != nullptr && !row->stale) set_ages(previous.contacts(*job.last), reported);
     listed_.push_back(&job);
     ++statistics.pairs_near;
@@ -110,6 +114,7 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.discarded_in_float = sum.discarded_in_float;
   statistics.decided_in_double = sum.decided_in_double;
   statistics.exact_decisions = sum.exact_decisions;
+  statistics.fronts_left_out = sum.fronts_left_out;
   statistics.regions_expanded = sum.regions_expanded;
   for (const auto& object : store_.objects()) {
     statistics.object_bytes += object->surface->byte_count();

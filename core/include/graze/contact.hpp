@@ -64,4 +64,17 @@ struct Witness {
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
 };
 
+/// A pair of regions that are near each other: one line of the paper's figure 7, between their middle
+/// vertices.
+struct RegionDistance {
+  std::uint32_t level = 0;  ///< the deeper of the regions' levels; 1 is the paper's first
+  std::uint32_t region_a = 0;
+  std::uint32_t region_b = 0;
+  std::uint32_t vertex_a = 0;  ///< the middle vertices
+  std::uint32_t vertex_b = 0;
+  Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
+  double distance = 0;  ///< of the points, rounded: eq. 4's δ
+};
+
 }  // namespace graze

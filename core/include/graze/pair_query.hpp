@@ -27,6 +27,10 @@ struct PairQuery {
   double slack = 0;
   /// A front of more pairs of leaves than this is not kept.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
+  /// How many distances of regions are listed at most; 0: none are looked for.
+  std::size_t region_distance_limit = 0;
+  /// Regions are listed that may be nearer than this; in AccuracyMode::paper, those that pass its test.
+  double region_distance_reach = 0;
   std::span<const double>
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
   /// Region pairs that may be tested; beyond it the answer is not complete.
@@ -44,6 +48,7 @@ struct GRAZE_API PairCounters {
   std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices, of two leaves
   std::uint64_t decided_in_double = 0;   ///< questions
   std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
+  std::uint64_t fronts_left_out = 0;     ///< fronts that were not kept because of PairQuery::front_limit
   /// Pairs of regions expanded, by level.
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
 
@@ -58,6 +63,9 @@ struct PairAnswer {
   DistanceBounds distance;
   Witness witness;
   std::vector<Contact> contacts;  ///< sorted by (kind, feature a, feature b)
+  /// By level; those of `PairDetector::region_distances`.
+  std::vector<RegionDistance> region_distances;
+  std::uint64_t region_distances_left_out = 0;  ///< at least so many more were not listed
 };
 
 /// Answers queries about pairs of surfaces: DMV, DV and contact determination (paper, sections 3.2 and 3.3).
@@ -82,6 +90,10 @@ class GRAZE_API PairDetector {
   /// The same without a front.
   void detect(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer,
               PairCounters& counters);
+
+  /// Lists the pair's distances of regions in `answer`, level by level, as PairQuery::region_distance_limit
+  /// says; both surfaces have been refitted now.
+  void region_distances(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer);
 
   /// Bounds that need no search and no refit, for a pair whose turn does not come: an answer that is not
   /// complete.

@@ -29,6 +29,8 @@ struct PairReport {
   Witness witness;
   std::size_t first_contact = 0;  ///< into FrameReport::contacts()
   std::size_t contact_count = 0;
+  std::size_t first_region_distance = 0;  ///< into FrameReport::region_distances()
+  std::size_t region_distance_count = 0;
 };
 
 enum class DiagnosticKind : std::uint8_t {
@@ -69,11 +71,17 @@ struct StepStatistics {
   std::uint64_t pairs_near = 0;      ///< listed in the report
   std::uint64_t pairs_in_contact = 0;
   std::uint64_t contacts = 0;
+  std::uint64_t region_distances = 0;
+  /// At least so many more had no place within SceneSettings::region_distances.
+  std::uint64_t region_distances_left_out = 0;
   std::uint64_t region_pairs_tested = 0;
   std::uint64_t leaf_pairs_tested = 0;
   std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices that were certainly too far
   std::uint64_t decided_in_double = 0;   ///< questions that double answered
   std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
+  /// Pairs that will be searched from their roots in the next step: all pairs' fronts together are kept up to
+  /// 2^22 pairs of leaves, and each pair's up to an equal share of it. It costs time and changes no answer.
+  std::uint64_t fronts_left_out = 0;
   /// Region pairs expanded, by level.
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
   std::uint64_t object_bytes = 0;  ///< positions, boxes and radii of all objects; meshes are not counted
@@ -100,6 +108,13 @@ class GRAZE_API FrameReport {
   [[nodiscard]] std::span<const Contact> contacts(const PairReport& pair) const {
     return contacts().subspan(pair.first_contact, pair.contact_count);
   }
+  /// The distances of regions that are alive, of all pairs, where SceneSettings::region_distances asks for
+  /// them: in the pairs' order, within a pair by level.
+  [[nodiscard]] std::span<const RegionDistance> region_distances() const { return region_distances_; }
+  /// Those of one pair of this report.
+  [[nodiscard]] std::span<const RegionDistance> region_distances(const PairReport& pair) const {
+    return region_distances().subspan(pair.first_region_distance, pair.region_distance_count);
+  }
   [[nodiscard]] std::span<const Diagnostic> diagnostics() const { return diagnostics_; }
   [[nodiscard]] const StepStatistics& statistics() const { return statistics_; }
   /// Whether no budget cut any pair short.
@@ -111,6 +126,7 @@ class GRAZE_API FrameReport {
   bool complete_ = true;
   std::vector<PairReport> pairs_;
   std::vector<Contact> contacts_;
+  std::vector<RegionDistance> region_distances_;
   std::vector<Diagnostic> diagnostics_;
   StepStatistics statistics_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
@@ -51,6 +52,10 @@ struct SceneSettings {
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;
   /// The same in region pairs, reproducibly.
   std::optional<std::uint64_t> work_budget = std::nullopt;
+  /// How many distances of regions (the paper's cd and its red, green and blue lines) reports list, of all
+  /// pairs together; 0: none are looked for. Each pair looked at has an equal share of it, filled level by
+  /// level; what has no place is counted in StepStatistics::region_distances_left_out.
+  std::size_t region_distances = 0;
 };
 
 }  // namespace graze
