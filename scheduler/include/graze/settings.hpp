@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
@@ -51,6 +52,12 @@ struct SceneSettings {
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;
   /// The same in region pairs, reproducibly.
   std::optional<std::uint64_t> work_budget = std::nullopt;
+};
+
+/// How much a scene makes room for ahead of time; see Scene::reserve.
+struct SceneCapacity {
+  std::size_t objects = 0;
+  std::size_t calls_per_step = 0;  ///< made between two steps; each object of a batch is one
 };
 
 }  // namespace graze
