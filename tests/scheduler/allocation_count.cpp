@@ -1,5 +1,6 @@
 #include "scheduler/allocation_count.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdlib>

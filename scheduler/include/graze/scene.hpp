@@ -20,9 +20,9 @@ namespace graze {
 /// which pairs are near, how near, and every contact.
 ///
 /// Threads: every call but `step` may come from any thread at any time and is taken up by the next step, in
-/// the order in which the calls were made; `step` runs on one thread at a time. No call takes a lock or waits
-/// for another thread. After construction only `add` and `step` throw; what is wrong with any other call is a
-/// Diagnostic in the next report.
+/// the order in which the calls were made; `step` runs on one thread at a time. No lock is taken, and no
+/// call but `wait` waits for another thread. After construction only `add` and `step` throw; what is wrong
+/// with any other call is a Diagnostic in the next report.
 ///
 /// Memory: `add`, `set_rule`, `object_settings` and what makes a Diagnostic allocate. The other calls do
 /// where more of them wait for a step than ever did or were reserved, and `set_positions` for the first
