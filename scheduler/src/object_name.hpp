@@ -5,11 +5,16 @@
 
 namespace graze {
 
+/// How messages name an object of which no more is known: `object 3`.
+inline std::string number_of(ObjectId object) {
+  return "object " + std::to_string(object.index);
+}
+
 /// How messages name an object: `object 3 'liver'`. `named` has settings with a name.
 template <typename Named>
 std::string name_of(ObjectId object, const Named& named) {
-  const std::string number = "object " + std::to_string(object.index);
-  return named.settings.name.empty() ? number : number + " '" + named.settings.name + "'";
+  return named.settings.name.empty() ? number_of(object)
+                                     : number_of(object) + " '" + named.settings.name + "'";
 }
 
 }  // namespace graze

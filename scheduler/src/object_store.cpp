@@ -66,7 +66,7 @@ std::optional<Diagnostic> read_object(Object& object) {
   std::optional<Diagnostic> problem;
   if (object.positions) {
     problem = check_promise(object, object.surface->set_positions(*object.positions));
-    object.positions.reset();
+    object.positions.reset();  // from the thread that reads: the buffer may be lent again at once
     object.frozen = false;
   } else if (object.bound) {
     problem = read_bound(object);
@@ -90,52 +90,61 @@ Object* ObjectStore::find(ObjectId id) {
   return object->id == id ? object : nullptr;
 }
 
-void ObjectStore::apply(AddObject& command) {
+void ObjectStore::apply(AddObject& call) {
   auto object = std::make_unique<Object>();
-  object->id = command.object;
+  object->id = call.object;
   object->serial = next_serial_++;
-  object->settings = std::move(command.settings);
-  object->surface = std::move(command.surface);
+  object->settings = std::move(call.settings);
+  object->surface = std::move(call.surface);
   object->box = object->surface->box();
-  if (by_index_.size() <= command.object.index)
-    by_index_.resize(command.object.index + std::size_t{1}, nullptr);
-  by_index_[command.object.index] = object.get();
+  count_bytes(*object);
+  if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
+  by_index_[call.object.index] = object.get();
+  serials_.push_back(object->serial);
   objects_.push_back(std::move(object));
 }
 
-void ObjectStore::apply(const RemoveObject& command) {
-  const Object* const object = find(command.object);
+void ObjectStore::apply(const RemoveObject& call) {
+  Object* const object = find(call.object);
   if (object == nullptr) return;
-  by_index_[command.object.index] = nullptr;
-  std::erase_if(objects_, [&](const std::unique_ptr<Object>& other) { return other.get() == object; });
+  by_index_[call.object.index] = nullptr;
+  byte_count_ -= object->counted_bytes;
+  object->removed = true;
+  const auto place = std::lower_bound(serials_.begin(), serials_.end(), object->serial) - serials_.begin();
+  removed_.push_back(std::move(objects_[static_cast<std::size_t>(place)]));
 }
 
-void ObjectStore::apply(const SetPose& command) {
-  if (Object* const object = find(command.object)) object->pose = command.rows;
+void ObjectStore::apply(const SetPose& call) {
+  Object* const object = find(call.object);
+  if (object == nullptr) return;
+  object->pose = call.rows;
+  expect_input(*object);
 }
 
-void ObjectStore::apply(SetPositions& command) {
-  Object* const object = find(command.object);
+void ObjectStore::apply(SetPositions& call) {
+  Object* const object = find(call.object);
   if (object == nullptr) return;
   object->bound.reset();
-  object->positions = std::move(command.positions);
+  object->positions = std::move(call.positions);
   object->is_new = true;
-  object->promise = command.max_displacement;
+  object->promise = call.max_displacement;
+  expect_input(*object);
 }
 
-void ObjectStore::apply(const BindPositions& command) {
-  Object* const object = find(command.object);
+void ObjectStore::apply(const BindPositions& call) {
+  Object* const object = find(call.object);
   if (object == nullptr) return;
   object->positions.reset();
-  object->bound = command.view;
-  object->policy = command.policy;
+  object->bound = call.view;
+  object->policy = call.policy;
   object->told = true;
   object->is_new = true;
   object->promise = std::numeric_limits<double>::infinity();
+  expect_input(*object);
 }
 
-void ObjectStore::apply(const UnbindPositions& command) {
-  Object* const object = find(command.object);
+void ObjectStore::apply(const UnbindPositions& call) {
+  Object* const object = find(call.object);
   if (object == nullptr) return;
   object->bound.reset();
   object->frozen = false;
@@ -144,24 +153,69 @@ void ObjectStore::apply(const UnbindPositions& command) {
   object->box = object->surface->box();
 }
 
-void ObjectStore::apply(const PositionsChanged& command) {
-  Object* const object = find(command.object);
+void ObjectStore::apply(const PositionsChanged& call) {
+  Object* const object = find(call.object);
   if (object == nullptr || !object->bound) return;
   object->told = true;
   object->is_new = true;
-  object->promise = command.max_displacement;
+  object->promise = call.max_displacement;
+  expect_input(*object);
+}
+
+void ObjectStore::reserve(std::size_t count) {
+  objects_.reserve(count);
+  serials_.reserve(count);
+  by_index_.reserve(count);
+  removed_.reserve(count);
+  with_input_.reserve(count);
+  to_read_.reserve(count);
+  read_problems_.reserve(count);
+}
+
+std::size_t ObjectStore::unread_count() const {
+  return static_cast<std::size_t>(std::count_if(with_input_.begin(), with_input_.end(),
+                                                [](const Object* object) { return object->unread; }));
+}
+
+void ObjectStore::count_bytes(Object& object) {
+  const std::size_t bytes = object.surface->byte_count();
+  byte_count_ += bytes - std::exchange(object.counted_bytes, bytes);
+}
+
+void ObjectStore::expect_input(Object& object) {
+  if (!std::exchange(object.may_have_input, true)) with_input_.push_back(&object);
+}
+
+void ObjectStore::drop_removed() {
+  if (removed_.empty()) return;
+  std::erase_if(with_input_, [](const Object* object) { return object->removed; });
+  std::size_t kept = 0;
+  for (std::size_t place = 0; place < objects_.size(); ++place) {
+    if (objects_[place] == nullptr) continue;
+    serials_[kept] = serials_[place];
+    if (kept != place) objects_[kept] = std::move(objects_[place]);
+    ++kept;
+  }
+  objects_.resize(kept);
+  serials_.resize(kept);
+  removed_.clear();
 }
 
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
+  drop_removed();
+  std::erase_if(with_input_, [](Object* object) {
+    object->may_have_input = has_input(*object);
+    return !object->may_have_input;
+  });
   to_read_.clear();
-  for (const auto& object : objects_) {
+  for (Object* const object : with_input_) {
     add_promise(*object);
-    object->unread = !checks_every_promise && has_input(*object) && !object->pose && !object->frozen &&
-                     std::isfinite(object->promised);
+    object->unread =
+        !checks_every_promise && !object->pose && !object->frozen && std::isfinite(object->promised);
     if (object->unread)
       object->box = grown(object->surface->box(), object->promised);
     else
-      to_read_.push_back(object.get());
+      to_read_.push_back(object);
   }
   read(to_read_, tasks, diagnostics);
 }
@@ -177,12 +231,19 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
 
 void ObjectStore::read(std::span<Object* const> objects, TaskPool& tasks,
                        std::vector<Diagnostic>& diagnostics) {
-  read_problems_.assign(objects.size(), std::nullopt);
+  if (read_problems_.size() < objects.size()) read_problems_.resize(objects.size());
   // A task writes its own objects and their own places in read_problems_; nothing is shared.
   tasks.run(objects.size(),
             [&](unsigned, std::size_t index) { read_problems_[index] = read_object(*objects[index]); });
-  for (std::optional<Diagnostic>& problem : read_problems_)
-    if (problem) diagnostics.push_back(std::move(*problem));
+  problems_.clear();
+  for (std::size_t index = 0; index < objects.size(); ++index)
+    if (auto& problem = read_problems_[index]) {
+      problems_.emplace_back(objects[index]->serial, std::move(*problem));
+      problem.reset();
+    }
+  std::sort(problems_.begin(), problems_.end(),
+            [](const auto& left, const auto& right) { return left.first < right.first; });
+  for (auto& [serial, problem] : problems_) diagnostics.push_back(std::move(problem));
 }
 
 }  // namespace graze

@@ -6,9 +6,10 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "staging.hpp"
+#include "calls.hpp"
 #include "task_pool.hpp"
 
 namespace graze {
@@ -26,7 +27,7 @@ struct Object {
 
   // What the next read takes up, and what is promised of it.
   std::optional<std::array<double, 12>> pose;
-  std::optional<std::vector<Eigen::Vector3d>> positions;
+  SparePositions::Loan positions;
   std::optional<PositionView> bound;
   BindPolicy policy = BindPolicy::every_step;
   bool told = false;
@@ -36,19 +37,27 @@ struct Object {
   bool unread = false;
   /// No vertex is further from where the surface has it, by the promises since that was read.
   double promised = 0;
+
+  bool may_have_input = false;    ///< it is among those that the store looks at in the next read
+  bool removed = false;           ///< it goes before the next read
+  std::size_t counted_bytes = 0;  ///< its part of ObjectStore::byte_count
 };
 
 /// The objects of a scene in the order in which they were added. Stepping thread only.
+///
+/// A step's work here follows the objects that were told something and the removals, but for one pass over an
+/// array of pointers in a step with removals.
 class ObjectStore {
  public:
-  void apply(AddObject& command);
-  /// Whether there was such an object.
-  void apply(const RemoveObject& command);
-  void apply(const SetPose& command);
-  void apply(SetPositions& command);
-  void apply(const BindPositions& command);
-  void apply(const UnbindPositions& command);
-  void apply(const PositionsChanged& command);
+  void apply(AddObject& call);
+  void apply(const RemoveObject& call);
+  void apply(const SetPose& call);
+  void apply(SetPositions& call);
+  void apply(const BindPositions& call);
+  void apply(const UnbindPositions& call);
+  void apply(const PositionsChanged& call);
+  /// Makes room for that many objects.
+  void reserve(std::size_t count);
 
   /// Brings every object to where it is now, but for those of which promises say about where they are. Reads
   /// each object's memory at most once, several objects at a time; appends what was wrong in the objects'
@@ -57,17 +66,32 @@ class ObjectStore {
   /// Reads those of `wanted` that have not been read; may name objects several times.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
+  /// Those that are there after `read_positions`; ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
   [[nodiscard]] Object* find(ObjectId id);
+  [[nodiscard]] std::size_t unread_count() const;
+
+  /// Takes up how many bytes an object's surface holds now.
+  void count_bytes(Object& object);
+  /// Of all surfaces, as they were counted last.
+  [[nodiscard]] std::size_t byte_count() const { return byte_count_; }
 
  private:
+  /// Has the object looked at in the next read.
+  void expect_input(Object& object);
+  void drop_removed();
   void read(std::span<Object* const> objects, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
-  std::vector<std::unique_ptr<Object>> objects_;
+  std::vector<std::unique_ptr<Object>> objects_;  ///< null in the place of one removed, until the next read
+  std::vector<std::uint64_t> serials_;            ///< of `objects_`, side by side for the search of one
   std::vector<Object*> by_index_;
+  std::vector<std::unique_ptr<Object>> removed_;
+  std::vector<Object*> with_input_;  ///< those that may have something to be read, in any order
   std::vector<Object*> to_read_;
-  std::vector<std::optional<Diagnostic>> read_problems_;
+  std::vector<std::optional<Diagnostic>> read_problems_;        ///< empty ones between reads
+  std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial
   std::uint64_t next_serial_ = 0;
+  std::size_t byte_count_ = 0;
 };
 
 }  // namespace graze

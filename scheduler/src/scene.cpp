@@ -64,7 +64,7 @@ class Scene::State {
 
   const SceneSettings settings;
   Staging staging;
-  Step step;
+  Step step;                  ///< goes before `staging`, to which its objects give buffers back
   ReportPool* const reports;  ///< deletes itself when the scene and all handles are gone
   const Stepping stepping = std::make_shared<std::atomic<bool>>(false);
   std::uint64_t frame = 0;
@@ -90,29 +90,48 @@ std::size_t Scene::object_count() const {
   return state_->staging.object_count();
 }
 bool Scene::contains(ObjectId object) const {
-  return state_->staging.find(object).mesh != nullptr;
+  return state_->staging.contains(object);
 }
 std::shared_ptr<const Mesh> Scene::mesh(ObjectId object) const {
-  return state_->staging.find(object).mesh;
+  const auto named = state_->staging.find(object);
+  return named ? named->mesh : nullptr;
 }
 ObjectSettings Scene::object_settings(ObjectId object) const {
-  return state_->staging.find(object).settings;
+  const auto named = state_->staging.find(object);
+  return named ? named->settings : ObjectSettings{};
 }
 
 void Scene::set_pose_rows(ObjectId object, const std::array<double, 12>& rows) {
   state_->staging.set_pose(object, rows);
 }
+void Scene::set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices) {
+  state_->staging.set_poses(objects, matrices);
+}
 void Scene::set_positions(ObjectId object, PositionView positions, double max_displacement) {
   state_->staging.set_positions(object, positions, max_displacement);
 }
+void Scene::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                          double max_displacement) {
+  state_->staging.set_positions(objects, positions, max_displacement);
+}
 void Scene::bind_positions(ObjectId object, PositionView positions, BindPolicy policy) {
   state_->staging.bind_positions(object, positions, policy);
+}
+void Scene::bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                           BindPolicy policy) {
+  state_->staging.bind_positions(objects, positions, policy);
 }
 void Scene::unbind_positions(ObjectId object) {
   state_->staging.unbind_positions(object);
 }
 void Scene::positions_changed(ObjectId object, double max_displacement) {
   state_->staging.positions_changed(object, max_displacement);
+}
+void Scene::positions_changed(std::span<const ObjectId> objects, double max_displacement) {
+  state_->staging.positions_changed(objects, max_displacement);
+}
+void Scene::positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements) {
+  state_->staging.positions_changed(objects, max_displacements);
 }
 void Scene::ignore(ObjectId a, ObjectId b) {
   state_->staging.set_ignored(a, b, true);
@@ -122,6 +141,9 @@ void Scene::watch(ObjectId a, ObjectId b) {
 }
 void Scene::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
   state_->staging.set_rule(kind_a, kind_b, rule);
+}
+void Scene::reserve(const SceneCapacity& capacity) {
+  state_->staging.reserve(capacity);
 }
 
 ReportHandle Scene::step() {

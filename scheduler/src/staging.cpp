@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <graze/error.hpp>
 #include <graze/floating_point_scope.hpp>
+#include <graze/surface.hpp>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "object_name.hpp"
@@ -14,16 +16,62 @@
 namespace graze {
 namespace {
 
-/// The first vertex a face uses whose position is not finite or beyond 2^120; copies the used positions on
-/// the way.
-std::uint32_t copy_used(const Mesh& mesh, const PositionView& view, std::vector<Eigen::Vector3d>& positions) {
-  positions.assign(mesh.vertex_count(), Eigen::Vector3d::Zero());
+void add_problem(CallQueue::Chain& calls, ObjectId object, DiagnosticKind kind, std::string message) {
+  calls.add(Diagnostic{object, kind, std::move(message)});
+}
+
+void add_stale(CallQueue::Chain& calls, ObjectId object, const char* what) {
+  add_problem(calls, object, DiagnosticKind::stale_id,
+              std::string(what) + ": id " + std::to_string(object.index) + ":" +
+                  std::to_string(object.generation) + " names no object of this scene");
+}
+
+/// Whether there are as many `things` as objects; a diagnostic where not.
+bool check_sizes(CallQueue::Chain& calls, std::size_t objects, std::size_t things, const char* what,
+                 const char* name_of_things) {
+  if (objects == things) return true;
+  add_problem(calls, {}, DiagnosticKind::wrong_count,
+              std::string(what) + ": got " + std::to_string(objects) + " objects and " +
+                  std::to_string(things) + " " + name_of_things + "; none was taken");
+  return false;
+}
+
+/// Whether a view can be the positions of an object; a diagnostic where not.
+bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const PositionView& view,
+                const char* what) {
+  const auto problem = [&](DiagnosticKind kind, const std::string& got) {
+    add_problem(calls, object, kind, std::string(what) + ": " + name_of(object, named) + " got " + got);
+    return false;
+  };
+  if (view.size() != named.mesh->vertex_count())
+    return problem(DiagnosticKind::wrong_count, std::to_string(view.size()) + " positions for " +
+                                                    std::to_string(named.mesh->vertex_count()) + " vertices");
+  if (view.data() == nullptr) return problem(DiagnosticKind::null_memory, "null memory");
+  const std::size_t alignment = view.is_double() ? alignof(double) : alignof(float);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the address is looked at, not used
+  if (reinterpret_cast<std::uintptr_t>(view.data()) % alignment != 0 || view.stride_bytes() % alignment != 0)
+    return problem(DiagnosticKind::misaligned_memory, "memory that is not aligned to its numbers");
+  return true;
+}
+
+/// Copies the positions that faces use; returns the first that is not finite or beyond 2^120. The others
+/// stay whatever they were.
+std::uint32_t copy_used(const Mesh& mesh, const PositionView& view, Positions& positions) {
+  positions.resize(mesh.vertex_count());
   for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex) {
     if (!mesh.is_used(vertex)) continue;
     positions[vertex] = view[vertex];
     if (!Surface::is_within_limits(positions[vertex])) return vertex;
   }
   return Surface::ReadResult::no_vertex;
+}
+
+/// The upper three rows, row by row, of a 4x4 matrix column by column.
+std::array<double, 12> rows_of(std::span<const double, 16> matrix) {
+  std::array<double, 12> rows;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column) rows[row * 4 + column] = matrix[column * 4 + row];
+  return rows;
 }
 
 }  // namespace
@@ -33,180 +81,176 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   if (const auto problem = problem_of(settings)) throw Error(*problem);
   const FloatingPointScope scope;
   auto surface = std::make_unique<Surface>(mesh);
-  const std::lock_guard lock(mutex_);
-  std::uint32_t index = 0;
-  if (free_.empty()) {
-    index = static_cast<std::uint32_t>(entries_.size());
-    entries_.emplace_back();
-  } else {
-    index = free_.back();
-    free_.pop_back();
-  }
-  entries_[index].named = {std::move(mesh), settings};
-  ++object_count_;
-  const ObjectId object{index, entries_[index].generation};
-  commands_.emplace_back(AddObject{object, std::move(surface), settings});
+  const ObjectId object = ids_.give(std::move(mesh), settings);
+  Calls calls(queue_);
+  calls.add(AddObject{object, std::move(surface), settings});
+  // The id becomes good when the object's addition is queued, so that nothing said of it comes before.
+  calls.push();
+  ids_.publish(object);
   return object;
 }
 
 void Staging::remove(ObjectId object) {
-  if (!find_or_report(object, "remove")) return;
-  const std::lock_guard lock(mutex_);
-  if (entry_of(object) == nullptr) {
-    commands_.emplace_back(
-        Diagnostic{object, DiagnosticKind::stale_id, "remove: another thread has just removed the object"});
-    return;
-  }
-  Entry& entry = entries_[object.index];
-  entry.named = {};
-  // An index whose generations are used up is never given again.
-  if (entry.generation != std::numeric_limits<std::uint32_t>::max()) free_.push_back(object.index);
-  ++entry.generation;
-  --object_count_;
-  commands_.emplace_back(RemoveObject{object});
+  const ObjectIds::Pin pinned = ids_.pin(object);
+  Calls calls(queue_);
+  if (!pinned || !ids_.remove(object)) return add_stale(calls, object, "remove");
+  // Queued while pinned, and so before the index is given again: the removal comes before its next addition.
+  calls.add(RemoveObject{object});
 }
 
 void Staging::set_pose(ObjectId object, const std::array<double, 12>& rows) {
-  const auto named = find_or_report(object, "set_pose");
-  if (!named) return;
-  if (named->settings.motion == Motion::deformable)
-    return push_problem(object, DiagnosticKind::wrong_motion,
-                        name_of(object, *named) + " is deformable; give it positions, not a pose");
   const FloatingPointScope scope;
+  Calls calls(queue_);
+  add_pose(calls, object, rows);
+}
+
+void Staging::set_poses(std::span<const ObjectId> objects, std::span<const double> matrices) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), matrices.size() / 16, "set_poses", "poses")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    add_pose(calls, objects[i], rows_of(matrices.subspan(16 * i).first<16>()));
+}
+
+void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows) {
+  const ObjectIds::Standing standing = ids_.standing(object);
+  if (standing == ObjectIds::Standing::stale) return add_stale(calls, object, "set_pose");
+  if (standing == ObjectIds::Standing::deformable)
+    return add_problem(calls, object, DiagnosticKind::wrong_motion,
+                       name(object) + " is deformable; give it positions, not a pose");
   if (const auto problem = problem_of_pose(rows))
-    return push_problem(object, DiagnosticKind::bad_pose,
-                        name_of(object, *named) + ": " + *problem + "; the pose was not taken");
-  push(SetPose{object, rows});
+    return add_problem(calls, object, DiagnosticKind::bad_pose,
+                       name(object) + ": " + *problem + "; the pose was not taken");
+  calls.add(SetPose{object, rows});
 }
 
 void Staging::set_positions(ObjectId object, const PositionView& positions, double max_displacement) {
-  const auto named = find_deformable(object, "set_positions");
-  if (!named || !check_view(object, *named, positions, "set_positions")) return;
   const FloatingPointScope scope;
-  SetPositions command{object, {}, promise_of(object, *named, max_displacement, "set_positions")};
-  const std::uint32_t bad = copy_used(*named->mesh, positions, command.positions);
-  if (bad != Surface::ReadResult::no_vertex) {
-    const bool finite = command.positions[bad].allFinite();
-    return push_problem(object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
-                        name_of(object, *named) + ": vertex " + std::to_string(bad) +
-                            (finite ? " has a coordinate beyond 2^120" : " is not finite") +
-                            "; the old positions stand");
-  }
-  push(std::move(command));
+  Calls calls(queue_);
+  add_positions(calls, object, positions, max_displacement);
+}
+
+void Staging::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                            double max_displacement) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), positions.size(), "set_positions", "views of positions")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    add_positions(calls, objects[i], positions[i], max_displacement);
+}
+
+void Staging::add_positions(Calls& calls, ObjectId object, const PositionView& positions,
+                            double max_displacement) {
+  if (!check_deformable(calls, object, "set_positions")) return;
+  const ObjectIds::Pin named = ids_.pin(object);
+  if (!named) return add_stale(calls, object, "set_positions");
+  if (!check_view(calls, object, *named, positions, "set_positions")) return;
+  const double promise = promise_of(calls, object, max_displacement, "set_positions");
+  SetPositions call{object, named->spare_positions.lend(), promise};
+  const std::uint32_t bad = copy_used(*named->mesh, positions, *call.positions);
+  if (bad == Surface::ReadResult::no_vertex) return calls.add(std::move(call));
+  const bool finite = (*call.positions)[bad].allFinite();
+  add_problem(calls, object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
+              name_of(object, *named) + ": vertex " + std::to_string(bad) +
+                  (finite ? " has a coordinate beyond 2^120" : " is not finite") +
+                  "; the old positions stand");
 }
 
 void Staging::bind_positions(ObjectId object, const PositionView& positions, BindPolicy policy) {
-  const auto named = find_deformable(object, "bind_positions");
-  if (!named || !check_view(object, *named, positions, "bind_positions")) return;
-  push(BindPositions{object, positions, policy});
+  Calls calls(queue_);
+  add_binding(calls, object, positions, policy);
+}
+
+void Staging::bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                             BindPolicy policy) {
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), positions.size(), "bind_positions", "views of positions")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i) add_binding(calls, objects[i], positions[i], policy);
+}
+
+void Staging::add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy) {
+  if (!check_deformable(calls, object, "bind_positions")) return;
+  const ObjectIds::Pin named = ids_.pin(object);
+  if (!named) return add_stale(calls, object, "bind_positions");
+  if (check_view(calls, object, *named, positions, "bind_positions"))
+    calls.add(BindPositions{object, positions, policy});
 }
 
 void Staging::unbind_positions(ObjectId object) {
-  if (find_deformable(object, "unbind_positions")) push(UnbindPositions{object});
+  Calls calls(queue_);
+  if (check_deformable(calls, object, "unbind_positions")) calls.add(UnbindPositions{object});
 }
 
 void Staging::positions_changed(ObjectId object, double max_displacement) {
-  const auto named = find_deformable(object, "positions_changed");
-  if (named)
-    push(PositionsChanged{object, promise_of(object, *named, max_displacement, "positions_changed")});
+  Calls calls(queue_);
+  add_change(calls, object, max_displacement);
+}
+
+void Staging::positions_changed(std::span<const ObjectId> objects, double max_displacement) {
+  Calls calls(queue_);
+  for (const ObjectId object : objects) add_change(calls, object, max_displacement);
+}
+
+void Staging::positions_changed(std::span<const ObjectId> objects,
+                                std::span<const double> max_displacements) {
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), max_displacements.size(), "positions_changed", "promises")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i) add_change(calls, objects[i], max_displacements[i]);
+}
+
+void Staging::add_change(Calls& calls, ObjectId object, double max_displacement) {
+  if (check_deformable(calls, object, "positions_changed"))
+    calls.add(PositionsChanged{object, promise_of(calls, object, max_displacement, "positions_changed")});
 }
 
 void Staging::set_ignored(ObjectId a, ObjectId b, bool ignored) {
   const char* const what = ignored ? "ignore" : "watch";
-  const auto named = find_or_report(a, what);
-  if (!named || !find_or_report(b, what)) return;
+  Calls calls(queue_);
+  for (const ObjectId object : {a, b})
+    if (!contains(object)) return add_stale(calls, object, what);
   if (a == b)
-    return push_problem(a, DiagnosticKind::bad_pair,
-                        std::string(what) + ": " + name_of(a, *named) + " makes no pair with itself");
-  push(IgnorePair{a, b, ignored});
+    return add_problem(calls, a, DiagnosticKind::bad_pair,
+                       std::string(what) + ": " + name(a) + " makes no pair with itself");
+  calls.add(IgnorePair{a, b, ignored});
 }
 
 void Staging::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
+  Calls calls(queue_);
   if (const auto problem = problem_of(kind_a, kind_b, rule))
-    return push_problem({}, DiagnosticKind::bad_rule, *problem + "; the rule was not taken");
-  push(SetRule{kind_a, kind_b, rule});
+    return add_problem(calls, {}, DiagnosticKind::bad_rule, *problem + "; the rule was not taken");
+  calls.add(SetRule{kind_a, kind_b, rule});
 }
 
-Staging::Named Staging::find(ObjectId object) const {
-  const std::lock_guard lock(mutex_);
-  const Entry* const entry = entry_of(object);
-  return entry == nullptr ? Named{} : entry->named;
+void Staging::reserve(const SceneCapacity& capacity) {
+  ids_.reserve(capacity.objects);
+  queue_.reserve(capacity.calls_per_step);
+  Calls calls(queue_);
+  calls.add(Reserve{capacity});
 }
 
-std::size_t Staging::object_count() const {
-  const std::lock_guard lock(mutex_);
-  return object_count_;
+bool Staging::check_deformable(Calls& calls, ObjectId object, const char* what) {
+  const ObjectIds::Standing standing = ids_.standing(object);
+  if (standing == ObjectIds::Standing::deformable) return true;
+  if (standing == ObjectIds::Standing::stale)
+    add_stale(calls, object, what);
+  else
+    add_problem(calls, object, DiagnosticKind::wrong_motion,
+                std::string(what) + ": " + name(object) + " is not deformable; move it by set_pose");
+  return false;
 }
 
-void Staging::take(std::vector<Command>& commands) {
-  commands.clear();
-  const std::lock_guard lock(mutex_);
-  commands.swap(commands_);
-}
-
-void Staging::push(Command command) {
-  const std::lock_guard lock(mutex_);
-  commands_.push_back(std::move(command));
-}
-
-void Staging::push_problem(ObjectId object, DiagnosticKind kind, std::string message) {
-  push(Diagnostic{object, kind, std::move(message)});
-}
-
-std::optional<Staging::Named> Staging::find_or_report(ObjectId object, const char* what) {
-  Named named = find(object);
-  if (named.mesh != nullptr) return named;
-  push_problem(object, DiagnosticKind::stale_id,
-               std::string(what) + ": id " + std::to_string(object.index) + ":" +
-                   std::to_string(object.generation) + " names no object of this scene");
-  return std::nullopt;
-}
-
-std::optional<Staging::Named> Staging::find_deformable(ObjectId object, const char* what) {
-  auto named = find_or_report(object, what);
-  if (!named || named->settings.motion == Motion::deformable) return named;
-  push_problem(
-      object, DiagnosticKind::wrong_motion,
-      std::string(what) + ": " + name_of(object, *named) + " is not deformable; move it by set_pose");
-  return std::nullopt;
-}
-
-bool Staging::check_view(ObjectId object, const Named& named, const PositionView& view, const char* what) {
-  const std::string call = std::string(what) + ": " + name_of(object, named);
-  if (view.size() != named.mesh->vertex_count()) {
-    push_problem(object, DiagnosticKind::wrong_count,
-                 call + " got " + std::to_string(view.size()) + " positions for " +
-                     std::to_string(named.mesh->vertex_count()) + " vertices");
-    return false;
-  }
-  if (view.data() == nullptr) {
-    push_problem(object, DiagnosticKind::null_memory, call + " got null memory");
-    return false;
-  }
-  const std::size_t alignment = view.is_double() ? alignof(double) : alignof(float);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the address is looked at, not used
-  if (reinterpret_cast<std::uintptr_t>(view.data()) % alignment != 0 ||
-      view.stride_bytes() % alignment != 0) {
-    push_problem(object, DiagnosticKind::misaligned_memory,
-                 call + " got memory that is not aligned to its numbers");
-    return false;
-  }
-  return true;
-}
-
-double Staging::promise_of(ObjectId object, const Named& named, double max_displacement, const char* what) {
+double Staging::promise_of(Calls& calls, ObjectId object, double max_displacement, const char* what) {
   // A quiet comparison: NaN must not trap where the caller has traps enabled.
   if (std::isgreaterequal(max_displacement, 0.0)) return max_displacement;
-  push_problem(object, DiagnosticKind::broken_promise,
-               std::string(what) + ": " + name_of(object, named) +
-                   " got a max_displacement that is negative or NaN; it counts as no promise");
+  add_problem(calls, object, DiagnosticKind::broken_promise,
+              std::string(what) + ": " + name(object) +
+                  " got a max_displacement that is negative or NaN; it counts as no promise");
   return std::numeric_limits<double>::infinity();
 }
 
-const Staging::Entry* Staging::entry_of(ObjectId object) const {
-  if (object.index >= entries_.size()) return nullptr;
-  const Entry& entry = entries_[object.index];
-  return entry.generation == object.generation && entry.named.mesh != nullptr ? &entry : nullptr;
+std::string Staging::name(ObjectId object) {
+  const ObjectIds::Pin named = ids_.pin(object);
+  return named ? name_of(object, *named) : number_of(object);
 }
 
 }  // namespace graze

@@ -50,31 +50,27 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
   jobs_.run(jobs, pairs_.filter().rules_version(), start);
   statistics.jobs_ms = lap();
   write_pairs(jobs, previous, builder);
-  sum_counters(statistics);
+  sum_counters(jobs, statistics);
   statistics.report_bytes = builder.byte_count();
   statistics.publish_ms = lap();
   statistics.step_ms = Lap(start)();
 }
 
 void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
-  for (Command& command : commands_)
-    std::visit(Overloaded{[&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
-                          [&](SetRule& rule) {
-                            pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
-                          },
-                          [&](IgnorePair& pair) {
-                            const Object* const a = store_.find(pair.a);
-                            const Object* const b = store_.find(pair.b);
-                            if (a != nullptr && b != nullptr)
-                              pairs_.filter().set_ignored(*a, *b, pair.ignored);
-                          },
-                          [&](RemoveObject& removed) {
-                            if (const Object* const object = store_.find(removed.object))
-                              pairs_.filter().forget(*object);
-                            store_.apply(removed);
-                          },
-                          [&](auto& other) { store_.apply(other); }},
-               command);
+  staging_.visit_taken(Overloaded{
+      [&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
+      [&](SetRule& rule) { pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule)); },
+      [&](IgnorePair& pair) {
+        const Object* const a = store_.find(pair.a);
+        const Object* const b = store_.find(pair.b);
+        if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
+      },
+      [&](RemoveObject& removed) {
+        if (const Object* const object = store_.find(removed.object)) pairs_.filter().forget(*object);
+        store_.apply(removed);
+      },
+      [&](Reserve& reserve) { store_.reserve(reserve.capacity.objects); },
+      [&](auto& other) { store_.apply(other); }});
 }
 
 /// The serial end of a step: jobs ran in any order, but their answers are put together in the order of the
@@ -107,7 +103,7 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
   pairs_.was_listed(listed_);
 }
 
-void Step::sum_counters(StepStatistics& statistics) {
+void Step::sum_counters(std::span<const PairJob> jobs, StepStatistics& statistics) {
   const PairCounters sum = jobs_.counters();
   statistics.region_pairs_tested = sum.region_pairs_tested;
   statistics.leaf_pairs_tested = sum.leaf_pairs_tested;
@@ -116,10 +112,11 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.exact_decisions = sum.exact_decisions;
   statistics.fronts_left_out = sum.fronts_left_out;
   statistics.regions_expanded = sum.regions_expanded;
-  for (const auto& object : store_.objects()) {
-    statistics.object_bytes += object->surface->byte_count();
-    statistics.objects_unread += object->unread ? 1U : 0U;
-  }
+  // Only what a job looked at may have got memory for its regions.
+  for (const PairJob& job : jobs)
+    for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
+  statistics.object_bytes = store_.byte_count();
+  statistics.objects_unread = store_.unread_count();
   statistics.pair_bytes = pairs_.byte_count();
 }
 

@@ -20,7 +20,7 @@ class Step {
   Step(const SceneSettings& settings, Staging& staging);
 
   /// Takes the calls made so far for the next `run`.
-  void take_calls() { staging_.take(commands_); }
+  void take_calls() { staging_.take(); }
   /// Fills `report` with frame `frame`, which follows `previous`.
   void run(std::uint64_t frame, const FrameReport& previous, FrameReport& report);
 
@@ -31,14 +31,13 @@ class Step {
 
   void take_up_calls(std::vector<Diagnostic>& diagnostics);
   void write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder);
-  void sum_counters(StepStatistics& statistics);
+  void sum_counters(std::span<const PairJob> jobs, StepStatistics& statistics);
 
   Staging& staging_;
   TaskPool tasks_;
   ObjectStore store_;
   PairTable pairs_;
   PairJobs jobs_;
-  std::vector<Command> commands_;
   std::vector<const PairJob*> listed_;  ///< those that made it into the report
 };
 

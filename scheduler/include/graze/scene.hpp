@@ -12,6 +12,7 @@
 #include <graze/settings.hpp>
 #include <limits>
 #include <memory>
+#include <span>
 
 namespace graze {
 
@@ -19,8 +20,17 @@ namespace graze {
 /// which pairs are near, how near, and every contact.
 ///
 /// Threads: every call but `step` may come from any thread at any time and is taken up by the next step, in
-/// the order in which the calls were made; `step` runs on one thread at a time. After construction only `add`
-/// and `step` throw; what is wrong with any other call is a Diagnostic in the next report.
+/// the order in which the calls were made; `step` runs on one thread at a time. No lock is taken, and no
+/// call but `wait` waits for another thread. After construction only `add` and `step` throw; what is wrong
+/// with any other call is a Diagnostic in the next report.
+///
+/// Memory: `add`, `set_rule`, `object_settings` and what makes a Diagnostic allocate. The other calls do
+/// where more of them wait for a step than ever did or were reserved, and `set_positions` for the first
+/// copies of an object, and for each beyond four that wait at once.
+///
+/// Forms for many objects mean the same as one call after the other in the order of `objects`; no other
+/// thread's calls come in between, and one step takes up all of them. Each object costs less than by a call
+/// of its own. Where the spans do not fit together nothing is taken, and a Diagnostic names no object.
 class GRAZE_API Scene {
  public:
   /// No promise: a vertex may have moved anywhere.
@@ -59,20 +69,33 @@ class GRAZE_API Scene {
   }
   /// The same from the upper three rows of the 4x4 matrix, row by row.
   void set_pose_rows(ObjectId object, const std::array<double, 12>& rows);
+  /// A pose for each object.
+  void set_poses(std::span<const ObjectId> objects, std::span<const Eigen::Isometry3d> poses) {
+    static_assert(sizeof(Eigen::Isometry3d) == 16 * sizeof(double));
+    set_pose_matrices(objects, {poses.empty() ? nullptr : poses[0].data(), 16 * poses.size()});
+  }
 
   /// Copies the positions of a deformable object, one for each vertex of its mesh. `max_displacement`
   /// promises how far any vertex is at most from where the last step saw it.
   void set_positions(ObjectId object, PositionView positions, double max_displacement = any_displacement);
 
+  void set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                     double max_displacement = any_displacement);
+
   /// Reads a deformable object's positions from the caller's memory, without a copy, until it is unbound: it
   /// may be written between steps only. With BindPolicy::when_told it is read in the next step and then after
   /// `positions_changed`.
   void bind_positions(ObjectId object, PositionView positions, BindPolicy policy = BindPolicy::every_step);
+  void bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                      BindPolicy policy = BindPolicy::every_step);
   /// The object keeps the positions that the last step saw.
   void unbind_positions(ObjectId object);
   /// Bound memory has been written: no vertex is further than `max_displacement` from where the last step saw
   /// it.
   void positions_changed(ObjectId object, double max_displacement = any_displacement);
+
+  void positions_changed(std::span<const ObjectId> objects, double max_displacement = any_displacement);
+  void positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements);
 
   /// Takes one pair out, and puts it back.
   void ignore(ObjectId a, ObjectId b);
@@ -80,6 +103,9 @@ class GRAZE_API Scene {
 
   /// Thresholds for every pair of an object of `kind_a` and one of `kind_b`, in either order.
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
+
+  /// Makes room ahead of time, so that up to so many objects and calls are taken without an allocation.
+  void reserve(const SceneCapacity& capacity);
 
   /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
   /// of this scene is running, or when 65,536 reports are held by handles.
@@ -97,6 +123,9 @@ class GRAZE_API Scene {
   [[nodiscard]] ReportHandle latest_report() const;
 
  private:
+  /// 16 numbers for each object: its 4x4 matrix, column by column.
+  void set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices);
+
   class State;
   std::unique_ptr<State> state_;
 };

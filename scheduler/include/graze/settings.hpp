@@ -58,4 +58,10 @@ struct SceneSettings {
   std::size_t region_distances = 0;
 };
 
+/// How much a scene makes room for ahead of time; see Scene::reserve.
+struct SceneCapacity {
+  std::size_t objects = 0;
+  std::size_t calls_per_step = 0;  ///< made between two steps; each object of a batch is one
+};
+
 }  // namespace graze

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <graze/object_id.hpp>
+#include <graze/position_view.hpp>
+#include <graze/report.hpp>
+#include <graze/settings.hpp>
+#include <graze/surface.hpp>
+#include <memory>
+#include <variant>
+
+#include "spare_positions.hpp"
+
+namespace graze {
+
+// The calls on a scene, as they wait for the next step. All were found good when they were made.
+
+struct AddObject {
+  ObjectId object;
+  std::unique_ptr<Surface> surface;  ///< made on the caller's thread
+  ObjectSettings settings;
+};
+struct RemoveObject {
+  ObjectId object;
+};
+struct SetPose {
+  ObjectId object;
+  std::array<double, 12> rows;
+};
+struct SetPositions {
+  ObjectId object;
+  SparePositions::Loan positions;
+  double max_displacement;
+};
+struct BindPositions {
+  ObjectId object;
+  PositionView view;
+  BindPolicy policy;
+};
+struct UnbindPositions {
+  ObjectId object;
+};
+struct PositionsChanged {
+  ObjectId object;
+  double max_displacement;
+};
+struct IgnorePair {
+  ObjectId a;
+  ObjectId b;
+  bool ignored;
+};
+struct SetRule {
+  std::uint32_t kind_a;
+  std::uint32_t kind_b;
+  PairRule rule;
+};
+struct Reserve {
+  SceneCapacity capacity;
+};
+
+/// The first holds nothing: it is what a call leaves when it was taken up.
+using Call = std::variant<RemoveObject, AddObject, SetPose, SetPositions, BindPositions, UnbindPositions,
+                          PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
+
+}  // namespace graze

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <graze/mesh.hpp>
+#include <graze/object_id.hpp>
+#include <graze/settings.hpp>
+#include <memory>
+#include <utility>
+
+#include "index_pool.hpp"
+#include "spare_positions.hpp"
+
+namespace graze {
+
+/// What a scene's callers may know of an object; unchanged while it is pinned.
+struct NamedObject {
+  std::shared_ptr<const Mesh> mesh;
+  ObjectSettings settings;
+  SparePositions spare_positions;
+};
+
+/// Which ids name objects, answered and changed from any thread without a lock.
+///
+/// Each index has a place that never moves. Its `state` holds, in one atomic word, the generation that uses
+/// it, how far that one has come, and how many threads have it pinned. A pin is taken only of an object that
+/// is there, and whoever lets go of the last pin of an object that is gone empties the place: what a pin
+/// shows is never changed under it, and nobody waits. The index is given again after that.
+class ObjectIds {
+ public:
+  /// Keeps a named object in place. It may be removed meanwhile.
+  class Pin {
+   public:
+    Pin() = default;
+    Pin(ObjectIds& ids, std::uint32_t index) : ids_(&ids), index_(index) {}
+    Pin(Pin&& other) noexcept : ids_(std::exchange(other.ids_, nullptr)), index_(other.index_) {}
+    Pin& operator=(Pin&&) = delete;
+    ~Pin() {
+      if (ids_ != nullptr) ids_->unpin(index_);
+    }
+    [[nodiscard]] explicit operator bool() const { return ids_ != nullptr; }
+    [[nodiscard]] NamedObject& operator*() const { return ids_->places_[index_].named; }
+    [[nodiscard]] NamedObject* operator->() const { return &**this; }
+
+   private:
+    ObjectIds* ids_ = nullptr;
+    std::uint32_t index_ = 0;
+  };
+
+  /// A new id, which is not yet good.
+  [[nodiscard]] ObjectId give(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
+  /// Makes it good; nothing where it is or was already.
+  void publish(ObjectId object) noexcept;
+  /// Ends it. False where another call did so first. The caller has it pinned.
+  [[nodiscard]] bool remove(ObjectId object) noexcept;
+
+  /// Empty where the id names nothing now.
+  [[nodiscard]] Pin pin(ObjectId object) noexcept;
+  /// What pin would say, for less.
+  enum class Standing : std::uint8_t { stale, deformable, posed };
+  [[nodiscard]] Standing standing(ObjectId object) const noexcept;
+
+  /// Ids given and not removed.
+  [[nodiscard]] std::size_t count() const noexcept { return count_.load(std::memory_order_relaxed); }
+  void reserve(std::size_t count) { places_.reserve(count); }
+
+ private:
+  struct Place {
+    std::atomic<std::uint64_t> state{0};
+    NamedObject named;
+  };
+  void unpin(std::uint32_t index) noexcept;
+
+  IndexPool<Place> places_;
+  std::atomic<std::size_t> count_{0};
+};
+
+}  // namespace graze

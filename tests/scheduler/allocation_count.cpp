@@ -1,0 +1,194 @@
+#include "scheduler/allocation_count.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdlib>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define GRAZE_HAS_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define GRAZE_HAS_SANITIZER
+#endif
+
+#if !defined(__GLIBC__) || defined(GRAZE_HAS_SANITIZER)
+
+namespace graze::tests {
+
+bool AllocationCount::is_possible() {
+  return false;
+}
+void AllocationCount::begin() {}
+void AllocationCount::end() {}
+std::uint64_t AllocationCount::by_tbb() {
+  return 0;
+}
+std::uint64_t AllocationCount::by_others() {
+  return 0;
+}
+std::string AllocationCount::first_of_others() {
+  return {};
+}
+
+}  // namespace graze::tests
+
+#else
+
+#include <execinfo.h>
+#include <link.h>
+
+#include <cerrno>
+#include <cstring>
+#include <new>
+
+namespace graze::tests {
+namespace {
+
+std::atomic<bool> is_counting{false};
+std::atomic<std::uint64_t> count_of_tbb{0};
+std::atomic<std::uint64_t> count_of_others{0};
+std::uintptr_t tbb_begin = 0;
+std::uintptr_t tbb_end = 0;
+std::array<void*, 24> first_calls;
+int first_call_count = 0;
+
+/// Where oneTBB's library lies in memory.
+int find_tbb(dl_phdr_info* info, std::size_t, void*) {
+  if (std::strstr(info->dlpi_name, "libtbb.so") == nullptr) return 0;
+  tbb_begin = info->dlpi_addr;
+  for (int i = 0; i < info->dlpi_phnum; ++i)
+    if (info->dlpi_phdr[i].p_type == PT_LOAD)
+      tbb_end = std::max(tbb_end, info->dlpi_addr + info->dlpi_phdr[i].p_vaddr + info->dlpi_phdr[i].p_memsz);
+  return 1;
+}
+
+void count(const void* caller) {
+  if (!is_counting.load(std::memory_order_relaxed)) return;
+  const auto address = std::uintptr_t(caller);
+  if (address >= tbb_begin && address < tbb_end)
+    ++count_of_tbb;
+  else if (count_of_others.fetch_add(1) == 0)
+    first_call_count = backtrace(first_calls.data(), static_cast<int>(first_calls.size()));
+}
+
+}  // namespace
+
+bool AllocationCount::is_possible() {
+  return true;
+}
+
+void AllocationCount::begin() {
+  backtrace(first_calls.data(), 1);  // the first call of all loads a library
+  dl_iterate_phdr(find_tbb, nullptr);
+  first_call_count = 0;
+  count_of_tbb = 0;
+  count_of_others = 0;
+  is_counting = true;
+}
+
+void AllocationCount::end() {
+  is_counting = false;
+}
+
+std::uint64_t AllocationCount::by_tbb() {
+  return count_of_tbb;
+}
+
+std::uint64_t AllocationCount::by_others() {
+  return count_of_others;
+}
+
+std::string AllocationCount::first_of_others() {
+  std::string text;
+  char** const names = backtrace_symbols(first_calls.data(), first_call_count);
+  for (int i = 0; i < first_call_count; ++i) text.append(names[i]).append("\n");
+  std::free(names);
+  return text;
+}
+
+}  // namespace graze::tests
+
+// What the program's allocator is replaced by: itself, counted.
+
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  return __libc_realloc(memory, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  *memory = __libc_memalign(alignment, size);
+  return *memory == nullptr ? ENOMEM : 0;
+}
+}
+
+void* operator new(std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  if (void* const memory = __libc_malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new[](std::size_t size) {
+  graze::tests::count(__builtin_return_address(0));
+  if (void* const memory = __libc_malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  graze::tests::count(__builtin_return_address(0));
+  if (void* const memory = __libc_memalign(static_cast<std::size_t>(alignment), size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  graze::tests::count(__builtin_return_address(0));
+  if (void* const memory = __libc_memalign(static_cast<std::size_t>(alignment), size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+#endif

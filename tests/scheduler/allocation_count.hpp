@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace graze::tests {
+
+/// Counts, in the program it is linked into, every allocation of any thread: by operator new and by malloc
+/// and its kin, which it replaces.
+class AllocationCount {
+ public:
+  /// Whether the hooks are there: on glibc, where no sanitizer has put in its own.
+  static bool is_possible();
+
+  /// Counts from here until `end`, from zero. One at a time.
+  static void begin();
+  static void end();
+
+  /// What was counted: by oneTBB's library, and by all others.
+  static std::uint64_t by_tbb();
+  static std::uint64_t by_others();
+  /// The calls that led to the first of the others; empty where there was none.
+  static std::string first_of_others();
+};
+
+}  // namespace graze::tests
