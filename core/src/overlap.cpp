@@ -2,17 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <vector>
+#include <array>
 
 #include "direction.hpp"
 
 namespace graze {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
-
-Points points_of(const Simplex& simplex) {
-  return {simplex.point.begin(), simplex.point.begin() + simplex.size};
+Outline points_of(const Simplex& simplex) {
+  Outline points;
+  for (std::uint32_t i = 0; i < simplex.size; ++i) points.push_back(simplex.point[i]);
+  return points;
 }
 
 template <typename Number>
@@ -104,8 +104,8 @@ bool triangles_overlap(const Simplex& a, const Simplex& b, bool& unsure) {
 
 /// What is left of a convex polygon or segment inside the half space through `origin` with the normal
 /// `inward`.
-Points clip(const Points& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
-  Points kept;
+Outline clip(const Outline& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
+  Outline kept;
   const std::size_t sides = points.size() == 2 ? 1 : points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double here = inward.dot(points[i] - origin);
@@ -121,8 +121,8 @@ Points clip(const Points& points, const Eigen::Vector3d& origin, const Eigen::Ve
 
 /// The same for points of which something is known to be left: where rounding loses it, the point nearest to
 /// it.
-Points clip_some(const Points& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
-  Points kept = clip(points, origin, inward);
+Outline clip_some(const Outline& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
+  Outline kept = clip(points, origin, inward);
   if (kept.empty())
     kept.push_back(*std::max_element(points.begin(), points.end(),
                                      [&](const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
@@ -137,7 +137,7 @@ Eigen::Vector3d plane_normal(const Simplex& triangle, DecisionCount& count) {
   return *unit_direction(count, [&]<typename Number>() { return normal_of<Number>(triangle); });
 }
 
-Points clip_to_triangle(Points points, const Simplex& triangle, const Eigen::Vector3d& normal) {
+Outline clip_to_triangle(Outline points, const Simplex& triangle, const Eigen::Vector3d& normal) {
   for (std::size_t side = 0; side < 3; ++side) {
     const Eigen::Vector3d along = triangle.point[(side + 1) % 3] - triangle.point[side];
     points = clip_some(points, triangle.point[side], normal.cross(along));
@@ -145,13 +145,13 @@ Points clip_to_triangle(Points points, const Simplex& triangle, const Eigen::Vec
   return points;
 }
 
-Points clip_to_segment(const Points& points, const Simplex& segment) {
+Outline clip_to_segment(const Outline& points, const Simplex& segment) {
   const Eigen::Vector3d along = segment.point[1] - segment.point[0];
   return clip_some(clip_some(points, segment.point[0], along), segment.point[1], -along);
 }
 
 /// The two points of an outline that are furthest apart.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> longest_chord(const Points& points) {
+std::pair<Eigen::Vector3d, Eigen::Vector3d> longest_chord(const Outline& points) {
   std::pair<Eigen::Vector3d, Eigen::Vector3d> chord{points[0], points[0]};
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -162,7 +162,7 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> longest_chord(const Points& points) 
 
 /// The middle of a stretch or the centroid of an area, with its length or area. An area so thin that rounding
 /// has lost its shape counts as its longest chord.
-std::pair<Eigen::Vector3d, double> middle_of(const Points& points) {
+std::pair<Eigen::Vector3d, double> middle_of(const Outline& points) {
   const auto [from, to] = longest_chord(points);
   const double length = (to - from).norm();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
@@ -187,7 +187,7 @@ Eigen::Vector3d across(const Eigen::Vector3d& point, const Simplex& other, const
   return other.point[0] + along * (along.dot(offset) / along.squaredNorm());
 }
 
-Eigen::Vector3d outline_normal(const Points& outline) {
+Eigen::Vector3d outline_normal(const Outline& outline) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 1; i + 1 < outline.size(); ++i)
     normal += (outline[i] - outline[0]).cross(outline[i + 1] - outline[0]);
@@ -195,13 +195,13 @@ Eigen::Vector3d outline_normal(const Points& outline) {
 }
 
 /// Whether two convex outlines lie on one line or in one plane and touch, to rounding.
-bool meet(const Points& outline, const Points& other) {
+bool meet(const Outline& outline, const Outline& other) {
   double slack = 0;
   for (const Eigen::Vector3d& point : outline) slack = std::max(slack, (point - other[0]).norm() * 0x1p-36);
   const Eigen::Vector3d normal = outline_normal(other);
   for (const Eigen::Vector3d& point : outline)
     if (std::abs(normal.dot(point - other[0])) > slack) return false;
-  Points common = outline;
+  Outline common = outline;
   for (std::size_t i = 0; i < other.size() && !common.empty(); ++i) {
     const Eigen::Vector3d along = other[(i + 1) % other.size()] - other[i];
     const Eigen::Vector3d inward =
@@ -275,17 +275,16 @@ std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, con
   const Simplex high = frame.to_local(a_is_low ? b : a);
   const Eigen::Vector3d normal =
       high.size == 3 ? plane_normal(a_is_low ? b : a, count) : Eigen::Vector3d::Zero().eval();
-  const Points common =
+  const Outline common =
       high.size == 2 ? clip_to_segment(points_of(low), high) : clip_to_triangle(points_of(low), high, normal);
   const auto [middle, size] = middle_of(common);
   const Eigen::Vector3d opposite = across(middle, high, normal);
   return a_is_low ? Overlap{middle, opposite, size, common} : Overlap{opposite, middle, size, common};
 }
 
-Overlap largest_part(const std::vector<Overlap>& overlaps) {
-  std::vector<std::size_t> part(overlaps.size());
+Overlap largest_part(const Overlaps& overlaps) {
+  std::array<std::size_t, 4> part{0, 1, 2, 3};
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
-    part[i] = i;
     for (std::size_t j = 0; j < i; ++j)
       if (part[j] != part[i] && meet(overlaps[i].outline, overlaps[j].outline))
         std::replace(part.begin(), part.end(), std::max(part[i], part[j]), std::min(part[i], part[j]));

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
+#include "few.hpp"
 #include "naming.hpp"
 
 namespace graze {
@@ -24,13 +24,18 @@ class LocalFrame {
   double scale_;  ///< a power of two
 };
 
+/// The corners of a convex area in order, or the ends of a stretch. What two triangles have in common has at
+/// most six, and a clip adds at most one; where rounding would make more than there is room for, they lie
+/// within rounding of others and are left out.
+using Outline = Few<Eigen::Vector3d, 24>;
+
 /// What parallel pieces have in common when each is seen along the gap between them, in local coordinates: a
 /// stretch or a convex area.
 struct Overlap {
-  Eigen::Vector3d middle_a;              ///< of the common stretch, or the centroid of the common area, on a
-  Eigen::Vector3d middle_b;              ///< the same on b
-  double size = 0;                       ///< length or area
-  std::vector<Eigen::Vector3d> outline;  ///< its corners in order
+  Eigen::Vector3d middle_a;  ///< of the common stretch, or the centroid of the common area, on a
+  Eigen::Vector3d middle_b;  ///< the same on b
+  double size = 0;           ///< length or area
+  Outline outline;
 };
 
 /// The overlap of the relative interiors of two parallel pieces of at least two points each (edges, folds,
@@ -40,8 +45,11 @@ struct Overlap {
 std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, const Simplex& b,
                                   std::size_t fold_side_b, const LocalFrame& frame, DecisionCount& count);
 
+/// Of two features' pieces, of which each has at most two.
+using Overlaps = Few<Overlap, 4>;
+
 /// The largest connected part of the overlaps of two features' pieces (at least one), with its middle.
 /// Rounded.
-Overlap largest_part(const std::vector<Overlap>& overlaps);
+Overlap largest_part(const Overlaps& overlaps);
 
 }  // namespace graze

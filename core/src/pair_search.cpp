@@ -449,7 +449,7 @@ void PairSearch::report_closest(Worker& worker) {
   set_distance(worker, nearest);
   answer_->distance.lower = std::min(answer_->distance.lower, closest_.lower);
   if (query_.detail != ContactDetail::closest || !answer_->in_contact) return;
-  answer_->contacts.push_back(closest_contact(worker.pair, closest_.closest.names));
+  answer_->contacts.push_back(closest_contact(worker.pair, closest_.closest.names, worker.scratch.parallel));
   answer_->witness = witness_of(answer_->contacts.front());
 }
 

@@ -9,6 +9,7 @@
 #include "leaf_names.hpp"
 #include "leaf_pairs.hpp"
 #include "paper.hpp"
+#include "parallel.hpp"
 
 namespace graze {
 
@@ -19,6 +20,7 @@ struct SearchScratch {
   Closest nearest_of_leaves;
   PaperScratch paper;
   Closest lowest;
+  ParallelScratch parallel;
 };
 
 /// One query about one pair of surfaces: DMV, DV and contact determination, as stages of slices. A slice

