@@ -105,7 +105,7 @@ void check_motion(const ObjectDescription& object, const JsonPlace& place) {
 
 ObjectDescription read_object(const JsonPlace& place, const std::filesystem::path& folder) {
   place.expect_keys({"name", "mesh", "node", "motion", "positions", "animation", "transform", "poses",
-                     "layer", "collides_with", "margin", "kind"});
+                     "layer", "collides_with", "group", "margin", "kind"});
   ObjectDescription object;
   object.place = place.where();
   object.mesh = folder / place.require("mesh", "name the object's mesh file").text();
@@ -117,6 +117,7 @@ ObjectDescription read_object(const JsonPlace& place, const std::filesystem::pat
   if (const auto poses = place.find("poses")) object.poses = read_poses(*poses, object.transform);
   if (const auto layer = place.find("layer")) object.layer = layer->whole_number(0, any_number);
   if (const auto mask = place.find("collides_with")) object.collides_with = mask->whole_number(0, any_number);
+  if (const auto group = place.find("group")) object.group = group->whole_number(0, any_number);
   if (const auto margin = place.find("margin")) object.margin = margin->number_not_negative();
   if (const auto kind = place.find("kind")) object.kind = kind->whole_number(0, largest_kind);
   if (!object.positions.empty() || object.animation) object.motion = Motion::deformable;

@@ -135,6 +135,7 @@ void Loader::load_object(std::size_t entry_index, const MeshFile& file, std::siz
   object.settings.motion = object.source ? Motion::deformable : entry.motion;
   object.settings.layer = entry.layer;
   object.settings.collides_with = entry.collides_with;
+  object.settings.group = entry.group;
   object.settings.margin = entry.margin;
   object.settings.kind = entry.kind;
   Placement baked = entry.transform;

@@ -9,11 +9,20 @@ namespace graze::io {
 
 /// The counters and times of a step by the names they have in a report, in the order in which they are
 /// written. `regions_expanded` is an array and stands between the two.
-inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 16> counter_fields{{
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 28> counter_fields{{
     {"objects", &StepStatistics::objects},
     {"objects_unread", &StepStatistics::objects_unread},
     {"pairs_total", &StepStatistics::pairs_total},
+    {"objects_in_slack", &StepStatistics::objects_in_slack},
+    {"boxes_tested", &StepStatistics::boxes_tested},
+    {"pairs_close", &StepStatistics::pairs_close},
     {"pairs_filtered", &StepStatistics::pairs_filtered},
+    {"pairs_fixed", &StepStatistics::pairs_fixed},
+    {"pairs_by_layer", &StepStatistics::pairs_by_layer},
+    {"pairs_in_group", &StepStatistics::pairs_in_group},
+    {"pairs_ignored", &StepStatistics::pairs_ignored},
+    {"pairs_apart", &StepStatistics::pairs_apart},
+    {"pairs_unchanged", &StepStatistics::pairs_unchanged},
     {"pairs_tested", &StepStatistics::pairs_tested},
     {"pairs_near", &StepStatistics::pairs_near},
     {"pairs_in_contact", &StepStatistics::pairs_in_contact},

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <graze/settings.hpp>
-#include <map>
-#include <set>
 #include <span>
-#include <utility>
+#include <vector>
 
+#include "broad_phase.hpp"
 #include "object_store.hpp"
+#include "object_summary.hpp"
+#include "pair_set.hpp"
 
 namespace graze {
 
@@ -18,33 +20,63 @@ struct PairThresholds {
   std::span<const double> epsilon;
 };
 
+/// Which filter takes a pair out; where several would, the first.
+enum class PairVerdict : std::uint8_t {
+  looked_at,
+  fixed,    ///< both are fixed
+  layer,    ///< one's layer is not in the other's mask
+  group,    ///< both are in one group
+  ignored,  ///< by Scene::ignore
+};
+
 /// Which pairs are looked at, and how far. Stepping thread only, but for the const calls.
 class PairFilter {
  public:
-  explicit PairFilter(const SceneSettings& settings) : settings_(settings) {}
+  explicit PairFilter(const SceneSettings& settings);
 
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule);
   void set_ignored(const Object& a, const Object& b, bool ignored);
   /// Drops what is kept of the pairs of a removed object.
   void forget(const Object& object);
 
-  /// Whether layers, masks, motion and `ignore` let the pair through.
-  [[nodiscard]] bool allows(const Object& a, const Object& b) const;
-  [[nodiscard]] PairThresholds thresholds(const Object& a, const Object& b) const;
+  [[nodiscard]] PairVerdict verdict(const ObjectSummary& a, const ObjectSummary& b) const;
+  [[nodiscard]] PairThresholds thresholds(const ObjectSummary& a, const ObjectSummary& b) const;
+  /// PairThresholds::reach.
+  [[nodiscard]] double reach(const ObjectSummary& a, const ObjectSummary& b) const {
+    const Distances& distances = distances_of(a.kind, b.kind);
+    return std::max(distances.range, distances.contact + (a.margin + b.margin));
+  }
   /// Changes with every rule.
   [[nodiscard]] std::uint64_t rules_version() const { return rules_version_; }
-  /// The largest reach of any pair of objects without margins.
-  [[nodiscard]] double largest_reach() const;
+  [[nodiscard]] const BroadPhase::HalfReaches& half_reaches() const { return half_reaches_; }
+
+  [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  using Key = std::pair<std::uint64_t, std::uint64_t>;
-  static Key key_of(std::uint64_t first, std::uint64_t second) { return std::minmax(first, second); }
-  [[nodiscard]] std::span<const double> epsilon_of(const PairRule& rule) const;
+  /// Of a kind of pair, without margins.
+  struct Distances {
+    double contact = 0;
+    double range = 0;
+    std::span<const double> epsilon;
+
+    [[nodiscard]] double reach() const { return std::max(range, contact); }
+  };
+  [[nodiscard]] Distances distances_of(const PairRule& rule) const;
+  [[nodiscard]] const Distances& distances_of(std::uint32_t kind_a, std::uint32_t kind_b) const {
+    return distances_[rule_of_.empty() ? 0 : rule_of_[place_of(kind_a, kind_b)]];
+  }
+  static std::size_t place_of(std::uint32_t kind_a, std::uint32_t kind_b);
+  void find_half_reach(std::uint32_t kind);
+  void drop_forgotten();
 
   const SceneSettings& settings_;
-  std::map<Key, PairRule> rules_;  ///< by kinds, the lower first
+  std::vector<PairRule> rules_;
+  std::vector<Distances> distances_;    ///< the scene's own, then one for each rule
+  std::vector<std::uint16_t> rule_of_;  ///< into `distances_`, for each kind and kind; empty without rules
   std::uint64_t rules_version_ = 0;
-  std::set<Key> ignored_;  ///< by serials, the lower first
+  BroadPhase::HalfReaches half_reaches_{};
+  PairSet ignored_;                       ///< by serials, the lower first
+  std::vector<std::uint64_t> forgotten_;  ///< serials that `ignored_` may still name
 };
 
 }  // namespace graze

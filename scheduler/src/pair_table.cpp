@@ -1,94 +1,112 @@
 #include "pair_table.hpp"
 
-#include <algorithm>
-
 namespace graze {
 
 PairTable::PairTable(const SceneSettings& settings, ObjectStore& store) : store_(store), filter_(settings) {}
 
-Object* PairTable::object_of(std::uint64_t serial) const {
-  const auto objects = store_.objects();
-  const auto found = std::lower_bound(
-      objects.begin(), objects.end(), serial,
-      [](const std::unique_ptr<Object>& object, std::uint64_t wanted) { return object->serial < wanted; });
-  return found != objects.end() && (*found)->serial == serial ? found->get() : nullptr;
-}
-
-/// Merges the pairs that the broad phase finds with those of the last report that were in contact or are
-/// frozen: both are sorted by the order of addition, and so are the jobs.
 std::span<const PairJob> PairTable::list(const FrameReport& previous, TaskPool& tasks,
                                          std::vector<Diagnostic>& diagnostics, StepStatistics& statistics) {
   const auto objects = store_.objects();
   statistics.objects = objects.size();
   statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
-  jobs_.clear();
-  memories_.begin();
-  const auto found = broad_phase_.find(objects, filter_.largest_reach());
-  read_what_is_near(found, tasks, diagnostics);
-  auto pair = found.begin();
-  std::size_t last = 0;
-  const auto key_of = [&](const ObjectPair& indices) {
-    return Key{objects[indices.first]->serial, objects[indices.second]->serial};
-  };
-  const auto add_last = [&] {
-    Object* const a = object_of(last_keys_[last].first);
-    Object* const b = object_of(last_keys_[last].second);
-    const PairReport& report = previous.pairs()[last++];
-    if (a != nullptr && b != nullptr) list_job(*a, *b, &report, statistics);
-  };
-  for (; pair != found.end(); ++pair) {
-    while (last < last_keys_.size() && last_keys_[last] < key_of(*pair)) add_last();
-    if (last < last_keys_.size() && last_keys_[last] == key_of(*pair))
-      add_last();
-    else
-      list_job(*objects[pair->first], *objects[pair->second], nullptr, statistics);
-  }
-  while (last < last_keys_.size()) add_last();
-  memories_.end();
+  summaries_.refresh(objects, tasks);
+  const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), tasks);
+  statistics.boxes_tested = broad_phase_.counters().boxes_tested;
+  statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
+  if (summaries_.some_unread()) read_what_is_near(close, previous, tasks, diagnostics);
+  list_jobs(selection_.select(close, summaries_, filter_, tasks, statistics), previous, statistics);
   return jobs_;
 }
 
 /// A pair of which one object was not read, because of a promise, is near only where the boxes of what was
 /// promised are; then it is read after all. So is what the last report listed, since that has to be said of
 /// it again.
-void PairTable::read_what_is_near(std::span<const ObjectPair> pairs, TaskPool& tasks,
-                                  std::vector<Diagnostic>& diagnostics) {
+void PairTable::read_what_is_near(std::span<const PlacePair> pairs, const FrameReport& previous,
+                                  TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
   const auto objects = store_.objects();
   wanted_.clear();
-  for (const ObjectPair& pair : pairs) {
-    Object& a = *objects[pair.first];
-    Object& b = *objects[pair.second];
-    if ((a.unread || b.unread) && filter_.allows(a, b) &&
-        lower_distance(a.box, b.box) <= filter_.thresholds(a, b).reach)
-      wanted_.insert(wanted_.end(), {&a, &b});
+  for (const PlacePair pair : pairs) {
+    const ObjectSummary& a = summaries_[first_of(pair)];
+    const ObjectSummary& b = summaries_[second_of(pair)];
+    if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::looked_at &&
+        lower_distance(a.box, b.box) <= filter_.reach(a, b))
+      wanted_.insert(wanted_.end(), {objects[first_of(pair)].get(), objects[second_of(pair)].get()});
   }
-  for (const Key& key : last_keys_)
-    for (Object* const object : {object_of(key.first), object_of(key.second)})
+  for (const PairReport& row : previous.pairs())
+    for (Object* const object : {store_.find(row.a), store_.find(row.b)})
       if (object != nullptr && object->unread) wanted_.push_back(object);
+  if (wanted_.empty()) return;
   store_.read_unread(wanted_, tasks, diagnostics);
+  summaries_.refresh_unread(objects);
 }
 
-void PairTable::list_job(Object& a, Object& b, const PairReport* last, StepStatistics& statistics) {
+/// Merges the pairs that are to be looked at with those of the last report, some of which have something to
+/// be said of all the same: both are sorted by the order of addition, and so are the jobs.
+void PairTable::list_jobs(std::span<const PlacePair> selected, const FrameReport& previous,
+                          StepStatistics& statistics) {
+  const auto objects = store_.objects();
+  jobs_.clear();
+  memories_.begin();
+  auto next = selected.begin();
+  const auto key_of = [](const Object& a, const Object& b) { return PairMemories::Key{a.serial, b.serial}; };
+  const auto add_next = [&](const PairReport* last) {
+    const std::uint32_t a = first_of(*next);
+    const std::uint32_t b = second_of(*next++);
+    add_selected(*objects[a], *objects[b], filter_.thresholds(summaries_[a], summaries_[b]), last);
+  };
+  const auto next_key = [&] {
+    return PairMemories::Key{summaries_[first_of(*next)].serial, summaries_[second_of(*next)].serial};
+  };
+  for (const PairReport& row : previous.pairs()) {
+    Object* const a = store_.find(row.a);
+    Object* const b = store_.find(row.b);
+    if (a == nullptr || b == nullptr) continue;
+    while (next != selected.end() && next_key() < key_of(*a, *b)) add_next(nullptr);
+    if (next != selected.end() && next_key() == key_of(*a, *b))
+      add_next(&row);
+    else
+      add_unselected(*a, *b, row);
+  }
+  while (next != selected.end()) add_next(nullptr);
+  memories_.end();
+  for (const PairJob& job : jobs_) {
+    if (job.is_looked_at()) ++statistics.pairs_tested;
+    if (job.task == PairJob::Task::unchanged) ++statistics.pairs_unchanged;
+  }
+}
+
+void PairTable::add_selected(Object& a, Object& b, const PairThresholds& thresholds, const PairReport* last) {
   PairJob job;
   job.a = &a;
   job.b = &b;
   job.last = last;
-  job.thresholds = filter_.thresholds(a, b);
-  job.allowed = filter_.allows(a, b);
-  if (!job.allowed) ++statistics.pairs_filtered;
+  job.thresholds = thresholds;
+  add(job);
+}
+
+/// A pair that the last report listed and that is filtered out now, has parted, or is frozen: one that was in
+/// contact is listed once more however far it is.
+void PairTable::add_unselected(Object& a, Object& b, const PairReport& last) {
+  const ObjectSummary& summary_a = summaries_[summaries_.place_of(a)];
+  const ObjectSummary& summary_b = summaries_[summaries_.place_of(b)];
+  PairJob job;
+  job.a = &a;
+  job.b = &b;
+  job.last = &last;
+  job.thresholds = filter_.thresholds(summary_a, summary_b);
+  job.allowed = filter_.verdict(summary_a, summary_b) == PairVerdict::looked_at;
   if (!job.allowed && !job.was_in_contact()) return;
   if (!job.allowed) job.task = PairJob::Task::end;
-  if (a.frozen || b.frozen) {
-    if (last == nullptr) return;
+  if (a.frozen || b.frozen)
     job.task = PairJob::Task::repeat_last;
-  } else {
-    const double lower = lower_distance(a.box, b.box);
-    // A pair that was in contact is listed once more however far it is now.
-    if (!(lower < job.thresholds.reach) && lower > 0 && !job.was_in_contact()) return;
-  }
-  job.memory = &memories_.of({a.serial, b.serial});
+  else if (!job.was_in_contact() && !may_be_near(lower_distance(a.box, b.box), job.thresholds.reach))
+    return;
+  add(job);
+}
+
+void PairTable::add(PairJob& job) {
+  job.memory = &memories_.of({job.a->serial, job.b->serial});
   if (job.task == PairJob::Task::detect && is_unchanged(job)) job.task = PairJob::Task::unchanged;
-  if (job.is_looked_at()) ++statistics.pairs_tested;
   jobs_.push_back(job);
 }
 
@@ -99,9 +117,9 @@ bool PairTable::is_unchanged(const PairJob& job) const {
          memory.rules_version == filter_.rules_version();
 }
 
-void PairTable::was_listed(std::span<const PairJob* const> jobs) {
-  last_keys_.clear();
-  for (const PairJob* const job : jobs) last_keys_.emplace_back(job->a->serial, job->b->serial);
+std::size_t PairTable::byte_count() const {
+  return memories_.byte_count() + filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
+         selection_.byte_count() + jobs_.capacity() * sizeof(PairJob) + wanted_.capacity() * sizeof(Object*);
 }
 
 }  // namespace graze

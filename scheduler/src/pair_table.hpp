@@ -6,9 +6,11 @@
 
 #include "broad_phase.hpp"
 #include "object_store.hpp"
+#include "object_summary.hpp"
 #include "pair_filter.hpp"
 #include "pair_job.hpp"
 #include "pair_memory.hpp"
+#include "pair_selection.hpp"
 #include "task_pool.hpp"
 
 namespace graze {
@@ -23,28 +25,28 @@ class PairTable {
 
   /// The pairs that have to be looked at or said something about, in the order of addition of a, then b.
   /// Reads objects that promises left unread, where they may be near after all. `previous` is the last
-  /// report, of the pairs of `was_listed`.
+  /// report.
   std::span<const PairJob> list(const FrameReport& previous, TaskPool& tasks,
                                 std::vector<Diagnostic>& diagnostics, StepStatistics& statistics);
-  /// Ends a step: the jobs that made it into its report, in order.
-  void was_listed(std::span<const PairJob* const> jobs);
 
-  [[nodiscard]] std::size_t byte_count() const { return memories_.byte_count(); }
+  [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  using Key = PairMemories::Key;
-
-  void read_what_is_near(std::span<const ObjectPair> pairs, TaskPool& tasks,
+  void read_what_is_near(std::span<const PlacePair> pairs, const FrameReport& previous, TaskPool& tasks,
                          std::vector<Diagnostic>& diagnostics);
-  void list_job(Object& a, Object& b, const PairReport* last, StepStatistics& statistics);
+  void list_jobs(std::span<const PlacePair> selected, const FrameReport& previous,
+                 StepStatistics& statistics);
+  void add_selected(Object& a, Object& b, const PairThresholds& thresholds, const PairReport* last);
+  void add_unselected(Object& a, Object& b, const PairReport& last);
+  void add(PairJob& job);
   [[nodiscard]] bool is_unchanged(const PairJob& job) const;
-  [[nodiscard]] Object* object_of(std::uint64_t serial) const;
 
   ObjectStore& store_;
   PairFilter filter_;
+  ObjectSummaries summaries_;
   BroadPhase broad_phase_;
+  PairSelection selection_;
   PairMemories memories_;
-  std::vector<Key> last_keys_;  ///< of the pairs of the previous report, in its order
   std::vector<PairJob> jobs_;
   std::vector<Object*> wanted_;  ///< to be read after all
 };

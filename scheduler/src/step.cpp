@@ -76,7 +76,6 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
 /// The serial end of a step: jobs ran in any order, but their answers are put together in the order of the
 /// pairs.
 void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder) {
-  listed_.clear();
   StepStatistics& statistics = builder.statistics();
   for (std::size_t index = 0; index < jobs.size(); ++index) {
     const PairJob& job = jobs[index];
@@ -95,12 +94,10 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
     statistics.region_distances += regions.size();
     if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
     if (job.last != nullptr && !row->stale) set_ages(previous.contacts(*job.last), reported);
-    listed_.push_back(&job);
     ++statistics.pairs_near;
     if (in_contact) ++statistics.pairs_in_contact;
     statistics.contacts += contacts.size();
   }
-  pairs_.was_listed(listed_);
 }
 
 void Step::sum_counters(std::span<const PairJob> jobs, StepStatistics& statistics) {

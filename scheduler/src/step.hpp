@@ -38,7 +38,6 @@ class Step {
   ObjectStore store_;
   PairTable pairs_;
   PairJobs jobs_;
-  std::vector<const PairJob*> listed_;  ///< those that made it into the report
 };
 
 }  // namespace graze

@@ -141,7 +141,7 @@ TEST_CASE("a scene file with every key is read as it says") {
       {"name": "liver", "mesh": "meshes/liver.obj", "node": 2, "positions": "liver_####.ply",
        "transform": {"translate": [1, 2, 3], "rotate_degrees": [10, 20, 30], "scale": 0.5}},
       {"name": "tool", "mesh": "/tools/tool.stl", "node": "blade", "motion": "rigid", "layer": 4,
-       "collides_with": 3, "margin": 0.001, "kind": 255, "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
+       "collides_with": 3, "group": 9, "margin": 0.001, "kind": 255, "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
        "poses": [{"frame": 0}, {"frame": 100, "translate": [0, 0, 0]}, {"frame": 101, "rotate_degrees": [1, 2, 3]}]},
       {"mesh": "fox.glb", "animation": "Run"},
       {"mesh": "floor.obj", "motion": "fixed"}],
@@ -173,7 +173,8 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(tool.mesh == "/tools/tool.stl");
   CHECK(std::get<std::string>(tool.node.value()) == "blade");
   CHECK(tool.motion == graze::Motion::rigid);
-  CHECK((tool.layer == 4 && tool.collides_with == 3 && tool.margin == 0.001 && tool.kind == 255));
+  CHECK((tool.layer == 4 && tool.collides_with == 3 && tool.group == 9 && tool.margin == 0.001 &&
+         tool.kind == 255));
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's
   CHECK(tool.poses[0].translate == Eigen::Vector3d(0, 0, 1));
   CHECK(tool.poses[0].rotate_degrees == Eigen::Vector3d(0, 90, 0));

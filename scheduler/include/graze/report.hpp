@@ -66,9 +66,19 @@ struct StepStatistics {
   std::uint64_t objects = 0;
   std::uint64_t objects_unread = 0;  ///< not read, since promises say that they are far from everything
   std::uint64_t pairs_total = 0;     ///< n(n-1)/2
-  std::uint64_t pairs_filtered = 0;  ///< boxes within reach or listed last, but filtered out
-  std::uint64_t pairs_tested = 0;    ///< given to DMV
-  std::uint64_t pairs_near = 0;      ///< listed in the report
+  /// Objects that moved, but inside their loose boxes (docs/embedding.md): no pair of them can have come.
+  std::uint64_t objects_in_slack = 0;
+  std::uint64_t boxes_tested = 0;     ///< boxes against a box, to find pairs of loose boxes that meet
+  std::uint64_t pairs_close = 0;      ///< pairs whose loose boxes meet; those that follow are among them
+  std::uint64_t pairs_filtered = 0;   ///< taken out by the filters: the sum of the next four
+  std::uint64_t pairs_fixed = 0;      ///< both objects are fixed
+  std::uint64_t pairs_by_layer = 0;   ///< otherwise: one's layer is not in the other's mask
+  std::uint64_t pairs_in_group = 0;   ///< otherwise: both are in one group
+  std::uint64_t pairs_ignored = 0;    ///< otherwise: ignored one by one
+  std::uint64_t pairs_apart = 0;      ///< not filtered out, but the objects' boxes are not within reach
+  std::uint64_t pairs_unchanged = 0;  ///< neither object has moved since the last answer, which is repeated
+  std::uint64_t pairs_tested = 0;     ///< given to DMV
+  std::uint64_t pairs_near = 0;       ///< listed in the report
   std::uint64_t pairs_in_contact = 0;
   std::uint64_t contacts = 0;
   std::uint64_t region_distances = 0;

@@ -28,6 +28,8 @@ struct ObjectSettings {
   Motion motion = Motion::deformable;
   std::uint32_t layer = 1;  ///< a pair is looked at when each one's layer is in the other's mask
   std::uint32_t collides_with = ~std::uint32_t{0};
+  /// Objects of one group are not looked at against each other: the parts of one character, say. 0: no group.
+  std::uint64_t group = 0;
   double margin = 0;       ///< added to the threshold of every pair of this object
   std::uint32_t kind = 0;  ///< 0 to 255, see Scene::set_rule
   std::uint64_t user_data = 0;

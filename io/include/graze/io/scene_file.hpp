@@ -31,6 +31,7 @@ struct ObjectDescription {
   std::vector<KeyPose> poses;  ///< ascending by frame
   std::uint32_t layer = 1;
   std::uint32_t collides_with = ~std::uint32_t{0};
+  std::uint32_t group = 0;
   double margin = 0;
   std::uint32_t kind = 0;
   std::string place;  ///< where this entry stands, for errors: `scene.json: objects[2]`
