@@ -197,8 +197,8 @@ TEST_CASE("threads: a scene with one thread is written to and read by six others
 }
 
 TEST_CASE("threads: scenes stepped from the tasks of a caller's own parallel loop") {
-  const auto torus = mesh_of(models::torus(10, 6, 1, 0.25));
-  constexpr std::size_t frames = 12;
+  const auto torus = mesh_of(models::torus(6, 4, 1, 0.25));
+  constexpr std::size_t frames = 5;
   const std::uint64_t alone = hash_of_bending_tori(1, frames, torus);
   for (const unsigned threads : {1U, 2U, 4U}) {
     std::array<std::uint64_t, 16> hashes{};
@@ -210,7 +210,7 @@ TEST_CASE("threads: scenes stepped from the tasks of a caller's own parallel loo
 }
 
 TEST_CASE("threads: inside an arena of one") {
-  const auto torus = mesh_of(models::torus(10, 6, 1, 0.25));
+  const auto torus = mesh_of(models::torus(6, 4, 1, 0.25));
   const std::uint64_t alone = hash_of_bending_tori(1, 10, torus);
   std::uint64_t found = 0;
   oneapi::tbb::task_arena arena(1);
@@ -220,9 +220,9 @@ TEST_CASE("threads: inside an arena of one") {
 
 TEST_CASE("threads: a second step at the same time is refused, and the first goes on") {
   Scene scene(BusyScene::settings_with(2));
-  const auto torus = mesh_of(models::torus(10, 6, 1, 0.25));
-  for (int i = 0; i < 20; ++i) scene.set_positions(scene.add(torus), lifted(*torus, 0.25 * i));
-  constexpr int tries = 300;
+  const auto torus = mesh_of(models::torus(6, 4, 1, 0.25));
+  for (int i = 0; i < 10; ++i) scene.set_positions(scene.add(torus), lifted(*torus, 0.25 * i));
+  constexpr int tries = 100;
   std::atomic<int> stepped = 0;
   std::atomic<int> refused = 0;
   const auto step = [&] {
