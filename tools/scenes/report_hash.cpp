@@ -59,7 +59,10 @@ void ReportHash::add(const FrameReport& report) {
   add(report.frame());
   add(std::uint64_t{report.complete() ? 1U : 0U});
   for (const PairReport& pair : report.pairs()) add(pair);
-  for (const Contact& contact : report.contacts()) add(contact);
+  for (const Contact& contact : report.contacts()) {
+    add(contact);
+    add(std::uint64_t{contact.age});
+  }
   for (const Diagnostic& diagnostic : report.diagnostics()) {
     add(diagnostic.object);
     add(number_of(diagnostic.kind));

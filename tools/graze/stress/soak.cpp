@@ -31,7 +31,7 @@ constexpr std::size_t intervals = 30;
 // this: the scene's contents are random, so its needs are too.
 constexpr double warm_up = 0.2;
 constexpr double tolerated_growth = 1.1;
-constexpr double tolerated_bytes = 8 << 20;
+constexpr double tolerated_bytes = 32 << 20;
 
 double resident_bytes() {
   std::ifstream file("/proc/self/statm");
@@ -241,7 +241,7 @@ class Soak {
   std::barrier<> barrier_;
   std::shared_mutex scene_lock_;
   std::atomic<bool> done_{false};
-  std::array<Holder, 2> holders_ = {Holder(11, 20), Holder(12, 400)};
+  std::array<Holder, 2> holders_ = {Holder(11, 10), Holder(12, 100)};
   std::vector<Interval> intervals_;
   Interval interval_;
   StressResult result_;
