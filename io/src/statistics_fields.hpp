@@ -9,7 +9,7 @@ namespace graze::io {
 
 /// The counters and times of a step by the names they have in a report, in the order in which they are
 /// written. `regions_expanded` is an array and stands between the two.
-inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 16> counter_fields{{
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 19> counter_fields{{
     {"objects", &StepStatistics::objects},
     {"objects_unread", &StepStatistics::objects_unread},
     {"pairs_total", &StepStatistics::pairs_total},
