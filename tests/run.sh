@@ -1,7 +1,7 @@
 #!/bin/sh
 # The test command: installs what is missing, builds and runs all tests as users build graze, and once more under the
-# address and undefined-behaviour sanitizers with the structure validators on; then each fuzzer for a short time. Ends
-# with a line of counts.
+# address and undefined-behaviour sanitizers with the structure validators on; then those with threads under the thread
+# sanitizer, and each fuzzer for a short time. Ends with a line of counts.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -30,6 +30,10 @@ run_preset() {
 run_preset release --parallel "$(nproc)"
 # The contract's programs build libraries of their own: one run of them is enough.
 run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_'
+
+# The tests with threads once more under the thread sanitizer.
+tests/tsan_tbb.sh build/tsan-tbb
+run_preset tsan
 
 # Each fuzzer for a short time, from its seeds (docs/fuzzing.md).
 run_preset fuzz --parallel "$(nproc)"

@@ -1,8 +1,13 @@
 // Writers, a stepping thread and readers at once: every report is whole, and nothing said is lost.
 
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <array>
 #include <atomic>
 #include <thread>
 
+#include "scenes/report_hash.hpp"
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
@@ -84,60 +89,160 @@ std::size_t problems_seen_by_reader(const Scene& scene, const std::atomic<bool>&
   return problems;
 }
 
-}  // namespace
+/// A scene that four threads write to, one steps and two read, all at once.
+struct BusyScene {
+  static constexpr int writer_count = 4;
 
-TEST_CASE("four threads write, one steps and two read") {
-  constexpr int writer_count = 4;
-  constexpr int operations = 500;
-  SceneSettings settings = settings_of(0.5, 1);
-  settings.threads = 2;
-  Scene scene(settings);
-  const ObjectId plate = scene.add(plate_mesh());
+  explicit BusyScene(unsigned threads, std::uint64_t first_seed)
+      : scene(settings_with(threads)), plate(scene.add(plate_mesh())) {
+    for (std::uint64_t i = 0; i < writer_count; ++i) writers.emplace_back(scene, first_seed + i);
+  }
+
+  /// Until every writer has made so many calls. Asserts nothing, so that it can run on any thread.
+  void run(int operations) {
+    std::atomic<bool> done = false;
+    std::atomic<int> writing = writer_count;
+    std::vector<std::thread> threads;
+    for (std::size_t& problems : reader_problems)
+      threads.emplace_back([&] { problems = problems_seen_by_reader(scene, done); });
+    for (Writer& writer : writers)
+      threads.emplace_back([&] {
+        writer.run(operations);
+        --writing;
+      });
+    for (bool last = false; !last; ++steps) {
+      last = writing == 0;
+      const ReportHandle report = scene.step();
+      if (!inconsistency_of(*report).empty() || report->frame() != steps + 1) ++step_problems;
+      for (const Diagnostic& diagnostic : report->diagnostics())
+        if (diagnostic.kind == DiagnosticKind::stale_id && diagnostic.message.find("set_pose") == 0) ++stale;
+    }
+    done = true;
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  /// Each writer's last word holds, and each of its mistakes was said once.
+  void check() {
+    CHECK(step_problems == 0);
+    CHECK(reader_problems == std::array<std::size_t, 2>{});
+    CHECK(scene.object_count() == 1 + writer_count);
+    const ReportHandle report = scene.step();
+    std::uint64_t expected_stale = 0;
+    for (const Writer& writer : writers) {
+      expected_stale += writer.stale_calls();
+      const PairReport* const pair = find_pair(*report, plate, writer.left());
+      REQUIRE(pair != nullptr);
+      CHECK(pair->distance.upper == 0.25);
+      CHECK(pair->phase == PairPhase::touching);
+    }
+    CHECK(stale == expected_stale);
+    CHECK(expected_stale > 0);
+  }
+
+  static SceneSettings settings_with(unsigned threads) {
+    SceneSettings settings = settings_of(0.5, 1);
+    settings.threads = threads;
+    return settings;
+  }
+
+  Scene scene;
+  ObjectId plate;
   std::vector<Writer> writers;
-  for (std::uint64_t seed = 0; seed < writer_count; ++seed) writers.emplace_back(scene, seed);
-
-  std::atomic<bool> done = false;
-  std::atomic<int> writing = writer_count;
   std::array<std::size_t, 2> reader_problems{};
   std::size_t step_problems = 0;
-  std::uint64_t stale = 0;
-  std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < reader_problems.size(); ++i)
-    threads.emplace_back([&, i] { reader_problems[i] = problems_seen_by_reader(scene, done); });
-  for (Writer& writer : writers)
-    threads.emplace_back([&] {
-      writer.run(operations);
-      --writing;
-    });
-  std::uint64_t steps = 0;
-  for (bool last = false; !last; ++steps) {
-    last = writing == 0;
-    const ReportHandle report = scene.step();
-    if (!inconsistency_of(*report).empty() || report->frame() != steps + 1) ++step_problems;
-    for (const Diagnostic& diagnostic : report->diagnostics())
-      if (diagnostic.kind == DiagnosticKind::stale_id && diagnostic.message.find("set_pose") == 0) ++stale;
-  }
-  done = true;
-  for (std::thread& thread : threads) thread.join();
-  CHECK(step_problems == 0);
-  CHECK(reader_problems == std::array<std::size_t, 2>{});
+  std::uint64_t steps = 0, stale = 0;
+};
 
-  // Each writer's last word holds, and each of its mistakes was said once.
-  CHECK(scene.object_count() == 1 + writer_count);
-  const ReportHandle report = scene.step();
-  std::uint64_t expected_stale = 0;
-  for (const Writer& writer : writers) {
-    expected_stale += writer.stale_calls();
-    const PairReport* const pair = find_pair(*report, plate, writer.left());
-    REQUIRE(pair != nullptr);
-    CHECK(pair->distance.upper == 0.25);
-    CHECK(pair->phase == PairPhase::touching);
+/// A scene of five tori in a row that bend, and all that its reports say in so many frames.
+std::uint64_t hash_of_bending_tori(unsigned threads, std::size_t frames,
+                                   const std::shared_ptr<const Mesh>& torus) {
+  Scene scene(BusyScene::settings_with(threads));
+  std::vector<ObjectId> ids;
+  for (int i = 0; i < 5; ++i) ids.push_back(scene.add(torus));
+  scenes::ReportHash hash;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      Positions positions(torus->rest().begin(), torus->rest().end());
+      for (Eigen::Vector3d& point : positions)
+        point.z() += static_cast<double>(i) + 0.0625 * static_cast<double>(frame % 8) * point.x() * point.y();
+      scene.set_positions(ids[i], positions);
+    }
+    hash.add(*scene.step());
   }
-  CHECK(stale == expected_stale);
-  CHECK(expected_stale > 0);
+  return hash.value();
 }
 
-TEST_CASE("calls of one thread during a step are taken up whole by the next") {
+}  // namespace
+
+TEST_CASE("threads: four write, one steps and two read") {
+  BusyScene busy(2, 0);
+  busy.run(500);
+  busy.check();
+}
+
+TEST_CASE("threads: two scenes at once, each with four that write, one that steps and two that read") {
+  BusyScene first(2, 10);
+  BusyScene second(3, 20);
+  std::thread other([&] { second.run(5000); });
+  first.run(5000);
+  other.join();
+  first.check();
+  second.check();
+}
+
+TEST_CASE("threads: a scene with one thread is written to and read by six others") {
+  BusyScene busy(1, 30);
+  busy.run(2000);
+  busy.check();
+}
+
+TEST_CASE("threads: scenes stepped from the tasks of a caller's own parallel loop") {
+  const auto torus = mesh_of(models::torus(6, 4, 1, 0.25));
+  constexpr std::size_t frames = 5;
+  const std::uint64_t alone = hash_of_bending_tori(1, frames, torus);
+  for (const unsigned threads : {1U, 2U, 4U}) {
+    std::array<std::uint64_t, 16> hashes{};
+    oneapi::tbb::parallel_for(std::size_t{0}, hashes.size(), [&](std::size_t index) {
+      hashes[index] = hash_of_bending_tori(threads, frames, torus);
+    });
+    for (const std::uint64_t hash : hashes) CHECK(hash == alone);
+  }
+}
+
+TEST_CASE("threads: inside an arena of one") {
+  const auto torus = mesh_of(models::torus(6, 4, 1, 0.25));
+  const std::uint64_t alone = hash_of_bending_tori(1, 10, torus);
+  std::uint64_t found = 0;
+  oneapi::tbb::task_arena arena(1);
+  arena.execute([&] { found = hash_of_bending_tori(4, 10, torus); });
+  CHECK(found == alone);
+}
+
+TEST_CASE("threads: a second step at the same time is refused, and the first goes on") {
+  Scene scene(BusyScene::settings_with(2));
+  const auto torus = mesh_of(models::torus(6, 4, 1, 0.25));
+  for (int i = 0; i < 10; ++i) scene.set_positions(scene.add(torus), lifted(*torus, 0.25 * i));
+  constexpr int tries = 100;
+  std::atomic<int> stepped = 0;
+  std::atomic<int> refused = 0;
+  const auto step = [&] {
+    for (int i = 0; i < tries; ++i) {
+      try {
+        scene.step();
+        ++stepped;
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  };
+  std::thread other(step);
+  step();
+  other.join();
+  CHECK(stepped + refused == 2 * tries);
+  CHECK(scene.latest_report()->frame() == static_cast<std::uint64_t>(stepped));
+}
+
+TEST_CASE("threads: calls of one thread during a step are taken up whole by the next") {
   SceneSettings settings = settings_of(0.5, 100);
   settings.threads = 2;
   NeedleOverPlate pair(settings);

@@ -8,18 +8,30 @@ include(Catch)
 set(GRAZE_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
   "Real meshes that some tests read; those tests are skipped where it is missing")
 
+set(GRAZE_TEST_OPTIONS "" CACHE STRING "More compiler options for the tests themselves, such as -O1 to build them sooner")
+
 if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
   set(GRAZE_CATCH_MAIN Catch2::Catch2WithMain)
 else()
   set(GRAZE_CATCH_MAIN graze_catch_main)
   add_library(graze_catch_main STATIC ${CMAKE_CURRENT_LIST_DIR}/catch_main.cpp)
-  target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2)
+  target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2 PRIVATE graze_options Eigen3::Eigen)
+  target_compile_options(graze_catch_main PRIVATE ${GRAZE_TEST_OPTIONS})
+  # What nearly every test includes: reading it takes longer than compiling most tests. The one with Catch's main reads
+  # another Catch.
+  set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/catch_main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  target_precompile_headers(graze_catch_main PRIVATE ${CMAKE_CURRENT_LIST_DIR}/catch.hpp
+    <Eigen/Geometry> <algorithm> <array> <cmath> <memory> <string> <vector>)
 endif()
 
 function(graze_add_test_program name)
   add_executable(${name} ${ARGN})
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
   target_compile_definitions(${name} PRIVATE GRAZE_SHARED_DATA="${GRAZE_SHARED_DATA}")
+  target_compile_options(${name} PRIVATE ${GRAZE_TEST_OPTIONS})
   target_link_libraries(${name} PRIVATE graze_options ${GRAZE_CATCH_MAIN})
+  if(TARGET graze_catch_main)
+    target_precompile_headers(${name} REUSE_FROM graze_catch_main)
+  endif()
   catch_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
 endfunction()

@@ -10,6 +10,7 @@
 #include "check_failed.hpp"
 #include "inspect_command.hpp"
 #include "run_command.hpp"
+#include "stress/command.hpp"
 
 namespace {
 
@@ -29,6 +30,7 @@ int run_program(int argument_count, char** arguments) {
   app.require_subcommand(1);
   graze::tools::add_run_command(app);
   graze::tools::add_inspect_command(app);
+  graze::tools::add_stress_command(app);
 #if GRAZE_HAS_ORACLES
   graze::tools::add_accuracy_command(app);
 #endif

@@ -1,0 +1,105 @@
+// The same bits from any number of threads, in every run and on every machine: hashes of all that reports say
+// against committed values. 300 frames and 20 repeats of the same: `graze stress --determinism`.
+
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "scenes/played_scene.hpp"
+#include "scenes/report_hash.hpp"
+#include "scheduler/gathering_memory.hpp"
+#include "support/catch.hpp"
+
+namespace graze::tests {
+namespace {
+
+using scenes::PlayedScene;
+
+constexpr std::array<unsigned, 6> thread_counts = {1, 2, 3, 4, 8, 16};
+constexpr std::size_t frames = 20;
+
+struct Golden {
+  std::string_view scene;
+  std::uint64_t hash;
+};
+/// Of 20 frames. In exact mode the contract fixes every bit of a report, so that a change of one of these is
+/// a change of an answer.
+constexpr std::array<Golden, 5> golden = {{
+    {"paths", 0xd408f6c0d8d3dc6eU},
+    {"pile", 0x4f9c901d801cd595U},
+    {"pair", 0x6c0e4e9fbdf4fb0dU},
+    {"skinned", 0x8e7f6e189ee6ad5fU},
+    {"crowd", 0x13b49228cc38b049U},
+}};
+
+struct Played {
+  std::uint64_t hash = 0;
+  std::size_t contacts = 0;
+  std::set<PairPhase> phases;
+};
+
+Played play(std::string_view name, unsigned threads) {
+  const std::unique_ptr<PlayedScene> played = scenes::make_played_scene(name);
+  SceneSettings settings = played->settings();
+  settings.threads = threads;
+  Scene scene(settings);
+  Played result;
+  scenes::ReportHash hash;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    played->advance(scene, frame);
+    const ReportHandle report = scene.step();
+    hash.add(*report);
+    result.contacts += report->contacts().size();
+    for (const PairReport& pair : report->pairs()) result.phases.insert(pair.phase);
+  }
+  result.hash = hash.value();
+  return result;
+}
+
+/// Lets oneTBB have as many threads as a scene is asked to use, on any machine. The library itself never says
+/// so.
+oneapi::tbb::global_control allow(unsigned threads) {
+  return {oneapi::tbb::global_control::max_allowed_parallelism, threads};
+}
+
+}  // namespace
+
+TEST_CASE("golden: a step of n threads is worked on by n threads at once") {
+  const auto allowed = allow(thread_counts.back());
+  for (const unsigned threads : thread_counts) {
+    INFO(threads << " threads");
+    SceneSettings settings;
+    settings.threads = threads;
+    Scene scene(settings);
+    GatheringMemory memory(threads);
+    for (std::size_t i = 0; i < GatheringMemory::page_count; ++i)
+      scene.bind_positions(scene.add(GatheringMemory::mesh()), memory.positions(i));
+    memory.close();
+    const ReportHandle report = scene.step();
+    CHECK(report->diagnostics().empty());
+    CHECK(memory.threads_seen_at_once() == threads);
+  }
+}
+
+TEST_CASE("golden: the hash of all reports, for any number of threads and in every run") {
+  const auto allowed = allow(thread_counts.back());
+  REQUIRE(scenes::played_scene_names().size() == golden.size());
+  for (const Golden& expected : golden)
+    for (int repeat = 0; repeat < GRAZE_GOLDEN_REPEATS; ++repeat)
+      for (const unsigned threads : thread_counts) {
+        INFO(expected.scene << ", " << threads << " threads, repeat " << repeat);
+        const Played played = play(expected.scene, threads);
+        CHECK(played.hash == expected.hash);
+        CHECK(played.contacts > 1000);
+      }
+}
+
+TEST_CASE("golden: scenes reach every phase") {
+  std::set<PairPhase> phases;
+  for (const Golden& scene : golden) phases.merge(play(scene.scene, 2).phases);
+  CHECK(phases.size() == 4);
+}
+
+}  // namespace graze::tests

@@ -1,0 +1,96 @@
+#include "stress/command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <graze/io/error.hpp>
+#include <memory>
+#include <thread>
+
+#include "check_failed.hpp"
+#include "stress/determinism.hpp"
+#include "stress/objects.hpp"
+#include "stress/reader.hpp"
+#include "stress/soak.hpp"
+#include "text_format.hpp"
+
+namespace graze::tools {
+namespace {
+
+struct StressOptions {
+  bool reader = false, soak = false, determinism = false;
+  double seconds = 60;
+  ObjectsOptions objects;
+  SoakOptions soaking;
+  DeterminismOptions playing;
+  std::size_t frames = 0;
+  std::filesystem::path out;
+};
+
+void run(StressOptions options) {
+  if (!options.out.empty() && !std::ofstream(options.out, std::ios::app))
+    throw io::InputError(options.out.string() + ": cannot be written; name a file in a folder that exists");
+  StressResult result;
+  if (options.reader) {
+    result = run_reader_study(options.seconds);
+  } else if (options.soak) {
+    result = run_soak_study(options.soaking);
+  } else if (options.determinism) {
+    if (options.frames > 0) options.playing.frames = options.frames;
+    result = run_determinism_study(options.playing);
+  } else {
+    options.objects.frames = options.frames;
+    result = run_objects_study(options.objects);
+  }
+  result.figures["cores"] = std::thread::hardware_concurrency();
+  if (!options.out.empty()) {
+    std::ofstream stream(options.out, std::ios::binary);
+    stream << result.figures.dump(2) << "\n";
+    if (!stream.flush()) throw io::InputError(options.out.string() + ": could not be written to its end");
+  }
+  if (!result.violations.empty())
+    throw CheckFailed(result.violations.front() +
+                      format(" (%zu violations in all)", result.violations.size()));
+}
+
+}  // namespace
+
+void add_stress_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "stress", "Puts graze under load: one of --reader, --objects, --soak and --determinism.");
+  const auto options = std::make_shared<StressOptions>();
+  auto* const studies = command->add_option_group("studies")->require_option(1);
+  studies->add_flag("--reader", options->reader,
+                    "A reader at 1 kHz beside a loop that steps without a pause");
+  studies
+      ->add_option("--objects", options->objects.counts,
+                   "Scenes of so many objects: time, memory and what threads bring")
+      ->delimiter(',')
+      ->check(CLI::Range(std::size_t{2}, std::size_t{1'000'000}));
+  studies->add_flag("--soak", options->soak, "A long run of everything, bad input included");
+  studies->add_flag("--determinism", options->determinism,
+                    "The same bits from 1 to 16 threads, again and again");
+  command->add_option("--seconds", options->seconds, "How long --reader reads")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--minutes", options->soaking.minutes, "How long --soak takes")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", options->soaking.seed, "Another soak")->capture_default_str();
+  command
+      ->add_option(
+          "--frames", options->frames,
+          "How many frames --objects times and --determinism plays; by default 20 of the latter, and "
+          "more of smaller scenes")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--large", options->playing.large,
+                    "In --determinism the large pair has 100,000 vertices each, else 10,000");
+  command->add_option("--out", options->out, "Write the figures into this file, as JSON");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace graze::tools

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <graze/report.hpp>
+#include <string_view>
+#include <vector>
+
+#include "stress/moving_world.hpp"
+
+namespace graze::tools {
+
+inline constexpr std::array<std::string_view, 5> phase_names = {"read", "pairs", "refit", "jobs", "publish"};
+
+/// A step's median times with some number of threads, in ms.
+struct StepTimes {
+  double wall_ms = 0;
+  double cpu_ms = 0;  ///< of all threads
+  std::array<double, phase_names.size()> phases_ms{};
+};
+
+/// The same frames of a world with one thread and with two, turn and turn about.
+struct ScalingRun {
+  std::size_t frames = 0;
+  StepTimes one, two;
+  double read_ms = 0;  ///< of reading all positions once, one thread's processor time
+  std::uint64_t hash_one = 0, hash_two = 0;
+  StepStatistics statistics;  ///< of the last step with one thread
+
+  /// One thread did not have a core to itself, so that two cannot show what they are worth.
+  [[nodiscard]] bool is_disturbed() const { return one.cpu_ms < 0.9 * one.wall_ms; }
+  [[nodiscard]] double speedup() const { return one.wall_ms / two.wall_ms; }
+  /// Amdahl's serial fraction from the times of a step: 1 / speedup = f + (1 - f) / 2, within 0 and 1.
+  [[nodiscard]] double serial_fraction() const;
+  /// The same of each phase by itself, together by the phases' shares of a step.
+  [[nodiscard]] double serial_fraction_by_phases() const;
+  [[nodiscard]] std::uint64_t bytes() const {
+    return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes;
+  }
+};
+
+ScalingRun run_scaling(MovingWorld& world, std::size_t frames);
+
+/// The speedup on `threads` threads that a serial fraction leaves.
+double predicted_speedup(double serial_fraction, unsigned threads);
+
+/// The exponent e of the power law y ~ x^e that fits best: least squares of the logarithms.
+double growth_exponent(const std::vector<double>& x, const std::vector<double>& y);
+
+}  // namespace graze::tools

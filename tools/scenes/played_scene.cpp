@@ -1,0 +1,255 @@
+#include "scenes/played_scene.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "models/models.hpp"
+#include "scenes/grid.hpp"
+#include "scenes/random.hpp"
+#include "scenes/skinned_human.hpp"
+
+namespace graze::scenes {
+namespace {
+
+using Eigen::Vector3d;
+
+std::shared_ptr<const Mesh> mesh_of(models::MeshData data) {
+  for (Vector3d& position : data.positions) position = on_grid(position);
+  return std::make_shared<const Mesh>(
+      Mesh::from_polygons(data.positions, data.corners, std::span<const std::uint32_t>(data.corner_counts)));
+}
+
+SceneSettings settings_of(double contact_distance, double range) {
+  SceneSettings settings;
+  settings.contact_distance = contact_distance;
+  settings.range = range;
+  settings.detail = ContactDetail::features;
+  return settings;
+}
+
+/// A surface that takes a Lissajous path about `centre`, turned once, and wobbles radially.
+struct Body {
+  std::shared_ptr<const Mesh> mesh;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Vector3d centre = Vector3d::Zero();
+  Vector3d path = Vector3d::Zero();   ///< amplitude along each axis
+  Vector3d speed = Vector3d::Zero();  ///< radians a frame
+  double phase = 0;
+  double wobble = 0;  ///< relative to the radius
+
+  void place(std::size_t frame, std::vector<Eigen::Vector3f>& positions) const {
+    const double time = static_cast<double>(frame);
+    Vector3d now = centre;
+    for (int axis = 0; axis < 3; ++axis)
+      now[axis] += path[axis] * std::sin(speed[axis] * time + phase + axis);
+    const auto rest = mesh->rest();
+    positions.resize(rest.size());
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const double swell = 1 + wobble * std::sin(0.3 * time + phase + 5 * rest[i].z());
+      positions[i] = on_grid(turn * (swell * rest[i]) + now).cast<float>();
+    }
+  }
+};
+
+/// Bodies that are all there from the start, their positions bound.
+class BodiesScene : public PlayedScene {
+ public:
+  BodiesScene(const SceneSettings& settings, std::vector<Body> bodies)
+      : settings_(settings), bodies_(std::move(bodies)), positions_(bodies_.size()) {}
+
+  [[nodiscard]] SceneSettings settings() const override { return settings_; }
+  void advance(Scene& scene, std::size_t frame) override {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      bodies_[i].place(frame, positions_[i]);
+      if (frame == 0) scene.bind_positions(scene.add(bodies_[i].mesh), positions_[i]);
+    }
+  }
+
+ private:
+  SceneSettings settings_;
+  std::vector<Body> bodies_;
+  std::vector<std::vector<Eigen::Vector3f>> positions_;
+};
+
+/// The paper's first experiment: five tori and five pawns whose paths cross.
+std::unique_ptr<PlayedScene> paths() {
+  Random random(1);
+  const std::array meshes{mesh_of(models::torus()), mesh_of(models::pawn())};
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < 10; ++i)
+    bodies.push_back({meshes[i % 2], random.turn(), random.vector(-1.8, 1.8), random.vector(0.8, 1.6),
+                      random.vector(0.02, 0.06), random.between(0, 6), 0.03});
+  return std::make_unique<BodiesScene>(settings_of(0.05, 0.25), std::move(bodies));
+}
+
+/// Eighteen tori and spheres so close that each is in contact with most of its neighbours.
+std::unique_ptr<PlayedScene> pile() {
+  Random random(3);
+  const std::array meshes{mesh_of(models::torus(24, 12, 0.7, 0.3)), mesh_of(models::sphere(20, 13))};
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < 18; ++i) {
+    const Vector3d cell(static_cast<double>(i % 3), static_cast<double>(i / 3 % 3),
+                        static_cast<double>(i / 9));
+    bodies.push_back({meshes[i % 3 == 2 ? 1 : 0], random.turn(), 1.4 * cell + random.vector(-0.2, 0.2),
+                      random.vector(0.02, 0.06), random.vector(0.05, 0.2), random.between(0, 6), 0.02});
+  }
+  return std::make_unique<BodiesScene>(settings_of(0.02, 0.1), std::move(bodies));
+}
+
+/// Two spheres that touch in a small patch.
+std::unique_ptr<PlayedScene> pair(PairSize size) {
+  const auto mesh = mesh_of(size == PairSize::large ? models::sphere(400, 250) : models::sphere(125, 80));
+  std::vector<Body> bodies;
+  for (const double side : {-1.0, 1.0})
+    bodies.push_back({mesh,
+                      Eigen::Matrix3d::Identity(),
+                      {side * 0.999, 0, 0},
+                      {0.002, 0.002, 0.002},
+                      {0.1, 0.13, 0.17},
+                      side,
+                      0.006});
+  return std::make_unique<BodiesScene>(settings_of(0.02, 0.1), std::move(bodies));
+}
+
+/// A walking human between a sheet that waves at its back, a ball that is posed and a second human.
+class SkinnedScene : public PlayedScene {
+ public:
+  [[nodiscard]] SceneSettings settings() const override { return settings_of(0.02, 0.2); }
+
+  void advance(Scene& scene, std::size_t frame) override {
+    const double time = static_cast<double>(frame);
+    if (frame == 0) {
+      for (ObjectId& walker : walkers_) walker = scene.add(human().mesh());
+      sheet_ = scene.add(sheet_mesh_);
+      ObjectSettings settings;
+      settings.motion = Motion::rigid;
+      ball_ = scene.add(ball_mesh_, settings);
+    }
+    for (std::size_t i = 0; i < walkers_.size(); ++i) {
+      human().pose(0.3 * time + 2 * static_cast<double>(i), positions_);
+      const Vector3d place(0.75 * static_cast<double>(i) + 0.1 * std::sin(0.1 * time), 0, 0);
+      for (Vector3d& position : positions_) position = on_grid(position + place);
+      scene.set_positions(walkers_[i], positions_);
+    }
+    positions_.clear();
+    for (const Vector3d& rest : sheet_mesh_->rest())
+      positions_.push_back(on_grid({rest.x(), 0.13 + 0.05 * std::sin(4 * rest.y() + 0.4 * time), rest.y()}));
+    scene.set_positions(sheet_, positions_);
+    // Moved along the grid and not turned, so that its positions lie on it too.
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = on_grid({0.9 * std::sin(0.2 * time), -0.3, 0.3});
+    scene.set_pose(ball_, pose);
+  }
+
+ private:
+  static models::MeshData small_ball() {
+    models::MeshData data = models::sphere(16, 9);
+    for (Vector3d& position : data.positions) position *= 0.25;
+    return data;
+  }
+
+  /// Made once: making its mesh takes longer than playing the scene.
+  static const SkinnedHuman& human() {
+    static const SkinnedHuman made;
+    return made;
+  }
+
+  std::shared_ptr<const Mesh> sheet_mesh_ = mesh_of(models::sheet(16, 16, 1.5, 1.75));
+  std::shared_ptr<const Mesh> ball_mesh_ = mesh_of(small_ball());
+  std::array<ObjectId, 2> walkers_;
+  ObjectId sheet_, ball_;
+  std::vector<Vector3d> positions_;
+};
+
+/// Small bodies in one small room that come, move, jump and go; pairs are ignored and watched, rules change.
+class CrowdScene : public PlayedScene {
+ public:
+  [[nodiscard]] SceneSettings settings() const override { return settings_of(0.05, 0.3); }
+
+  void advance(Scene& scene, std::size_t frame) override {
+    if (frame == 0)
+      while (members_.size() < 20) join(scene);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (random_.chance(0.5) && members_.size() < 30) join(scene);
+      if (random_.chance(0.5) && members_.size() > 10) leave(scene);
+    }
+    change_pairs(scene);
+    for (Member& member : members_) move(scene, member);
+  }
+
+ private:
+  struct Member {
+    ObjectId id;
+    std::size_t shape = 0;
+    Vector3d place, velocity;
+  };
+
+  ObjectId any() { return members_[random_.below(members_.size())].id; }
+  std::uint32_t any_kind() { return static_cast<std::uint32_t>(random_.below(3)); }
+  void change_pairs(Scene& scene) {
+    const ObjectId a = any();
+    const ObjectId b = any();
+    if (random_.chance(0.3)) scene.ignore(a, b);  // with itself too: a diagnostic
+    if (random_.chance(0.3)) scene.watch(b, any());
+    if (!random_.chance(0.2)) return;
+    const std::uint32_t kind = any_kind();
+    const double threshold = random_.between(0, 0.1);
+    scene.set_rule(kind, any_kind(), {threshold, random_.between(0, 0.4), {}});
+  }
+  void join(Scene& scene) {
+    Member member;
+    member.shape = random_.below(meshes_.size());
+    ObjectSettings settings;
+    settings.motion = member.shape == 0 ? Motion::rigid : Motion::deformable;
+    settings.kind = any_kind();
+    settings.margin = random_.chance(0.3) ? 0.03125 : 0;
+    member.id = scene.add(meshes_[member.shape], settings);
+    member.place = random_.vector(-1.5, 1.5);
+    member.velocity = random_.vector(-0.05, 0.05);
+    members_.push_back(member);
+  }
+  void leave(Scene& scene) {
+    const auto gone = members_.begin() + static_cast<std::ptrdiff_t>(random_.below(members_.size()));
+    scene.remove(gone->id);
+    members_.erase(gone);
+  }
+  void move(Scene& scene, Member& member) {
+    member.place += member.velocity;
+    if (random_.chance(0.05)) member.place = random_.vector(-1.5, 1.5);
+    const Vector3d place = on_grid(member.place);
+    if (member.shape == 0) {
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation() = place;
+      return scene.set_pose(member.id, pose);
+    }
+    const double swell = random_.between(0.9, 1.1);
+    std::vector<Vector3d> positions;
+    for (const Vector3d& rest : meshes_[member.shape]->rest())
+      positions.push_back(on_grid(swell * rest) + place);
+    scene.set_positions(member.id, positions);
+  }
+
+  Random random_{7};
+  std::array<std::shared_ptr<const Mesh>, 4> meshes_ = {
+      mesh_of(models::box({0.7, 0.5, 0.9})), mesh_of(models::torus(12, 8, 0.4, 0.15)),
+      mesh_of(models::sphere(9, 6, models::Faces::quads)), mesh_of(models::sheet(6, 6, 1.5, 1.5))};
+  std::vector<Member> members_;
+};
+
+}  // namespace
+
+std::vector<std::string_view> played_scene_names() {
+  return {"paths", "pile", "pair", "skinned", "crowd"};
+}
+
+std::unique_ptr<PlayedScene> make_played_scene(std::string_view name, PairSize pair_size) {
+  if (name == "paths") return paths();
+  if (name == "pile") return pile();
+  if (name == "pair") return pair(pair_size);
+  if (name == "skinned") return std::make_unique<SkinnedScene>();
+  if (name == "crowd") return std::make_unique<CrowdScene>();
+  return nullptr;
+}
+
+}  // namespace graze::scenes
