@@ -15,13 +15,7 @@ if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
 else()
   set(GRAZE_CATCH_MAIN graze_catch_main)
   add_library(graze_catch_main STATIC ${CMAKE_CURRENT_LIST_DIR}/catch_main.cpp)
-  target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2 PRIVATE graze_options Eigen3::Eigen)
-  target_compile_options(graze_catch_main PRIVATE ${GRAZE_TEST_OPTIONS})
-  # What nearly every test includes: reading it takes longer than compiling most tests. The one with Catch's main reads
-  # another Catch.
-  set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/catch_main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-  target_precompile_headers(graze_catch_main PRIVATE ${CMAKE_CURRENT_LIST_DIR}/catch.hpp
-    <Eigen/Geometry> <algorithm> <array> <cmath> <memory> <string> <vector>)
+  target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2)
 endif()
 
 function(graze_add_test_program name)
@@ -30,8 +24,12 @@ function(graze_add_test_program name)
   target_compile_definitions(${name} PRIVATE GRAZE_SHARED_DATA="${GRAZE_SHARED_DATA}")
   target_compile_options(${name} PRIVATE ${GRAZE_TEST_OPTIONS})
   target_link_libraries(${name} PRIVATE graze_options ${GRAZE_CATCH_MAIN})
-  if(TARGET graze_catch_main)
-    target_precompile_headers(${name} REUSE_FROM graze_catch_main)
+  list(LENGTH ARGN source_count)
+  if(source_count GREATER 4)  # fewer are built before the headers would be
+    # What nearly every test includes: reading it takes longer than compiling most tests.
+    target_link_libraries(${name} PRIVATE Eigen3::Eigen)
+    target_precompile_headers(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/catch.hpp
+      <Eigen/Geometry> <algorithm> <array> <cmath> <memory> <string> <vector>)
   endif()
   catch_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
 endfunction()
