@@ -18,10 +18,10 @@ constexpr std::size_t slices_of(std::size_t count, std::size_t slice) {
 }
 
 /// An object that moves steadily stays in its loose box for about so many steps.
-constexpr double steps_of_slack = 6;
+constexpr double steps_of_slack = 4;
 /// Bounds of the room to move, in parts of the box's longest side.
 constexpr double least_slack = 1.0 / 32;
-constexpr double most_slack = 1.0 / 4;
+constexpr double most_slack = 1.0 / 12;
 
 /// When objects have left their loose boxes that are more than this part of all, all pairs are found anew.
 constexpr std::size_t few = 8;
