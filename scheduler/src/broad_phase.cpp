@@ -171,7 +171,7 @@ void BroadPhase::find_all(TaskPool& tasks) {
   };
   tasks.run(slices.size(), std::ref(find_slice));
   sort_rows(tasks);
-  const double tested = static_cast<double>(sum_tests());
+  const auto tested = static_cast<double>(sum_tests());
   if (is_ordered) {
     tests_when_ordered_ = tested / count;
     excess_tests_ = 0;
