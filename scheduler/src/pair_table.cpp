@@ -119,8 +119,7 @@ bool PairTable::is_unchanged(const PairJob& job) const {
 
 std::size_t PairTable::byte_count() const {
   return memories_.byte_count() + filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
-         selection_.byte_count() + jobs_.capacity() * sizeof(PairJob) +
-         wanted_.capacity() * sizeof(wanted_[0]);
+         selection_.byte_count() + jobs_.capacity() * sizeof(PairJob) + wanted_.capacity() * sizeof(void*);
 }
 
 }  // namespace graze
