@@ -96,8 +96,17 @@ void PairJobs::run(std::span<const PairJob> jobs, std::uint64_t rules_version, C
     if (jobs_[index].is_looked_at()) order_.push_back(index);
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget) return run_within_work(*settings_.work_budget);
-  if (settings_.time_budget) return run_by_urgency();
-  run_group(order_);
+  settings_.time_budget ? run_by_urgency() : run_group(order_);
+  even_out_memory();
+}
+
+/// Which worker gets which job is chance; what one has needed all have room for, so that a step like an
+/// earlier one takes no memory.
+void PairJobs::even_out_memory() {
+  for (std::size_t worker = 1; worker < detectors_.size(); ++worker)
+    detectors_.front().reserve_as(detectors_[worker]);
+  for (std::size_t worker = 1; worker < detectors_.size(); ++worker)
+    detectors_[worker].reserve_as(detectors_.front());
 }
 
 bool PairJobs::is_large(const PairJob& job) {
