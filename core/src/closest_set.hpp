@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact_name.hpp"
+#include "reserve_as.hpp"
 
 namespace graze {
 
@@ -24,6 +25,7 @@ struct Closest {
     upper = std::numeric_limits<double>::infinity();
     pierced = false;
   }
+  void reserve_as(const Closest& other) { graze::reserve_as(names, other.names); }
 };
 
 /// Takes offers of names; the bound only shrinks.

@@ -10,12 +10,19 @@
 #include <utility>
 #include <vector>
 
+#include "reserve_as.hpp"
+
 namespace graze {
 
 /// The fronts that DMV steps through; kept from pair to pair so that their memory is.
 struct DmvScratch {
   std::vector<RegionPair> front;
   std::vector<RegionPair> next;
+
+  void reserve_as(const DmvScratch& other) {
+    graze::reserve_as(front, other.front);
+    graze::reserve_as(next, other.next);
+  }
 };
 
 /// How much of a query's budget is left, counted in region pairs tested.

@@ -10,6 +10,7 @@
 
 #include "filter_frame.hpp"
 #include "kernels/filter.hpp"
+#include "reserve_as.hpp"
 
 namespace graze {
 
@@ -49,6 +50,12 @@ class FeatureBlock {
     if (owners_.empty() || owners_.back() != owner) ++owner_count_;
     owners_.push_back(owner);
     touches_.push_back(touches ? 1 : 0);
+  }
+
+  void reserve_as(const FeatureBlock& other) {
+    if (data_.size() < other.data_.size()) data_.resize(other.data_.size());
+    graze::reserve_as(owners_, other.owners_);
+    graze::reserve_as(touches_, other.touches_);
   }
 
   [[nodiscard]] Part part() const { return part_; }

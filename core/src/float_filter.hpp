@@ -8,6 +8,7 @@
 
 #include "arithmetic.hpp"
 #include "feature_block.hpp"
+#include "reserve_as.hpp"
 
 namespace graze {
 
@@ -24,6 +25,11 @@ struct FeaturesOf {
 struct FloatFilterScratch {
   std::vector<std::uint32_t> index;
   std::vector<float> bound;
+
+  void reserve_as(const FloatFilterScratch& other) {
+    graze::reserve_as(index, other.index);
+    graze::reserve_as(bound, other.bound);
+  }
 };
 
 /// Lets the float kernels look at all pairs of two blocks of features, and hands on what they leave. A quad

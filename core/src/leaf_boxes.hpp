@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "reserve_as.hpp"
+
 namespace graze {
 
 /// The boxes of one surface's leaves where it is now: those of its refit where that is of now, otherwise made
@@ -35,6 +37,11 @@ class LeafBoxes {
       std::fill(made_in_.begin(), made_in_.end(), 0);
       query_ = 1;
     }
+  }
+
+  void reserve_as(const LeafBoxes& other) {
+    graze::reserve_as(boxes_, other.boxes_);
+    graze::reserve_as(made_in_, other.made_in_);
   }
 
   /// Stays until the next `begin`.

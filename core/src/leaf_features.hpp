@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "float_filter.hpp"
+#include "reserve_as.hpp"
 
 namespace graze {
 
@@ -34,6 +35,14 @@ class LeafFeatures {
   /// Whether the diagonal `fold` of the block is a fold (see `is_folded`); asked of few, so decided when
   /// asked.
   bool is_fold(std::size_t fold, DecisionCount& count);
+
+  void reserve_as(const LeafFeatures& other) {
+    vertices.reserve_as(other.vertices);
+    edges.reserve_as(other.edges);
+    triangles.reserve_as(other.triangles);
+    folds.reserve_as(other.folds);
+    graze::reserve_as(folded_, other.folded_);
+  }
 
  private:
   enum class Folded : std::uint8_t { unknown, no, yes };

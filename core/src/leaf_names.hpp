@@ -10,6 +10,12 @@ struct LeafScratch {
   LeafFeatures a;
   LeafFeatures b;
   FloatFilterScratch filter;
+
+  void reserve_as(const LeafScratch& other) {
+    a.reserve_as(other.a);
+    b.reserve_as(other.b);
+    filter.reserve_as(other.filter);
+  }
 };
 
 /// Gives a sink the names of what two leaves' features have to do with each other.

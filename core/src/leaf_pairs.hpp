@@ -25,6 +25,12 @@ struct LeafPairScratch {
   DmvScratch dmv;
   LeafBoxes boxes_a;
   LeafBoxes boxes_b;
+
+  void reserve_as(const LeafPairScratch& other) {
+    dmv.reserve_as(other.dmv);
+    boxes_a.reserve_as(other.boxes_a);
+    boxes_b.reserve_as(other.boxes_b);
+  }
 };
 
 /// Pairs of leaves that a query looks into, and how near what it does not can be.

@@ -38,6 +38,11 @@ PairDetector::~PairDetector() = default;
 PairDetector::PairDetector(PairDetector&&) noexcept = default;
 PairDetector& PairDetector::operator=(PairDetector&&) noexcept = default;
 
+void PairDetector::reserve_as(const PairDetector& other) {
+  scratch_->search.reserve_as(other.scratch_->search);
+  scratch_->memory.reserve_as(other.scratch_->memory);
+}
+
 void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQuery& query,
                                 PairAnswer& answer) {
   answer.in_contact = false;

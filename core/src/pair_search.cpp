@@ -139,6 +139,20 @@ void PairSearch::run(Slice& slice, Worker& worker) {
   }
 }
 
+/// What is swapped with each other has the same room, so that it does not matter how often.
+void PairSearch::reserve_as(const PairSearch& other) {
+  if (other.slices_.empty()) return;
+  if (slices_.empty()) slices_.emplace_back();
+  const std::size_t leaves =
+      std::max(other.found_.leaves.capacity(), other.slices_.front().found.leaves.capacity());
+  found_.leaves.reserve(leaves);
+  slices_.front().found.leaves.reserve(leaves);
+  const std::size_t names = std::max(other.names_.capacity(), other.slices_.front().names.capacity());
+  names_.reserve(names);
+  slices_.front().names.reserve(names);
+  closest_.closest.reserve_as(other.closest_.closest);
+}
+
 // ---- Slices
 
 PairSearch::Slice& PairSearch::add_slice() {

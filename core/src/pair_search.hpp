@@ -21,6 +21,15 @@ struct SearchScratch {
   PaperScratch paper;
   Closest lowest;
   ParallelScratch parallel;
+
+  void reserve_as(const SearchScratch& other) {
+    leaf_pairs.reserve_as(other.leaf_pairs);
+    features.reserve_as(other.features);
+    nearest_of_leaves.reserve_as(other.nearest_of_leaves);
+    paper.reserve_as(other.paper);
+    lowest.reserve_as(other.lowest);
+    parallel.reserve_as(other.parallel);
+  }
 };
 
 /// One query about one pair of surfaces: DMV, DV and contact determination, as stages of slices. A slice
@@ -38,6 +47,9 @@ class PairSearch {
   bool advance(SearchScratch& scratch, PairCounters& counters);
   [[nodiscard]] std::size_t slice_count() const { return slice_count_; }
   void run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters);
+
+  /// Of searches that are not cut.
+  void reserve_as(const PairSearch& other);
 
  private:
   /// What the slices that were made last are for.

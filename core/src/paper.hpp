@@ -14,6 +14,13 @@ struct PaperScratch {
   LeafScratch leaves;
   Closest closest;
   Closest leaf_closest;
+
+  void reserve_as(const PaperScratch& other) {
+    dmv.reserve_as(other.dmv);
+    leaves.reserve_as(other.leaves);
+    closest.reserve_as(other.closest);
+    leaf_closest.reserve_as(other.leaf_closest);
+  }
 };
 
 /// What the paper's method found of a pair.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact_name.hpp"
+#include "reserve_as.hpp"
 
 namespace graze {
 
@@ -25,6 +26,14 @@ struct ParallelScratch {
   std::vector<FeaturePair> holders;
   std::vector<FeaturePair> candidates;
   std::vector<ParallelContact> found;
+
+  void reserve_as(const ParallelScratch& other) {
+    graze::reserve_as(holders_a, other.holders_a);
+    graze::reserve_as(holders_b, other.holders_b);
+    graze::reserve_as(holders, other.holders);
+    graze::reserve_as(candidates, other.candidates);
+    graze::reserve_as(found, other.found);
+  }
 };
 
 /// `ContactDetail::closest` of two surfaces from all names at their least distance (sorted, at least one).

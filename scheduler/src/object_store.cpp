@@ -55,7 +55,7 @@ void add_promise(Object& object) {
 
 std::optional<Diagnostic> read_bound(Object& object) {
   if (!has_input(object)) return std::nullopt;
-  const Surface::ReadResult result = object.surface->set_positions(*object.bound);
+  const Surface::ReadResult result = object.surface_to_write().set_positions(*object.bound);
   object.frozen = !result.taken();
   if (object.frozen) return bad_vertex(object, result, "it stands still until good positions are read");
   object.told = false;
@@ -65,20 +65,20 @@ std::optional<Diagnostic> read_bound(Object& object) {
 std::optional<Diagnostic> read_object(Object& object) {
   std::optional<Diagnostic> problem;
   if (object.positions) {
-    problem = check_promise(object, object.surface->set_positions(*object.positions));
+    problem = check_promise(object, object.surface_to_write().set_positions(*object.positions));
     object.positions.reset();  // from the thread that reads: the buffer may be lent again at once
     object.frozen = false;
   } else if (object.bound) {
     problem = read_bound(object);
   } else if (object.pose) {
-    const Surface::ReadResult result = object.surface->set_pose(*object.pose);
+    const Surface::ReadResult result = object.surface_to_write().set_pose(*object.pose);
     if (!result.taken()) problem = bad_vertex(object, result, "the pose was not taken");
     object.pose.reset();
   }
   if (object.frozen) return problem;
   object.unread = false;
   object.promised = 0;
-  object.box = object.surface->box();
+  object.box = object.surface().box();
   return problem;
 }
 
@@ -95,8 +95,8 @@ void ObjectStore::apply(AddObject& call) {
   object->id = call.object;
   object->serial = next_serial_++;
   object->settings = std::move(call.settings);
-  object->surface = std::move(call.surface);
-  object->box = object->surface->box();
+  object->owned_surface = std::move(call.surface);
+  object->box = object->surface().box();
   count_bytes(*object);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
   by_index_[call.object.index] = object.get();
@@ -150,7 +150,7 @@ void ObjectStore::apply(const UnbindPositions& call) {
   object->frozen = false;
   object->unread = false;
   object->promised = 0;
-  object->box = object->surface->box();
+  object->box = object->surface().box();
 }
 
 void ObjectStore::apply(const PositionsChanged& call) {
@@ -178,7 +178,7 @@ std::size_t ObjectStore::unread_count() const {
 }
 
 void ObjectStore::count_bytes(Object& object) {
-  const std::size_t bytes = object.surface->byte_count();
+  const std::size_t bytes = object.surface().byte_count();
   byte_count_ += bytes - std::exchange(object.counted_bytes, bytes);
 }
 
@@ -213,7 +213,7 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
     object->unread =
         !checks_every_promise && !object->pose && !object->frozen && std::isfinite(object->promised);
     if (object->unread)
-      object->box = grown(object->surface->box(), object->promised);
+      object->box = grown(object->surface().box(), object->promised);
     else
       to_read_.push_back(object);
   }
@@ -233,8 +233,10 @@ void ObjectStore::read(std::span<Object* const> objects, TaskPool& tasks,
                        std::vector<Diagnostic>& diagnostics) {
   if (read_problems_.size() < objects.size()) read_problems_.resize(objects.size());
   // A task writes its own objects and their own places in read_problems_; nothing is shared.
-  tasks.run(objects.size(),
-            [&](unsigned, std::size_t index) { read_problems_[index] = read_object(*objects[index]); });
+  tasks.run(objects.size(), [&](unsigned, std::size_t index) {
+    const AccessScope access({AccessRight::write(objects[index]), {}});
+    read_problems_[index] = read_object(*objects[index]);
+  });
   problems_.clear();
   for (std::size_t index = 0; index < objects.size(); ++index)
     if (auto& problem = read_problems_[index]) {

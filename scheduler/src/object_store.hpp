@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "access.hpp"
 #include "calls.hpp"
 #include "task_pool.hpp"
 
@@ -19,7 +20,7 @@ struct Object {
   ObjectId id;
   std::uint64_t serial = 0;  ///< the order in which objects were added; never used again
   ObjectSettings settings;
-  std::unique_ptr<Surface> surface;
+  std::unique_ptr<Surface> owned_surface;  ///< through the accessors below
   /// Where it certainly is: the surface's box, grown by what was promised since that was read.
   Box box;
   /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
@@ -41,6 +42,15 @@ struct Object {
   bool may_have_input = false;    ///< it is among those that the store looks at in the next read
   bool removed = false;           ///< it goes before the next read
   std::size_t counted_bytes = 0;  ///< its part of ObjectStore::byte_count
+
+  [[nodiscard]] const Surface& surface() const {
+    require_read(StepData::surfaces, this);
+    return *owned_surface;
+  }
+  [[nodiscard]] Surface& surface_to_write() {
+    require_write(StepData::surfaces, this);
+    return *owned_surface;
+  }
 };
 
 /// The objects of a scene in the order in which they were added. Stepping thread only.

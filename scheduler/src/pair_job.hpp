@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <graze/report.hpp>
 
+#include "access.hpp"
 #include "object_store.hpp"
 #include "pair_filter.hpp"
 #include "pair_memory.hpp"
@@ -22,9 +23,13 @@ struct PairJob {
   Object* a = nullptr;
   Object* b = nullptr;
   const PairReport* last = nullptr;  ///< in the previous report; null where it was not listed
-  PairMemory* memory = nullptr;
+  PairMemory* memory = nullptr;      ///< for tasks through `memory_to_write`
   PairThresholds thresholds;
 
+  [[nodiscard]] PairMemory& memory_to_write() const {
+    require_write(StepData::pairs, this);
+    return *memory;
+  }
   [[nodiscard]] bool is_looked_at() const { return task == Task::detect || task == Task::end; }
   [[nodiscard]] bool was_in_contact() const {
     return last != nullptr && (last->phase == PairPhase::began || last->phase == PairPhase::touching);

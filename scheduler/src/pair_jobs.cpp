@@ -56,7 +56,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
                                     ? 0
                                     : std::max<std::size_t>(1, settings_.region_distances / jobs_.size());
   if (job.was_in_contact()) query.reach = infinity;
-  query.slack = slack_of(*job.a->surface, *job.b->surface);
+  query.slack = slack_of(job.a->surface(), job.b->surface());
   query.front_limit = front_pairs_of_all / jobs_.size();
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
@@ -73,7 +73,8 @@ void PairJobs::refit(std::span<const PairJob> jobs) {
             [](const Object* left, const Object* right) { return left->serial < right->serial; });
   to_refit_.erase(std::unique(to_refit_.begin(), to_refit_.end()), to_refit_.end());
   tasks_.run(to_refit_.size(), [&](unsigned, std::size_t index) {
-    Surface& surface = *to_refit_[index]->surface;
+    const AccessScope access({AccessRight::write(to_refit_[index]), {}});
+    Surface& surface = to_refit_[index]->surface_to_write();
     const bool about_vertices = is_about_vertices(settings_.detail);
     const double motion =
         about_vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit();
@@ -95,19 +96,28 @@ void PairJobs::run(std::span<const PairJob> jobs, std::uint64_t rules_version, C
     if (jobs_[index].is_looked_at()) order_.push_back(index);
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget) return run_within_work(*settings_.work_budget);
-  if (settings_.time_budget) return run_by_urgency();
-  run_group(order_);
+  settings_.time_budget ? run_by_urgency() : run_group(order_);
+  even_out_memory();
+}
+
+/// Which worker gets which job is chance; what one has needed all have room for, so that a step like an
+/// earlier one takes no memory.
+void PairJobs::even_out_memory() {
+  for (std::size_t worker = 1; worker < detectors_.size(); ++worker)
+    detectors_.front().reserve_as(detectors_[worker]);
+  for (std::size_t worker = 1; worker < detectors_.size(); ++worker)
+    detectors_[worker].reserve_as(detectors_.front());
 }
 
 bool PairJobs::is_large(const PairJob& job) {
-  return std::min(job.a->surface->mesh().vertex_count(), job.b->surface->mesh().vertex_count()) >=
+  return std::min(job.a->surface().mesh().vertex_count(), job.b->surface().mesh().vertex_count()) >=
          LargePair::least_vertex_count;
 }
 
 /// Small pairs in batches and the begin of the large ones side by side, then the slices of the large ones.
 ///
 /// A task writes the answers, fronts and memories of its own jobs, and the detector and counters of its own
-/// worker; a slice writes its own place in its pair. Surfaces are only read.
+/// worker; a slice writes its own place in its pair. Surfaces are only read. AccessScope holds them to it.
 void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
   small_jobs_.clear();
   large_jobs_.clear();
@@ -130,11 +140,14 @@ void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
 void PairJobs::begin_large(std::uint32_t place, unsigned worker) {
   const std::uint32_t index = large_jobs_[place];
   const PairJob& job = jobs_[index];
+  const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
   PairQuery query = query_of(job);
   query.deadline = deadline_;
   answered_[place] = 1;
-  if (is_late()) return PairDetector::outer_bounds(*job.a->surface, *job.b->surface, query, answers_[index]);
-  large_[place].begin(*job.a->surface, *job.b->surface, query, job.memory->front, answers_[index]);
+  if (is_late())
+    return PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query, answer_to_write(index));
+  large_[place].begin(job.a->surface(), job.b->surface(), query, job.memory_to_write().front,
+                      answer_to_write(index));
   answered_[place] = large_[place].advance(detectors_[worker], counters_[worker]) ? 1 : 0;
   if (answered_[place] != 0) was_detected(index, worker);
 }
@@ -150,9 +163,11 @@ void PairJobs::run_rounds_of_slices() {
     if (slices_.empty()) return;
     tasks_.run(slices_.size(), [&](unsigned worker, std::size_t item) {
       const auto [place, slice] = slices_[item];
+      const AccessScope access({AccessRight::read(), {}});
       large_[place].run_slice(slice, detectors_[worker], counters_[worker]);
     });
     tasks_.run(large_jobs_.size(), [&](unsigned worker, std::size_t place) {
+      const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_jobs_[place]])});
       if (answered_[place] != 0 || !large_[place].advance(detectors_[worker], counters_[worker])) return;
       answered_[place] = 1;
       was_detected(large_jobs_[place], worker);
@@ -166,25 +181,34 @@ bool PairJobs::is_late() const {
 
 void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit) {
   const PairJob& job = jobs_[index];
+  const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
   PairQuery query = query_of(job);
   query.work_limit = work_limit;
   query.deadline = deadline_;
-  const Surface& a = *job.a->surface;
-  const Surface& b = *job.b->surface;
-  if (work_limit == 0 || is_late()) return PairDetector::outer_bounds(a, b, query, answers_[index]);
-  detectors_[worker].detect(a, b, query, job.memory->front, answers_[index], counters_[worker]);
+  const Surface& a = job.a->surface();
+  const Surface& b = job.b->surface();
+  if (work_limit == 0 || is_late()) return PairDetector::outer_bounds(a, b, query, answer_to_write(index));
+  detectors_[worker].detect(a, b, query, job.memory_to_write().front, answer_to_write(index),
+                            counters_[worker]);
   was_detected(index, worker);
+}
+
+PairAnswer& PairJobs::answer_to_write(std::uint32_t index) {
+  require_write(StepData::pairs, &jobs_[index]);
+  return answers_[index];
 }
 
 /// Remembers what the answer was about.
 void PairJobs::was_detected(std::uint32_t index, unsigned worker) {
   const PairJob& job = jobs_[index];
   if (settings_.region_distances > 0)
-    detectors_[worker].region_distances(*job.a->surface, *job.b->surface, query_of(job), answers_[index]);
+    detectors_[worker].region_distances(job.a->surface(), job.b->surface(), query_of(job),
+                                        answer_to_write(index));
   const bool whole = answers_[index].complete && job.task == PairJob::Task::detect;
-  job.memory->version_a = whole ? job.a->surface->version() : 0;
-  job.memory->version_b = whole ? job.b->surface->version() : 0;
-  job.memory->rules_version = rules_version_;
+  PairMemory& memory = job.memory_to_write();
+  memory.version_a = whole ? job.a->surface().version() : 0;
+  memory.version_b = whole ? job.b->surface().version() : 0;
+  memory.rules_version = rules_version_;
 }
 
 /// In contact first, then the smallest lower bound.

@@ -40,8 +40,10 @@ class PairJobs {
   [[nodiscard]] static bool is_large(const PairJob& job);
   void run_group(std::span<const std::uint32_t> jobs);
   void run_rounds_of_slices();
+  void even_out_memory();
   void begin_large(std::uint32_t place, unsigned worker);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
+  [[nodiscard]] PairAnswer& answer_to_write(std::uint32_t index);
   void was_detected(std::uint32_t index, unsigned worker);
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();

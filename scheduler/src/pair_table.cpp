@@ -113,7 +113,7 @@ void PairTable::add(PairJob& job) {
 /// Whether the last answer, about the same positions by the same rules, is also this one's.
 bool PairTable::is_unchanged(const PairJob& job) const {
   const PairMemory& memory = *job.memory;
-  return memory.version_a == job.a->surface->version() && memory.version_b == job.b->surface->version() &&
+  return memory.version_a == job.a->surface().version() && memory.version_b == job.b->surface().version() &&
          memory.rules_version == filter_.rules_version();
 }
 

@@ -10,6 +10,8 @@
 #include <graze/floating_point_scope.hpp>
 #include <utility>
 
+#include "access.hpp"
+
 namespace graze {
 
 struct TaskPool::Arena {
@@ -34,6 +36,7 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
   const auto workers = static_cast<unsigned>(std::min<std::size_t>(worker_count_, count));
   if (workers <= 1) {
     const FloatingPointScope scope;
+    const AccessScope nothing({});
     for (std::size_t item = 0; item < count; ++item) work(0, item);
     return;
   }
@@ -45,6 +48,7 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
         0U, workers,
         [&](unsigned worker) {
           const FloatingPointScope scope;
+          const AccessScope nothing({});
           for (std::size_t item = next.fetch_add(1, std::memory_order_relaxed); item < count;
                item = next.fetch_add(1, std::memory_order_relaxed))
             work(worker, item);

@@ -21,7 +21,8 @@ class TaskPool {
   [[nodiscard]] unsigned worker_count() const { return worker_count_; }
 
   /// Calls `work(worker, item)` for every item below `count`, each once. Items are begun in ascending order;
-  /// the calls of one worker never overlap. Every worker computes in a FloatingPointScope.
+  /// the calls of one worker never overlap. Every worker computes in a FloatingPointScope, and
+  /// with no AccessRights but those that `work` declares.
   void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work);
 
   /// Calls `work` on another thread, once; it must not throw.

@@ -95,6 +95,10 @@ class GRAZE_API PairDetector {
   /// says; both surfaces have been refitted now.
   void region_distances(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer);
 
+  /// Makes as much room as `other` and this have needed, so that either could have done the work of both
+  /// without taking memory.
+  void reserve_as(const PairDetector& other);
+
   /// Bounds that need no search and no refit, for a pair whose turn does not come: an answer that is not
   /// complete.
   static void outer_bounds(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer);
