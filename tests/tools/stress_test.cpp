@@ -59,6 +59,7 @@ TEST_CASE("stress: scenes of more and more objects at one density") {
   CHECK(large.at("pairs_in_contact") > 0);
   CHECK(large.at("hash") != small.at("hash"));
   CHECK(figures.at("large_pair").at("pairs_in_contact") == 1);
+  CHECK(figures.at("large_pair").at("control_speedup") > 0);
   for (const auto& run : {large, figures.at("large_pair")})
     for (const char* fraction : {"serial_fraction", "serial_fraction_by_phases"}) {
       CHECK(run.at(fraction) >= 0.0);

@@ -45,7 +45,7 @@ nlohmann::ordered_json figures_of(const ScalingRun& run) {
           {"step_cpu_ms", {run.one.cpu_ms, run.two.cpu_ms}},
           {"phases_ms", phases},
           {"bytes", run.bytes()},
-          {"disturbed", run.is_disturbed()},
+          {"control_speedup", run.control_speedup},
           {"speedup", run.speedup()},
           {"serial_fraction", run.serial_fraction()},
           {"serial_fraction_by_phases", run.serial_fraction_by_phases()}};
@@ -74,12 +74,11 @@ void print_growth(const std::vector<double>& counts, const std::vector<double>& 
 void print_threads(const char* what, const ScalingRun& run) {
   std::printf("\n%s: %.3f ms with 1 thread, %.3f ms with 2: %.2f times as fast (aim %.1f: %s)\n", what,
               run.one.wall_ms, run.two.wall_ms, run.speedup(), aimed_speedup,
-              verdict(run.speedup() >= aimed_speedup));
+              run.is_disturbed() ? "cannot be told" : verdict(run.speedup() >= aimed_speedup));
   std::printf("  processor time of all threads: %.3f and %.3f ms\n", run.one.cpu_ms, run.two.cpu_ms);
-  if (run.is_disturbed())
-    std::printf(
-        "  one thread got %.0f %% of a core: with so much other load a speedup says nothing of graze\n",
-        100 * run.one.cpu_ms / run.one.wall_ms);
+  std::printf("  control: arithmetic that shares nothing was %.2f times as fast on 2 threads%s\n",
+              run.control_speedup,
+              run.is_disturbed() ? "; with so much other load the rest says little of graze" : "");
   std::printf("  %-8s", "ms");
   for (const std::string_view name : phase_names) std::printf(" %10s", std::string(name).c_str());
   for (const StepTimes* times : {&run.one, &run.two}) {

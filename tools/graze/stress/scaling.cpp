@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "scenes/report_hash.hpp"
 #include "stress/clocks.hpp"
@@ -69,6 +70,34 @@ double reading_ms(const MovingWorld& world) {
   return Distribution(times).median();
 }
 
+/// Some milliseconds of arithmetic in registers.
+void calculate(std::uint64_t rounds) {
+  std::uint64_t value = rounds;
+  for (std::uint64_t i = 0; i < rounds; ++i) value = value * 6364136223846793005U + 1442695040888963407U;
+  volatile std::uint64_t result = value;  // so that nobody finds it needless
+  (void)result;
+}
+
+/// The same work on one thread and on two: the times of both.
+class Control {
+ public:
+  void run() {
+    constexpr std::uint64_t rounds = 8'000'000;
+    const auto start = std::chrono::steady_clock::now();
+    calculate(rounds);
+    const auto middle = std::chrono::steady_clock::now();
+    std::thread other([] { calculate(rounds / 2); });
+    calculate(rounds / 2);
+    other.join();
+    one_.push_back(ns_between(start, middle));
+    two_.push_back(ns_between(middle, std::chrono::steady_clock::now()));
+  }
+  [[nodiscard]] double speedup() const { return Distribution(one_).median() / Distribution(two_).median(); }
+
+ private:
+  std::vector<double> one_, two_;
+};
+
 double serial_fraction_of(double one, double two) {
   return one > 0 ? std::clamp(2 * two / one - 1, 0.0, 1.0) : 0;
 }
@@ -79,8 +108,10 @@ ScalingRun run_scaling(MovingWorld& world, std::size_t frames) {
   constexpr std::size_t warm_up = 3;  // memory grows, fronts are made
   TimedScene one(world, 1);
   TimedScene two(world, 2);
+  Control control;
   for (std::size_t frame = 0; frame < warm_up + frames; ++frame) {
     world.move(frame);
+    control.run();
     // The later one finds the positions in cache, so they take turns.
     TimedScene& first = frame % 2 == 0 ? one : two;
     first.step(frame >= warm_up);
@@ -94,6 +125,7 @@ ScalingRun run_scaling(MovingWorld& world, std::size_t frames) {
   run.hash_one = one.hash();
   run.hash_two = two.hash();
   run.statistics = one.statistics();
+  run.control_speedup = control.speedup();
   return run;
 }
 

@@ -27,8 +27,12 @@ struct ScalingRun {
   std::uint64_t hash_one = 0, hash_two = 0;
   StepStatistics statistics;  ///< of the last step with one thread
 
-  /// One thread did not have a core to itself, so that two cannot show what they are worth.
-  [[nodiscard]] bool is_disturbed() const { return one.cpu_ms < 0.9 * one.wall_ms; }
+  /// How much faster two threads did arithmetic that shares nothing, between the steps: what the machine had
+  /// to give.
+  double control_speedup = 0;
+
+  /// Other load left no two cores, so that two threads cannot show what they are worth.
+  [[nodiscard]] bool is_disturbed() const { return control_speedup < 1.9; }
   [[nodiscard]] double speedup() const { return one.wall_ms / two.wall_ms; }
   /// Amdahl's serial fraction from the times of a step: 1 / speedup = f + (1 - f) / 2, within 0 and 1.
   [[nodiscard]] double serial_fraction() const;
