@@ -83,11 +83,11 @@ class LeafNames {
 
  private:
   template <typename Block>
-  FeaturesOf<Block> of_a(const Block& features) const {
+  [[nodiscard]] FeaturesOf<Block> of_a(const Block& features) const {
     return {pair_.a, features};
   }
   template <typename Block>
-  FeaturesOf<Block> of_b(const Block& features) const {
+  [[nodiscard]] FeaturesOf<Block> of_b(const Block& features) const {
     return {pair_.b, features};
   }
   static FeaturePiece edge_of(const LeafFeatures& features, std::size_t i) {

@@ -283,7 +283,7 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
     std::sort(slice.names.begin(), slice.names.end());
 }
 
-void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) {
+void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const {
   const LeafOf a = worker.leaf_pairs.leaf_a(leaves);
   const LeafOf b = worker.leaf_pairs.leaf_b(leaves);
   LeafScratch& scratch = worker.scratch.features;

@@ -79,7 +79,7 @@ class PairSearch {
 
   void begin_contacts(Worker& worker);
   void run_contacts(Slice& slice, Worker& worker);
-  void add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker);
+  void add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const;
   void finish_contacts(Worker& worker);
   void gather_names(Worker& worker);
   void finish_measuring(Worker& worker);

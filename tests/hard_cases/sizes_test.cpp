@@ -204,7 +204,7 @@ TEST_CASE("2,000 objects in one place: memory bounded, degradation reported") {
     }
     CHECK(incomplete > 0);
     // A few hundred bytes for every pair that is listed, and a few thousand for every object.
-    CHECK(bytes_of(statistics) <= report->pairs().size() * 400 + count * 4000 + 20'000'000);
+    CHECK(bytes_of(statistics) <= report->pairs().size() * 600 + count * 4000 + 20'000'000);
     if (frame == 1) first_bytes = bytes_of(statistics);
     if (frame == 2) CHECK(bytes_of(statistics) <= first_bytes * 3 / 2);
     if (frame == 0)
