@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "models/models.hpp"
 #include "scenes/grid.hpp"
@@ -39,7 +40,7 @@ struct Body {
   double wobble = 0;  ///< relative to the radius
 
   void place(std::size_t frame, std::vector<Eigen::Vector3f>& positions) const {
-    const double time = static_cast<double>(frame);
+    const auto time = static_cast<double>(frame);
     Vector3d now = centre;
     for (int axis = 0; axis < 3; ++axis)
       now[axis] += path[axis] * std::sin(speed[axis] * time + phase + axis);
@@ -55,8 +56,8 @@ struct Body {
 /// Bodies that are all there from the start, their positions bound.
 class BodiesScene : public PlayedScene {
  public:
-  BodiesScene(const SceneSettings& settings, std::vector<Body> bodies)
-      : settings_(settings), bodies_(std::move(bodies)), positions_(bodies_.size()) {}
+  BodiesScene(SceneSettings settings, std::vector<Body> bodies)
+      : settings_(std::move(settings)), bodies_(std::move(bodies)), positions_(bodies_.size()) {}
 
   [[nodiscard]] SceneSettings settings() const override { return settings_; }
   void advance(Scene& scene, std::size_t frame) override {
@@ -89,8 +90,9 @@ std::unique_ptr<PlayedScene> pile() {
   const std::array meshes{mesh_of(models::torus(24, 12, 0.7, 0.3)), mesh_of(models::sphere(20, 13))};
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < 18; ++i) {
-    const Vector3d cell(static_cast<double>(i % 3), static_cast<double>(i / 3 % 3),
-                        static_cast<double>(i / 9));
+    const std::size_t layer = i / 9;
+    const std::size_t row = i / 3 % 3;
+    const Vector3d cell(static_cast<double>(i % 3), static_cast<double>(row), static_cast<double>(layer));
     bodies.push_back({meshes[i % 3 == 2 ? 1 : 0], random.turn(), 1.4 * cell + random.vector(-0.2, 0.2),
                       random.vector(0.02, 0.06), random.vector(0.05, 0.2), random.between(0, 6), 0.02});
   }
@@ -118,7 +120,7 @@ class SkinnedScene : public PlayedScene {
   [[nodiscard]] SceneSettings settings() const override { return settings_of(0.02, 0.2); }
 
   void advance(Scene& scene, std::size_t frame) override {
-    const double time = static_cast<double>(frame);
+    const auto time = static_cast<double>(frame);
     if (frame == 0) {
       for (ObjectId& walker : walkers_) walker = scene.add(human().mesh());
       sheet_ = scene.add(sheet_mesh_);
@@ -226,7 +228,7 @@ class CrowdScene : public PlayedScene {
     const double swell = random_.between(0.9, 1.1);
     std::vector<Vector3d> positions;
     for (const Vector3d& rest : meshes_[member.shape]->rest())
-      positions.push_back(on_grid(swell * rest) + place);
+      positions.emplace_back(on_grid(swell * rest) + place);
     scene.set_positions(member.id, positions);
   }
 

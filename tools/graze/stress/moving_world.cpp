@@ -35,8 +35,10 @@ MovingWorld MovingWorld::lattice(std::size_t count) {
   scenes::Random random(5);
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d cell(static_cast<double>(i % side), static_cast<double>(i / side % side),
-                               static_cast<double>(i / side / side));
+    const std::size_t row = i / side % side;
+    const std::size_t layer = i / side / side;
+    const Eigen::Vector3d cell(static_cast<double>(i % side), static_cast<double>(row),
+                               static_cast<double>(layer));
     const Eigen::Vector3d centre = spacing * cell + random.vector(-jitter, jitter);
     bodies.push_back({centre, random.between(0, 6)});
   }
@@ -54,7 +56,7 @@ void MovingWorld::add_to(Scene& scene) const {
 }
 
 void MovingWorld::move(std::size_t frame) {
-  const double time = static_cast<double>(frame);
+  const auto time = static_cast<double>(frame);
   float* out = positions_.data();
   const auto rest = mesh_->rest();
   for (const Body& body : bodies_) {
