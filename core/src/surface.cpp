@@ -26,7 +26,7 @@ Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), ser
   positions_.assign(mesh_->vertex_count(), Eigen::Vector3d::Zero());
   incoming_ = positions_;
   const auto rest = mesh_->rest();
-  take([&](std::uint32_t vertex) { return rest[vertex]; });
+  take(read(0, mesh_->vertex_count(), [&](std::uint32_t vertex) { return rest[vertex]; }));
 }
 
 bool Surface::is_within_limits(const Eigen::Vector3d& position) {
@@ -42,30 +42,43 @@ bool is_same(const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
 
 }  // namespace
 
+void Surface::PartRead::add(const PartRead& later) {
+  if (bad_vertex != ReadResult::no_vertex) return;
+  bad_vertex = later.bad_vertex;
+  bad_position = later.bad_position;
+  furthest_squared = std::max(furthest_squared, later.furthest_squared);
+  changed = changed || later.changed;
+  if (!later.box.empty()) box.add(later.box);
+}
+
 template <typename PositionOf>
-Surface::ReadResult Surface::take(const PositionOf& position_of) {
-  ReadResult result;
-  Box box;
-  double furthest_squared = 0;
-  bool changed = version_ == 0;
-  const std::uint32_t count = mesh_->vertex_count();
-  for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
+Surface::PartRead Surface::read(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) {
+  PartRead part;
+  for (std::uint32_t vertex = begin; vertex < end; ++vertex) {
     if (!mesh_->is_used(vertex)) continue;
     const Eigen::Vector3d position = position_of(vertex);
     if (!is_within_limits(position)) {
-      result.bad_vertex = vertex;
-      result.bad_position = position;
-      return result;
+      part.bad_vertex = vertex;
+      part.bad_position = position;
+      return part;
     }
-    furthest_squared = std::max(furthest_squared, (position - positions_[vertex]).squaredNorm());
-    changed = changed || !is_same(position, positions_[vertex]);
-    box.add(position);
+    part.furthest_squared = std::max(part.furthest_squared, (position - positions_[vertex]).squaredNorm());
+    part.changed = part.changed || !is_same(position, positions_[vertex]);
+    part.box.add(position);
     incoming_[vertex] = position;
   }
-  if (changed) {
-    result.displacement = std::sqrt(furthest_squared);
+  return part;
+}
+
+Surface::ReadResult Surface::take(const PartRead& all) {
+  ReadResult result;
+  result.bad_vertex = all.bad_vertex;
+  result.bad_position = all.bad_position;
+  if (!result.taken()) return result;
+  if (all.changed || version_ == 0) {
+    result.displacement = std::sqrt(all.furthest_squared);
     positions_.swap(incoming_);
-    count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, box));
+    count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, all.box));
   }
   displacement_ = result.displacement;
   return result;
@@ -106,12 +119,21 @@ double Surface::leaf_size() const {
 }
 
 Surface::ReadResult Surface::set_positions(const PositionView& view) {
-  return take([&](std::uint32_t vertex) { return view[vertex]; });
+  return take(read_positions(view, 0, mesh_->vertex_count()));
 }
 
 Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
+  return take(read_pose(rows, 0, mesh_->vertex_count()));
+}
+
+Surface::PartRead Surface::read_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end) {
+  return read(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
+}
+
+Surface::PartRead Surface::read_pose(const std::array<double, 12>& rows, std::uint32_t begin,
+                                     std::uint32_t end) {
   const auto rest = mesh_->rest();
-  return take([&](std::uint32_t vertex) {
+  return read(begin, end, [&](std::uint32_t vertex) {
     const Eigen::Vector3d& p = rest[vertex];
     const auto coordinate = [&](std::size_t row) {
       const double* const r = &rows[row * 4];
@@ -138,39 +160,67 @@ Box Surface::face_box_now(const Region& region) const {
 
 void Surface::refit_vertices() {
   if (motion_since_vertex_refit() == 0) return;
-  const RegionTree& tree = mesh_->regions();
-  radii_.resize(tree.regions().size());
-  vertex_boxes_.resize(tree.regions().size());
-  level_radii_.assign(tree.level_count(), 0);
-  for (std::size_t index = 0; index < radii_.size(); ++index) {
-    const Region& region = tree.region(static_cast<std::uint32_t>(index));
-    double radius_squared = 0;
-    Box box;
-    for (const std::uint32_t vertex : tree.vertices(region)) {
-      radius_squared = std::max(radius_squared, (positions_[vertex] - middle(region)).squaredNorm());
-      box.add(positions_[vertex]);
-    }
-    radii_[index] = std::sqrt(radius_squared);
-    vertex_boxes_[index] = box;
-    level_radii_[region.level] = std::max(level_radii_[region.level], radii_[index]);
-  }
-  vertex_refit_ = {version_, travel_};
-  validate(*this);
+  begin_refit(RefitOf::vertices);
+  refit_regions(RefitOf::vertices, 0, mesh_->regions().region_count());
+  finish_refit(RefitOf::vertices);
 }
 
 void Surface::refit_faces() {
   if (motion_since_face_refit() == 0) return;
-  const RegionTree& tree = mesh_->regions();
-  face_boxes_.resize(tree.regions().size());
-  for (auto index = static_cast<std::uint32_t>(face_boxes_.size()); index-- > 0;) {
-    const Region& region = tree.region(index);
-    Box box;
-    // Children have higher numbers than their parent, so theirs are already those of now.
-    for (std::uint32_t child = 0; child < region.child_count; ++child)
-      box.add(face_boxes_[region.first_child + child]);
-    face_boxes_[index] = region.is_leaf() ? face_box_now(region) : box;
+  begin_refit(RefitOf::faces);
+  refit_regions(RefitOf::faces, 0, mesh_->regions().region_count());
+  finish_refit(RefitOf::faces);
+}
+
+void Surface::begin_refit(RefitOf what) {
+  const std::uint32_t count = mesh_->regions().region_count();
+  if (what == RefitOf::faces) return face_boxes_.resize(count);
+  radii_.resize(count);
+  vertex_boxes_.resize(count);
+}
+
+void Surface::refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t index = begin; index < end; ++index) {
+    if (what == RefitOf::vertices)
+      refit_vertices_of(index);
+    else if (const Region& region = mesh_->regions().region(index); region.is_leaf())
+      face_boxes_[index] = face_box_now(region);
   }
-  face_refit_ = {version_, travel_};
+}
+
+void Surface::refit_vertices_of(std::uint32_t index) {
+  const Region& region = mesh_->regions().region(index);
+  double radius_squared = 0;
+  Box box;
+  for (const std::uint32_t vertex : mesh_->regions().vertices(region)) {
+    radius_squared = std::max(radius_squared, (positions_[vertex] - middle(region)).squaredNorm());
+    box.add(positions_[vertex]);
+  }
+  radii_[index] = std::sqrt(radius_squared);
+  vertex_boxes_[index] = box;
+}
+
+void Surface::finish_refit(RefitOf what) {
+  const RegionTree& tree = mesh_->regions();
+  if (what == RefitOf::vertices) {
+    level_radii_.assign(tree.level_count(), 0);
+    for (std::uint32_t index = 0; index < tree.region_count(); ++index) {
+      double& radius = level_radii_[tree.region(index).level];
+      radius = std::max(radius, radii_[index]);
+    }
+    vertex_refit_ = {version_, travel_};
+  } else {
+    // Children have higher numbers than their parent, so theirs are already those of now.
+    for (std::uint32_t index = tree.region_count(); index-- > 0;) {
+      const Region& region = tree.region(index);
+      if (region.is_leaf()) continue;
+      Box box;
+      for (std::uint32_t child = 0; child < region.child_count; ++child)
+        box.add(face_boxes_[region.first_child + child]);
+      face_boxes_[index] = box;
+    }
+    face_refit_ = {version_, travel_};
+  }
   validate(*this);
 }
 

@@ -53,34 +53,36 @@ void add_promise(Object& object) {
   object.promise = std::numeric_limits<double>::infinity();
 }
 
-std::optional<Diagnostic> read_bound(Object& object) {
-  if (!has_input(object)) return std::nullopt;
-  const Surface::ReadResult result = object.surface_to_write().set_positions(*object.bound);
-  object.frozen = !result.taken();
-  if (object.frozen) return bad_vertex(object, result, "it stands still until good positions are read");
-  object.told = false;
-  return check_promise(object, result);
+/// Some vertices of what an object is to be read from.
+Surface::PartRead read_part(Object& object, std::uint32_t begin, std::uint32_t end) {
+  Surface& surface = object.surface_to_write();
+  if (object.positions) return surface.read_positions(*object.positions, begin, end);
+  if (object.bound) return surface.read_positions(*object.bound, begin, end);
+  return surface.read_pose(*object.pose, begin, end);
 }
 
-std::optional<Diagnostic> read_object(Object& object) {
+/// Takes what all vertices were read as, or says why not.
+std::optional<Diagnostic> take_read(Object& object, const Surface::PartRead& all) {
+  const Surface::ReadResult result = object.surface_to_write().take(all);
   std::optional<Diagnostic> problem;
-  if (object.positions) {
-    problem = check_promise(object, object.surface_to_write().set_positions(*object.positions));
-    object.positions.reset();  // from the thread that reads: the buffer may be lent again at once
-    object.frozen = false;
-  } else if (object.bound) {
-    problem = read_bound(object);
-  } else if (object.pose) {
-    const Surface::ReadResult result = object.surface_to_write().set_pose(*object.pose);
+  if (object.positions || object.bound) {
+    object.frozen = !result.taken();
+    if (object.frozen) return bad_vertex(object, result, "it stands still until good positions are read");
+    problem = check_promise(object, result);
+    if (!object.positions) object.told = false;
+    object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
+  } else {
     if (!result.taken()) problem = bad_vertex(object, result, "the pose was not taken");
     object.pose.reset();
   }
-  if (object.frozen) return problem;
   object.unread = false;
   object.promised = 0;
   object.box = object.surface().box();
   return problem;
 }
+
+/// Surfaces of more vertices are read and refitted in parts, each of some tens of microseconds.
+constexpr std::uint32_t vertices_each = 8192;
 
 }  // namespace
 
@@ -97,6 +99,7 @@ void ObjectStore::apply(AddObject& call) {
   object->settings = std::move(call.settings);
   object->owned_surface = std::move(call.surface);
   object->box = object->surface().box();
+  object->is_large = object->surface().mesh().vertex_count() > vertices_each;
   count_bytes(*object);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
   by_index_[call.object.index] = object.get();
@@ -207,7 +210,7 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
     object->may_have_input = has_input(*object);
     return !object->may_have_input;
   });
-  to_read_.clear();
+  begin_list();
   for (Object* const object : with_input_) {
     add_promise(*object);
     object->unread =
@@ -215,9 +218,9 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
     if (object->unread)
       object->box = grown(object->surface().box(), object->promised);
     else
-      to_read_.push_back(object);
+      list_to_read(*object);
   }
-  read(to_read_, tasks, diagnostics);
+  read_listed(tasks, diagnostics);
 }
 
 void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
@@ -226,23 +229,53 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
   std::sort(wanted.begin(), wanted.end(),
             [](const Object* left, const Object* right) { return left->serial < right->serial; });
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  read(wanted, tasks, diagnostics);
+  begin_list();
+  for (Object* const object : wanted) list_to_read(*object);
+  read_listed(tasks, diagnostics);
 }
 
-void ObjectStore::read(std::span<Object* const> objects, TaskPool& tasks,
-                       std::vector<Diagnostic>& diagnostics) {
-  if (read_problems_.size() < objects.size()) read_problems_.resize(objects.size());
-  // A task writes its own objects and their own places in read_problems_; nothing is shared.
-  tasks.run(objects.size(), [&](unsigned, std::size_t index) {
-    const AccessScope access({AccessRight::write(objects[index]), {}});
-    read_problems_[index] = read_object(*objects[index]);
+void ObjectStore::begin_list() {
+  to_read_.clear();
+  large_.clear();
+  parts_.clear();
+}
+
+void ObjectStore::list_to_read(Object& object) {
+  if (!object.is_large) return to_read_.push_back(&object);
+  const std::uint32_t count = object.surface().mesh().vertex_count();
+  for (std::uint32_t begin = 0; begin < count; begin += vertices_each)
+    parts_.push_back({&object, begin, std::min(vertices_each, count - begin), {}});
+  large_.push_back({&object, parts_.size()});
+}
+
+void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
+  // A task writes its own objects and their own places in read_problems_, or its own vertices of an object
+  // and its own part; nothing is shared.
+  if (read_problems_.size() < to_read_.size()) read_problems_.resize(to_read_.size());
+  tasks.run(parts_.size() + to_read_.size(), [&](unsigned, std::size_t item) {
+    if (item < parts_.size()) {
+      Part& part = parts_[item];
+      const AccessScope access({AccessRight::write(part.object), {}});
+      part.read = read_part(*part.object, part.begin, part.begin + part.count);
+    } else {
+      Object& object = *to_read_[item - parts_.size()];
+      const AccessScope access({AccessRight::write(&object), {}});
+      read_problems_[item - parts_.size()] =
+          take_read(object, read_part(object, 0, object.surface().mesh().vertex_count()));
+    }
   });
   problems_.clear();
-  for (std::size_t index = 0; index < objects.size(); ++index)
-    if (auto& problem = read_problems_[index]) {
-      problems_.emplace_back(objects[index]->serial, std::move(*problem));
+  for (std::size_t place = 0; place < to_read_.size(); ++place)
+    if (auto& problem = read_problems_[place]) {
+      problems_.emplace_back(to_read_[place]->serial, std::move(*problem));
       problem.reset();
     }
+  std::size_t part = 0;
+  for (const auto& [object, end] : large_) {
+    Surface::PartRead all;
+    for (; part < end; ++part) all.add(parts_[part].read);
+    if (auto problem = take_read(*object, all)) problems_.emplace_back(object->serial, std::move(*problem));
+  }
   std::sort(problems_.begin(), problems_.end(),
             [](const auto& left, const auto& right) { return left.first < right.first; });
   for (auto& [serial, problem] : problems_) diagnostics.push_back(std::move(problem));

@@ -21,6 +21,7 @@ struct Object {
   std::uint64_t serial = 0;  ///< the order in which objects were added; never used again
   ObjectSettings settings;
   std::unique_ptr<Surface> owned_surface;  ///< through the accessors below
+  bool is_large = false;                   ///< it is worth several tasks
   /// Where it certainly is: the surface's box, grown by what was promised since that was read.
   Box box;
   /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
@@ -87,18 +88,34 @@ class ObjectStore {
   [[nodiscard]] std::size_t byte_count() const { return byte_count_; }
 
  private:
+  /// Some vertices of a large object.
+  struct Part {
+    Object* object;
+    std::uint32_t begin;
+    std::uint32_t count;
+    Surface::PartRead read;
+  };
+  struct LargeObject {
+    Object* object;
+    std::size_t end;  ///< of its parts
+  };
+
   /// Has the object looked at in the next read.
   void expect_input(Object& object);
   void drop_removed();
-  void read(std::span<Object* const> objects, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
+  void begin_list();
+  void list_to_read(Object& object);
+  void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
   std::vector<std::unique_ptr<Object>> objects_;  ///< null in the place of one removed, until the next read
   std::vector<std::uint64_t> serials_;            ///< of `objects_`, side by side for the search of one
   std::vector<Object*> by_index_;
   std::vector<std::unique_ptr<Object>> removed_;
   std::vector<Object*> with_input_;  ///< those that may have something to be read, in any order
-  std::vector<Object*> to_read_;
-  std::vector<std::optional<Diagnostic>> read_problems_;        ///< empty ones between reads
+  std::vector<Object*> to_read_;     ///< small ones
+  std::vector<LargeObject> large_;   ///< large ones
+  std::vector<Part> parts_;          ///< of `large_`, one after the other
+  std::vector<std::optional<Diagnostic>> read_problems_;        ///< of `to_read_`; empty between reads
   std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial
   std::uint64_t next_serial_ = 0;
   std::size_t byte_count_ = 0;

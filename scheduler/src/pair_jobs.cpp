@@ -23,9 +23,6 @@ std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::tim
 /// Pairs of leaves in the fronts of all pairs of objects together, 8 bytes each.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 
-/// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
-constexpr double stale_leaf_sizes = 0.25;
-
 /// How loose a front is made: it lasts for some steps of the last motion, but is not so loose that it lists
 /// much that is not near.
 double slack_of(const Surface& a, const Surface& b) {
@@ -63,26 +60,6 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
     if (!is_about_vertices(query.detail)) query.detail = ContactDetail::none;
   }
   return query;
-}
-
-void PairJobs::refit(std::span<const PairJob> jobs) {
-  to_refit_.clear();
-  for (const PairJob& job : jobs)
-    if (job.is_looked_at()) to_refit_.insert(to_refit_.end(), {job.a, job.b});
-  std::sort(to_refit_.begin(), to_refit_.end(),
-            [](const Object* left, const Object* right) { return left->serial < right->serial; });
-  to_refit_.erase(std::unique(to_refit_.begin(), to_refit_.end()), to_refit_.end());
-  tasks_.run(to_refit_.size(), [&](unsigned, std::size_t index) {
-    const AccessScope access({AccessRight::write(to_refit_[index]), {}});
-    Surface& surface = to_refit_[index]->surface_to_write();
-    const bool about_vertices = is_about_vertices(settings_.detail);
-    const double motion =
-        about_vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit();
-    const bool to_the_letter =
-        settings_.accuracy.mode() == AccuracyMode::paper || settings_.region_distances > 0;
-    if (!to_the_letter && motion <= stale_leaf_sizes * surface.leaf_size()) return;
-    about_vertices ? surface.refit_vertices() : surface.refit_faces();
-  });
 }
 
 void PairJobs::run(std::span<const PairJob> jobs, std::uint64_t rules_version, Clock::time_point start) {

@@ -12,16 +12,13 @@
 
 namespace graze {
 
-/// Runs a step's jobs on the task pool: refits what they need, then DMV, DV and contact determination.
-/// Stepping thread only.
+/// Runs a step's jobs on the task pool: DMV, DV and contact determination. Stepping thread only.
 class PairJobs {
  public:
   using Clock = std::chrono::steady_clock;
 
   PairJobs(const SceneSettings& settings, TaskPool& tasks);
 
-  /// Brings the regions of every object that `jobs` look at up to date.
-  void refit(std::span<const PairJob> jobs);
   /// Answers every job that is looked at; budgets began at `start`.
   void run(std::span<const PairJob> jobs, std::uint64_t rules_version, Clock::time_point start);
 
@@ -62,9 +59,8 @@ class PairJobs {
   std::vector<LargePair> large_;           ///< one for each large job; kept longer for their memory
   std::vector<std::uint8_t> answered_;     ///< likewise: whether it is
   std::vector<LargeSlice> slices_;         ///< of all large jobs of the group
-  std::vector<Object*> to_refit_;
-  std::vector<PairDetector> detectors_;  ///< one for each worker
-  std::vector<PairCounters> counters_;   ///< likewise
+  std::vector<PairDetector> detectors_;    ///< one for each worker
+  std::vector<PairCounters> counters_;     ///< likewise
 };
 
 }  // namespace graze

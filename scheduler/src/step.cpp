@@ -31,6 +31,7 @@ Step::Step(const SceneSettings& settings, Staging& staging)
     : staging_(staging),
       tasks_(settings.threads, settings.arena),
       pairs_(settings, store_),
+      refit_(settings, tasks_),
       jobs_(settings, tasks_) {}
 
 void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& report) {
@@ -45,7 +46,7 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
   statistics.read_ms = lap();
   const auto jobs = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
   statistics.pairs_ms = lap();
-  jobs_.refit(jobs);
+  refit_.run(jobs);
   statistics.refit_ms = lap();
   jobs_.run(jobs, pairs_.filter().rules_version(), start);
   statistics.jobs_ms = lap();

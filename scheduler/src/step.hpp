@@ -8,6 +8,7 @@
 #include "object_store.hpp"
 #include "pair_jobs.hpp"
 #include "pair_table.hpp"
+#include "region_refit.hpp"
 #include "report_builder.hpp"
 #include "staging.hpp"
 #include "task_pool.hpp"
@@ -37,6 +38,7 @@ class Step {
   TaskPool tasks_;
   ObjectStore store_;
   PairTable pairs_;
+  RegionRefit refit_;
   PairJobs jobs_;
 };
 

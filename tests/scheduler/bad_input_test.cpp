@@ -199,4 +199,34 @@ TEST_CASE("every kind of diagnostic has its name") {
   CHECK(to_string(DiagnosticKind::bad_rule) == "bad_rule");
 }
 
+TEST_CASE("a bad vertex anywhere in a large surface, which several tasks read, is the one that is named") {
+  const models::MeshData sheet = models::sheet(200, 200, 4, 4);
+  const std::shared_ptr<const Mesh> mesh = mesh_of(sheet);
+  for (const unsigned threads : {1U, 4U}) {
+    SceneSettings settings = settings_of(0.5, 100);
+    settings.threads = threads;
+    Scene scene(settings);
+    const ObjectId large = scene.add(mesh);
+    scene.add(plate_mesh(), motion_of(Motion::fixed));
+    const Positions good = lifted(*mesh, 2);
+    Positions positions = good;
+    scene.bind_positions(large, positions);
+    const double distance = scene.step()->pairs()[0].distance.upper;
+    for (const std::size_t bad : {std::size_t{3}, positions.size() / 2, positions.size() - 1}) {
+      positions[bad].y() = nothing;
+      positions.back().z() = bad == 3 ? infinity : positions.back().z();
+      const ReportHandle report = scene.step();
+      REQUIRE(kinds_of(*report) == std::vector{DiagnosticKind::not_finite});
+      CHECK(report->diagnostics()[0].message.find("vertex " + std::to_string(bad) + " ") !=
+            std::string::npos);
+      CHECK(report->pairs()[0].distance.upper == distance);
+      CHECK(report->pairs()[0].stale);
+      positions = good;  // in the memory that is bound
+      const ReportHandle after = scene.step();
+      CHECK(after->diagnostics().empty());
+      CHECK_FALSE(after->pairs()[0].stale);
+    }
+  }
+}
+
 }  // namespace graze::tests

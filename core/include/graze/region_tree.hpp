@@ -53,6 +53,7 @@ class GRAZE_API RegionTree {
   }
   /// The level of the leaf of the median vertex: how deep the tree is, but for where vertices crowd.
   [[nodiscard]] std::uint32_t leaf_level() const { return leaf_level_; }
+  [[nodiscard]] std::uint32_t region_count() const { return static_cast<std::uint32_t>(regions_.size()); }
   /// The number of the first region of `level`; `level_count()` gives the number of regions.
   [[nodiscard]] std::uint32_t level_begin(std::uint32_t level) const { return level_begin_[level]; }
 

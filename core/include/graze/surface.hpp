@@ -20,6 +20,9 @@ struct Travel {
   double distance = 0;
 };
 
+/// Which bounds of regions a refit makes.
+enum class RefitOf : std::uint8_t { vertices, faces };
+
 /// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago.
 /// One thread changes it at a time; while none does, any number may read.
 class GRAZE_API Surface {
@@ -54,6 +57,24 @@ class GRAZE_API Surface {
   /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
+  /// What reading some of the vertices found.
+  struct PartRead {
+    std::uint32_t bad_vertex =
+        ReadResult::no_vertex;  ///< the first, as in ReadResult; nothing after it was read
+    Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
+    double furthest_squared = 0;
+    bool changed = false;
+    Box box;
+
+    /// Adds what was found in the vertices that come after.
+    void add(const PartRead& later);
+  };
+  /// The same in parts: reads the vertices from `begin` to `end` and puts them aside; then `take` takes them
+  /// all, for what their parts found together. Several threads may read parts that do not overlap at once.
+  PartRead read_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end);
+  PartRead read_pose(const std::array<double, 12>& rows, std::uint32_t begin, std::uint32_t end);
+  ReadResult take(const PartRead& all);
+
   /// Never another surface's in this process.
   [[nodiscard]] std::uint64_t serial() const { return serial_; }
   /// Changes whenever any used vertex does, by any bit.
@@ -73,6 +94,11 @@ class GRAZE_API Surface {
   /// bounds: a box of the vertices and all corners of the faces and edges that the region owns.
   void refit_vertices();
   void refit_faces();
+  /// The same in parts: `begin_refit`, then ranges of regions that do not overlap and are all of them
+  /// together, by several threads at once if need be, then `finish_refit`.
+  void begin_refit(RefitOf what);
+  void refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end);
+  void finish_refit(RefitOf what);
   /// At least how far any used vertex is from where the last refit saw it: 0 where the bounds are those of
   /// the present positions, infinite before the first refit and after a jump.
   [[nodiscard]] double motion_since_vertex_refit() const;
@@ -104,7 +130,8 @@ class GRAZE_API Surface {
   };
 
   template <typename PositionOf>
-  ReadResult take(const PositionOf& position_of);
+  PartRead read(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
+  void refit_vertices_of(std::uint32_t index);
   void count_motion(double displacement, const Box& before);
   [[nodiscard]] double motion_since(const Refit& refit) const;
 

@@ -1,0 +1,91 @@
+#include "region_refit.hpp"
+
+#include <algorithm>
+#include <graze/pair_query.hpp>
+
+namespace graze {
+namespace {
+
+/// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
+constexpr double stale_leaf_sizes = 0.25;
+
+/// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
+constexpr std::uint32_t work_each = 8192;
+
+/// What a region's bounds are made from; those of faces from its children, but for leaves.
+std::uint32_t work_of(const Region& region, RefitOf what) {
+  if (what == RefitOf::vertices) return region.vertex_count;
+  return region.is_leaf() ? region.vertex_count + region.face_count : 0;
+}
+
+}  // namespace
+
+RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
+    : settings_(settings),
+      tasks_(tasks),
+      what_(is_about_vertices(settings.detail) ? RefitOf::vertices : RefitOf::faces) {}
+
+void RegionRefit::run(std::span<const PairJob> jobs) {
+  list_objects(jobs);
+  parts_.clear();
+  for (Object* const object : large_) {
+    object->surface_to_write().begin_refit(what_);
+    list_parts(*object);
+  }
+  // A task writes the bounds of its own object, or of its own regions of one.
+  tasks_.run(parts_.size() + small_.size(), [&](unsigned, std::size_t item) {
+    if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()]);
+    const Part& part = parts_[item];
+    const AccessScope access({AccessRight::write(part.object), {}});
+    part.object->surface_to_write().refit_regions(what_, part.begin, part.end);
+  });
+  tasks_.run(large_.size(), [&](unsigned, std::size_t index) {
+    const AccessScope access({AccessRight::write(large_[index]), {}});
+    large_[index]->surface_to_write().finish_refit(what_);
+  });
+}
+
+/// Each once, however many jobs look at it.
+void RegionRefit::list_objects(std::span<const PairJob> jobs) {
+  small_.clear();
+  large_.clear();
+  for (const PairJob& job : jobs)
+    if (job.is_looked_at())
+      for (Object* const object : {job.a, job.b}) (object->is_large ? large_ : small_).push_back(object);
+  for (std::vector<Object*>* const list : {&small_, &large_}) {
+    std::sort(list->begin(), list->end(),
+              [](const Object* left, const Object* right) { return left->serial < right->serial; });
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  std::erase_if(large_, [&](const Object* object) { return !is_stale(object->surface()); });
+}
+
+bool RegionRefit::is_stale(const Surface& surface) const {
+  const double motion =
+      what_ == RefitOf::vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit();
+  const bool to_the_letter =
+      settings_.accuracy.mode() == AccuracyMode::paper || settings_.region_distances > 0;
+  return motion > (to_the_letter ? 0 : stale_leaf_sizes * surface.leaf_size());
+}
+
+void RegionRefit::list_parts(Object& object) {
+  const RegionTree& tree = object.surface().mesh().regions();
+  std::uint32_t begin = 0;
+  std::uint32_t work = 0;
+  for (std::uint32_t index = 0; index < tree.region_count(); ++index) {
+    work += work_of(tree.region(index), what_);
+    if (work < work_each && index + 1 < tree.region_count()) continue;
+    parts_.push_back({&object, begin, index + 1});
+    begin = index + 1;
+    work = 0;
+  }
+}
+
+void RegionRefit::refit_small(Object& object) const {
+  const AccessScope access({AccessRight::write(&object), {}});
+  Surface& surface = object.surface_to_write();
+  if (!is_stale(surface)) return;
+  what_ == RefitOf::vertices ? surface.refit_vertices() : surface.refit_faces();
+}
+
+}  // namespace graze

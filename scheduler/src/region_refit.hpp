@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <graze/settings.hpp>
+#include <span>
+#include <vector>
+
+#include "pair_job.hpp"
+#include "task_pool.hpp"
+
+namespace graze {
+
+/// Brings the bounds of regions up to date that a step's jobs ask for. Stepping thread only.
+class RegionRefit {
+ public:
+  RegionRefit(const SceneSettings& settings, TaskPool& tasks);
+
+  /// Refits every object that `jobs` look at and that has moved too far since its last refit.
+  void run(std::span<const PairJob> jobs);
+
+ private:
+  /// Regions of one object, refitted by one task.
+  struct Part {
+    Object* object;
+    std::uint32_t begin;
+    std::uint32_t end;
+  };
+
+  void list_objects(std::span<const PairJob> jobs);
+  [[nodiscard]] bool is_stale(const Surface& surface) const;
+  void list_parts(Object& object);
+  void refit_small(Object& object) const;
+
+  const SceneSettings& settings_;
+  TaskPool& tasks_;
+  RefitOf what_;
+  std::vector<Object*> small_;  ///< that the jobs look at
+  std::vector<Object*> large_;  ///< that are refitted
+  std::vector<Part> parts_;     ///< of `large_`
+};
+
+}  // namespace graze
