@@ -54,6 +54,9 @@ void Surface::PartRead::add(const PartRead& later) {
 template <typename PositionOf>
 Surface::PartRead Surface::read(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) {
   PartRead part;
+  Box box;  // these three stay in registers, which `part` does not
+  double furthest_squared = 0;
+  bool changed = false;
   for (std::uint32_t vertex = begin; vertex < end; ++vertex) {
     if (!mesh_->is_used(vertex)) continue;
     const Eigen::Vector3d position = position_of(vertex);
@@ -62,11 +65,14 @@ Surface::PartRead Surface::read(std::uint32_t begin, std::uint32_t end, const Po
       part.bad_position = position;
       return part;
     }
-    part.furthest_squared = std::max(part.furthest_squared, (position - positions_[vertex]).squaredNorm());
-    part.changed = part.changed || !is_same(position, positions_[vertex]);
-    part.box.add(position);
+    furthest_squared = std::max(furthest_squared, (position - positions_[vertex]).squaredNorm());
+    changed = changed || !is_same(position, positions_[vertex]);
+    box.add(position);
     incoming_[vertex] = position;
   }
+  part.furthest_squared = furthest_squared;
+  part.changed = changed;
+  part.box = box;
   return part;
 }
 
