@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "contact_name.hpp"
-#include "reserve_as.hpp"
+#include "name_set.hpp"
 
 namespace graze {
 
@@ -14,7 +12,7 @@ enum class Ties : std::uint8_t { lowest, all };
 
 /// The names at the least distance among some, and a bound on that distance.
 struct Closest {
-  std::vector<ContactName> names;
+  NameSet names;
   /// At least the least distance; infinite before the first offer.
   double upper = std::numeric_limits<double>::infinity();
   /// Whether an edge pierces a face, among the names offered.
@@ -25,7 +23,7 @@ struct Closest {
     upper = std::numeric_limits<double>::infinity();
     pierced = false;
   }
-  void reserve_as(const Closest& other) { graze::reserve_as(names, other.names); }
+  void reserve_as(const Closest& other) { names.reserve_as(other.names); }
 };
 
 /// Takes offers of names; the bound only shrinks.
@@ -38,32 +36,34 @@ class ClosestSet {
   void offer(const ContactName& name) {
     if (name.meeting == Meeting::pierced) closest_.pierced = closest_.pierced || is_edge_through_face(name);
     if (names_.empty()) return replace(name);
-    if (ties_ == Ties::lowest && name == names_.front()) return;
-    const auto place = std::lower_bound(names_.begin(), names_.end(), name);
-    if (ties_ == Ties::all && place != names_.end() && *place == name) return;
+    const bool is_known = ties_ == Ties::lowest ? name == names_.front() : names_.contains(name);
+    if (is_known) return;
     const int order = compare_distances(pair_, name, names_.front());
     if (order < 0) return replace(name);
     if (order > 0) return;
     if (ties_ == Ties::all)
-      names_.insert(place, name);
+      names_.add(name);
     else if (name < names_.front())
-      names_.front() = name;
+      names_.assign(name);
   }
+  /// Puts the names in order.
+  void settle() { names_.settle(); }
 
   [[nodiscard]] double upper() const { return closest_.upper; }
-  [[nodiscard]] const std::vector<ContactName>& names() const { return names_; }
+  /// One of them; with Ties::lowest, or once they are settled, the lowest.
+  [[nodiscard]] const ContactName& front() const { return names_.front(); }
 
  private:
   static bool is_edge_through_face(const ContactName& name) { return name.kind == ContactKind::EF; }
   void replace(const ContactName& name) {
-    names_.assign(1, name);
+    names_.assign(name);
     closest_.upper = upper_distance(pair_, name);
   }
 
   const SurfacePair& pair_;
   Ties ties_;
   Closest& closest_;
-  std::vector<ContactName>& names_;
+  NameSet& names_;
 };
 
 }  // namespace graze

@@ -345,7 +345,7 @@ ContactName PairSearch::lowest_measured(Worker& worker) const {
     const double distance = answer_->contacts[i].distance;
     if (distance <= nearest + (size + distance) * 0x1p-44) closest.offer(names_[i]);
   }
-  return closest.names().front();
+  return closest.front();
 }
 
 // ---- The closest points
@@ -376,7 +376,7 @@ void PairSearch::approach(Worker& worker) {
 /// A slice goes on from what was known when it was cut, not from what others find meanwhile.
 void PairSearch::seed(Slice& slice) const {
   slice.closest.clear();
-  slice.closest.closest.names.assign(1, closest_.closest.names.front());
+  slice.closest.closest.names.assign(closest_.closest.names.front());
   slice.closest.closest.upper = closest_.closest.upper;
 }
 
@@ -394,10 +394,11 @@ void PairSearch::take_up_closest(Worker& worker) {
   ClosestSet set(worker.pair, ties(), closest_.closest);
   for (std::size_t i = 0; i < slice_count_; ++i) {
     const ClosestFound& found = slices_[i].closest;
-    for (const ContactName& name : found.closest.names) set.offer(name);
+    for (const ContactName& name : found.closest.names.names()) set.offer(name);
     closest_.closest.pierced = closest_.closest.pierced || found.closest.pierced;
     closest_.lower = std::min(closest_.lower, found.lower);
   }
+  set.settle();
 }
 
 void PairSearch::begin_closest(Worker& worker) {
@@ -463,7 +464,8 @@ void PairSearch::report_closest(Worker& worker) {
   set_distance(worker, nearest);
   answer_->distance.lower = std::min(answer_->distance.lower, closest_.lower);
   if (query_.detail != ContactDetail::closest || !answer_->in_contact) return;
-  answer_->contacts.push_back(closest_contact(worker.pair, closest_.closest.names, worker.scratch.parallel));
+  answer_->contacts.push_back(
+      closest_contact(worker.pair, closest_.closest.names.names(), worker.scratch.parallel));
   answer_->witness = witness_of(answer_->contacts.front());
 }
 

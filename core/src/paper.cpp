@@ -90,7 +90,7 @@ class Paper {
       for (const std::uint32_t to_b : pair_.b.mesh().vertex_neighbours(b)) offer(to_a, to_b);
     }
     for (const std::uint32_t to_b : pair_.b.mesh().vertex_neighbours(b)) offer(a, to_b);
-    const ContactName nearest = around.names().front();
+    const ContactName nearest = around.front();
     if (compare_distances(pair_, nearest, name) >= 0) return false;
     name = nearest;
     return true;

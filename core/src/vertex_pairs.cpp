@@ -43,7 +43,7 @@ ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, cons
   AsNear range{set};
   for_each_vertex_pair(pair, leaf_a, leaf_b, scratch, range,
                        [&](std::uint32_t a, std::uint32_t b) { set.offer(vertex_pair(a, b)); });
-  return set.names().front();
+  return set.front();
 }
 
 }  // namespace graze
