@@ -26,7 +26,6 @@ void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const Lea
 }
 
 void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names) {
-  std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {

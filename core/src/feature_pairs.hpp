@@ -12,7 +12,7 @@ namespace graze {
 void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double threshold,
                         LeafScratch& scratch, std::vector<ContactName>& names);
 
-/// Sorts names and keeps one for each pair of features. Where two features meet in several pieces (a fold and
+/// Keeps one of sorted names for each pair of features. Where two features meet in several pieces (a fold and
 /// a triangle, two crossings), the nearest stands for them; a piercing sorts first, and of equally near ones
 /// the first.
 void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names);

@@ -19,7 +19,8 @@ constexpr std::size_t roots_each = 64;
 constexpr std::size_t front_pairs_each = 256;
 constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound tight before others are cut
 constexpr std::size_t closest_each = 64;
-constexpr std::size_t contacts_each = 1024;
+constexpr std::size_t leaf_pairs_each = 8;
+constexpr std::size_t contacts_each = 128;
 
 /// Merges sorted runs that stand one after the other; `ends` are where they end.
 void merge_runs(std::vector<ContactName>& names, std::vector<std::size_t>& ends,
@@ -106,6 +107,8 @@ void PairSearch::next_stage(Worker& worker) {
       if (query_.mode == AccuracyMode::paper) return as_in_paper(worker);
       if (query_.detail == ContactDetail::none || query_.detail == ContactDetail::closest)
         return begin_approach(worker);
+      return begin_reach(worker);
+    case Stage::reach:
       return begin_contacts(worker);
     case Stage::contacts:
       return finish_contacts(worker);
@@ -122,6 +125,8 @@ void PairSearch::next_stage(Worker& worker) {
 
 void PairSearch::run(Slice& slice, Worker& worker) {
   switch (stage_) {
+    case Stage::reach:
+      return run_reach(slice, worker);
     case Stage::contacts:
       return run_contacts(slice, worker);
     case Stage::measured:
@@ -254,8 +259,8 @@ bool PairSearch::may_touch(double lower) const {
   return lower < query_.threshold || (query_.detail == ContactDetail::features && lower == 0);
 }
 
-void PairSearch::begin_contacts(Worker& worker) {
-  stage_ = Stage::contacts;
+void PairSearch::begin_reach(Worker& worker) {
+  stage_ = Stage::reach;
   from_front_ = front_->beyond_now(*a_, *b_) > query_.threshold;
   if (from_front_) return slice_front();
   slice_walk(
@@ -263,24 +268,48 @@ void PairSearch::begin_contacts(Worker& worker) {
       [](const RegionPair&) {});
 }
 
+void PairSearch::run_reach(Slice& slice, Worker& worker) {
+  if (from_front_) return worker.leaf_pairs.take(slice.start, slice.found);
+  if (slice.start.empty()) return;
+  slice.complete = worker.leaf_pairs.walk(
+      slice.start, [&](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); },
+      [](const RegionPair&) {}, slice.found);
+}
+
+void PairSearch::begin_contacts(Worker& worker) {
+  gather_found();
+  if (!from_front_) remember(query_.threshold, worker);
+  stage_ = Stage::contacts;
+  slice_count_ = 0;
+  slice_leaves_in_contact();
+}
+
+/// Cuts the leaf pairs found so that every slice has as many to look into.
+void PairSearch::slice_leaves_in_contact() {
+  const auto& leaves = found_.leaves;
+  if (!sliced_) return add_slices_of(0, leaves.size(), leaves.size());
+  std::size_t begin = 0;
+  std::size_t looked_into = 0;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    if (may_touch(leaves[i].lower)) ++looked_into;
+    if (looked_into < leaf_pairs_each && i + 1 < leaves.size()) continue;
+    add_slices_of(begin, i + 1, i + 1 - begin);
+    begin = i + 1;
+    looked_into = 0;
+  }
+}
+
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
-  if (from_front_)
-    worker.leaf_pairs.take(slice.start, slice.found);
-  else if (!slice.start.empty())
-    slice.complete = worker.leaf_pairs.walk(
-        slice.start, [&](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); },
-        [](const RegionPair&) {}, slice.found);
-  for (const LeafPair& leaves : slice.found.leaves) {
-    slice.complete = slice.complete && (!from_front_ || worker.meter.spend());
+  for (std::size_t i = slice.begin; i < slice.end; ++i) {
+    const LeafPair& leaves = found_.leaves[i];
+    slice.complete = !from_front_ || worker.meter.spend();
     if (!slice.complete) return;
     if (!may_touch(leaves.lower)) continue;
     ++worker.meter.counters().leaf_pairs_tested;
     add_contacts(leaves.pair, slice, worker);
   }
-  if (query_.detail == ContactDetail::features)
-    keep_nearest_of_each(worker.pair, slice.names);
-  else
-    std::sort(slice.names.begin(), slice.names.end());
+  std::sort(slice.names.begin(), slice.names.end());
+  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, slice.names);
 }
 
 void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const {
@@ -296,9 +325,7 @@ void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& wo
 }
 
 void PairSearch::finish_contacts(Worker& worker) {
-  gather_found();
   gather_names(worker);
-  if (!from_front_) remember(query_.threshold, worker);
   slice_count_ = 0;
   if (names_.empty() && query_.reach <= query_.threshold) {
     stage_ = Stage::done;

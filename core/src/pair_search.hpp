@@ -55,7 +55,8 @@ class PairSearch {
   /// What the slices that were made last are for.
   enum class Stage : std::uint8_t {
     start,
-    contacts,  ///< the names of all contacts
+    reach,     ///< pairs of leaves that may be in contact
+    contacts,  ///< the names of all contacts in them
     measured,  ///< the contacts themselves
     approach,  ///< pairs of leaves where the closest points may be
     closest,   ///< the closest points in them
@@ -77,6 +78,8 @@ class PairSearch {
   void give_up();
   void as_in_paper(Worker& worker);
 
+  void begin_reach(Worker& worker);
+  void run_reach(Slice& slice, Worker& worker);
   void begin_contacts(Worker& worker);
   void run_contacts(Slice& slice, Worker& worker);
   void add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const;
@@ -100,6 +103,7 @@ class PairSearch {
   void add_slices_of(std::span<const RegionPair> pairs, std::size_t each);
   void add_slices_of(std::size_t begin, std::size_t end, std::size_t each);
   void slice_front();
+  void slice_leaves_in_contact();
   template <typename Keep, typename Meet>
   void slice_walk(Worker& worker, const Keep& keep, const Meet& meet);
   void gather_found();
