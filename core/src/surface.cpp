@@ -37,7 +37,7 @@ namespace {
 
 /// By bits: -0 is another answer than 0, though no motion.
 bool is_same(const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
-  return std::memcmp(left.data(), right.data(), 3 * sizeof(double)) == 0;
+  return std::memcmp(left.data(), right.data(), 3 * sizeof(double)) == 0;  // NOLINT(bugprone-suspicious-*)
 }
 
 }  // namespace

@@ -21,11 +21,8 @@ struct Object {
   std::uint64_t serial = 0;  ///< the order in which objects were added; never used again
   ObjectSettings settings;
   std::unique_ptr<Surface> owned_surface;  ///< through the accessors below
-  bool is_large = false;                   ///< it is worth several tasks
   /// Where it certainly is: the surface's box, grown by what was promised since that was read.
   Box box;
-  /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
-  bool frozen = false;
 
   // What the next read takes up, and what is promised of it.
   std::optional<std::array<double, 12>> pose;
@@ -33,14 +30,17 @@ struct Object {
   std::optional<PositionView> bound;
   BindPolicy policy = BindPolicy::every_step;
   bool told = false;
-  bool is_new = false;  ///< given since the last step
+  bool is_new = false;          ///< given since the last step
+  bool may_have_input = false;  ///< it is among those that the store looks at in the next read
   double promise = std::numeric_limits<double>::infinity();
-  /// There are positions that have not been read, since promises say that they are far from everything.
-  bool unread = false;
   /// No vertex is further from where the surface has it, by the promises since that was read.
   double promised = 0;
+  /// There are positions that have not been read, since promises say that they are far from everything.
+  bool unread = false;
+  /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
+  bool frozen = false;
 
-  bool may_have_input = false;    ///< it is among those that the store looks at in the next read
+  bool is_large = false;          ///< it is worth several tasks
   bool removed = false;           ///< it goes before the next read
   std::size_t counted_bytes = 0;  ///< its part of ObjectStore::byte_count
 
