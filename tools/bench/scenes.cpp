@@ -6,34 +6,12 @@
 #include <numbers>
 
 #include "models/models.hpp"
+#include "scenes/random.hpp"
 
 namespace graze::bench {
 namespace {
 
-/// splitmix64: the same numbers from every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  double between(double low, double high) {
-    state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return low + (high - low) * static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
-  }
-  Eigen::Vector3d vector(double low, double high) {
-    const double x = between(low, high);
-    const double y = between(low, high);
-    return {x, y, between(low, high)};
-  }
-  Eigen::Matrix3d turn() {
-    const double angle = between(0, 2 * std::numbers::pi);
-    return Eigen::AngleAxisd(angle, vector(-1, 1).normalized()).toRotationMatrix();
-  }
-
- private:
-  std::uint64_t state_;
-};
+using scenes::Random;
 
 std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
   return std::make_shared<const Mesh>(
