@@ -172,6 +172,33 @@ std::uint64_t hash_of_bending_tori(unsigned threads, std::size_t frames,
   return hash.value();
 }
 
+/// Two balls of which each is read and refitted in parts, and whose search is cut into slices; they wobble
+/// and come to touch.
+std::uint64_t hash_of_large_pair(ContactDetail detail, unsigned threads, std::size_t frames,
+                                 const std::shared_ptr<const Mesh>& ball) {
+  SceneSettings settings = settings_of(0.02, 1);
+  settings.detail = detail;
+  settings.threads = threads;
+  settings.region_distances = 5000;
+  Scene scene(settings);
+  const std::array<ObjectId, 2> ids{scene.add(ball), scene.add(ball)};
+  scenes::ReportHash hash;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      Positions positions(ball->rest().begin(), ball->rest().end());
+      for (Eigen::Vector3d& point : positions) {
+        point *= 1 + 0.0078125 * point.x() * point.y() * static_cast<double>(frame % 4);
+        point.z() += static_cast<double>(i) * (2.03125 - 0.015625 * static_cast<double>(frame));
+      }
+      scene.set_positions(ids[i], positions);
+    }
+    const ReportHandle report = scene.step();
+    CHECK(report->pairs().size() == 1);
+    hash.add(*report);
+  }
+  return hash.value();
+}
+
 }  // namespace
 
 TEST_CASE("threads: four write, one steps and two read") {
@@ -206,6 +233,16 @@ TEST_CASE("threads: scenes stepped from the tasks of a caller's own parallel loo
       hashes[index] = hash_of_bending_tori(threads, frames, torus);
     });
     for (const std::uint64_t hash : hashes) CHECK(hash == alone);
+  }
+}
+
+TEST_CASE("threads: one large pair is worked on by all of them") {
+  const auto ball = mesh_of(models::sphere(120, 80));
+  REQUIRE(ball->vertex_count() > 8192);
+  for (const ContactDetail detail :
+       {ContactDetail::features, ContactDetail::vertices, ContactDetail::closest, ContactDetail::none}) {
+    const std::uint64_t alone = hash_of_large_pair(detail, 1, 4, ball);
+    for (const unsigned threads : {2U, 4U}) CHECK(hash_of_large_pair(detail, threads, 4, ball) == alone);
   }
 }
 
