@@ -2,7 +2,6 @@
 
 #include "bounds.hpp"
 #include "pair_detector_scratch.hpp"
-#include "region_distances.hpp"
 
 namespace graze {
 
@@ -41,6 +40,7 @@ PairDetector& PairDetector::operator=(PairDetector&&) noexcept = default;
 void PairDetector::reserve_as(const PairDetector& other) {
   scratch_->search.reserve_as(other.scratch_->search);
   scratch_->memory.reserve_as(other.scratch_->memory);
+  scratch_->region_distances.reserve_as(other.scratch_->region_distances);
 }
 
 void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQuery& query,
@@ -68,8 +68,8 @@ void PairDetector::detect(const Surface& a, const Surface& b, const PairQuery& q
 
 void PairDetector::region_distances(const Surface& a, const Surface& b, const PairQuery& query,
                                     PairAnswer& answer) {
-  DecisionCount decisions;
-  find_region_distances({a, b, decisions}, query, scratch_->memory.leaf_pairs.dmv, answer);
+  scratch_->region_distances.begin(a, b, query, answer, false);
+  scratch_->region_distances.advance();
 }
 
 }  // namespace graze

@@ -149,7 +149,7 @@ void PairJobs::begin_large(std::uint32_t place, unsigned worker) {
   large_[place].begin(job.a->surface(), job.b->surface(), query, job.memory_to_write().front,
                       answer_to_write(index));
   answered_[place] = large_[place].advance(detectors_[worker], counters_[worker]) ? 1 : 0;
-  if (answered_[place] != 0) was_detected(index, worker);
+  if (answered_[place] != 0) was_detected(index);
 }
 
 /// The slices of all large pairs as one list, until every pair is answered.
@@ -170,7 +170,7 @@ void PairJobs::run_rounds_of_slices() {
       const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_jobs_[place]])});
       if (answered_[place] != 0 || !large_[place].advance(detectors_[worker], counters_[worker])) return;
       answered_[place] = 1;
-      was_detected(large_jobs_[place], worker);
+      was_detected(large_jobs_[place]);
     });
   }
 }
@@ -190,7 +190,9 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
   if (work_limit == 0 || is_late()) return PairDetector::outer_bounds(a, b, query, answer_to_write(index));
   detectors_[worker].detect(a, b, query, job.memory_to_write().front, answer_to_write(index),
                             counters_[worker]);
-  was_detected(index, worker);
+  if (query.region_distance_limit > 0)
+    detectors_[worker].region_distances(a, b, query, answer_to_write(index));
+  was_detected(index);
 }
 
 PairAnswer& PairJobs::answer_to_write(std::uint32_t index) {
@@ -199,11 +201,8 @@ PairAnswer& PairJobs::answer_to_write(std::uint32_t index) {
 }
 
 /// Remembers what the answer was about.
-void PairJobs::was_detected(std::uint32_t index, unsigned worker) {
+void PairJobs::was_detected(std::uint32_t index) {
   const PairJob& job = jobs_[index];
-  if (settings_.region_distances > 0)
-    detectors_[worker].region_distances(job.a->surface(), job.b->surface(), query_of(job),
-                                        answer_to_write(index));
   const bool whole = answers_[index].complete && job.task == PairJob::Task::detect;
   PairMemory& memory = job.memory_to_write();
   memory.version_a = whole ? job.a->surface().version() : 0;

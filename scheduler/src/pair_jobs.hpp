@@ -44,7 +44,7 @@ class PairJobs {
   void begin_large(std::uint32_t place, unsigned worker);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
   [[nodiscard]] PairAnswer& answer_to_write(std::uint32_t index);
-  void was_detected(std::uint32_t index, unsigned worker);
+  void was_detected(std::uint32_t index);
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();
   void run_by_urgency();
