@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <graze/pair_query.hpp>
 #include <limits>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Closest {
     pierced = false;
   }
   void reserve_as(const Closest& other) { graze::reserve_as(names, other.names); }
+  void reserve(const PairRoom& room) { names.reserve(room.ties); }
+  [[nodiscard]] std::size_t byte_count() const { return bytes_of(names); }
 };
 
 /// Takes offers of names; the bound only shrinks.

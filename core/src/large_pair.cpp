@@ -54,4 +54,8 @@ void LargePair::run_slice(std::size_t index, PairDetector& detector, PairCounter
     stages_->search.run_slice(index, detector.scratch_->memory, counters);
 }
 
+std::size_t LargePair::byte_count() const {
+  return sizeof(Stages) + stages_->search.byte_count() + stages_->distances.byte_count();
+}
+
 }  // namespace graze

@@ -119,6 +119,17 @@ void RegionDistances::reserve_as(const RegionDistances& other) {
   graze::reserve_as(slices_.front().alive, other.slices_.front().alive);
 }
 
+void RegionDistances::reserve(const PairRoom& room) {
+  if (slices_.empty()) slices_.emplace_back();
+  slices_.front().alive.reserve(room.region_distances);
+}
+
+std::size_t RegionDistances::byte_count() const {
+  std::size_t bytes = bytes_of(slices_);
+  for (const Slice& slice : slices_) bytes += bytes_of(slice.alive);
+  return bytes;
+}
+
 RegionDistances::Slice& RegionDistances::add_slice(std::size_t begin, std::size_t end) {
   if (slices_.size() == slice_count_) slices_.emplace_back();
   Slice& slice = slices_[slice_count_++];

@@ -27,6 +27,8 @@ class RegionDistances {
 
   /// Of walks that are not cut.
   void reserve_as(const RegionDistances& other);
+  void reserve(const PairRoom& room);
+  [[nodiscard]] std::size_t byte_count() const;
 
  private:
   struct Slice {

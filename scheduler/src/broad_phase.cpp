@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <graze/bytes_of.hpp>
 
 namespace graze {
 namespace {
@@ -146,7 +147,7 @@ bool BroadPhase::wants_new_order() const {
 }
 
 std::span<BroadPhase::Slice> BroadPhase::begin_slices(std::size_t count) {
-  if (slices_.size() < count) slices_.resize(count);
+  while (slices_.size() < count) reserve(slices_.emplace_back());
   slice_count_ = count;
   for (Slice& slice : std::span(slices_).first(count)) {
     slice.pairs.clear();
@@ -252,14 +253,26 @@ void BroadPhase::merge() {
   pairs_.swap(merged_);
 }
 
+void BroadPhase::reserve(std::size_t pairs) {
+  constexpr std::size_t most_of_each_slice = 4096;
+  pairs_.reserve(pairs);
+  new_pairs_.reserve(pairs);
+  merged_.reserve(pairs);
+  pairs_of_each_slice_ = std::max(pairs_of_each_slice_, std::min(pairs, most_of_each_slice));
+  if (slices_.empty()) slices_.emplace_back();
+  for (Slice& slice : slices_) reserve(slice);
+}
+
+void BroadPhase::reserve(Slice& slice) const {
+  slice.pairs.reserve(pairs_of_each_slice_);
+  slice.found.reserve(pairs_of_each_slice_);
+}
+
 std::size_t BroadPhase::byte_count() const {
-  std::size_t bytes = loose_.capacity() * sizeof(Box) + tree_.byte_count() +
-                      (pairs_.capacity() + merged_.capacity() + new_pairs_.capacity()) * sizeof(PlacePair) +
-                      left_.capacity() * sizeof(std::uint32_t) + has_left_.capacity() +
-                      rows_.capacity() * sizeof(std::size_t) + slices_.capacity() * sizeof(Slice) +
-                      slice_objects_.capacity() * sizeof(SliceObjects);
-  for (const Slice& slice : slices_)
-    bytes += slice.pairs.capacity() * sizeof(PlacePair) + slice.found.capacity() * sizeof(std::uint32_t);
+  std::size_t bytes = bytes_of(loose_) + tree_.byte_count() + bytes_of(pairs_) + bytes_of(merged_) +
+                      bytes_of(new_pairs_) + bytes_of(left_) + bytes_of(has_left_) + bytes_of(rows_) +
+                      bytes_of(slices_) + bytes_of(slice_objects_);
+  for (const Slice& slice : slices_) bytes += bytes_of(slice.pairs) + bytes_of(slice.found);
   return bytes;
 }
 

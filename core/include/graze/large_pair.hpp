@@ -38,6 +38,9 @@ class GRAZE_API LargePair {
   [[nodiscard]] std::size_t slice_count() const;
   void run_slice(std::size_t index, PairDetector& detector, PairCounters& counters);
 
+  /// Bytes of working memory held.
+  [[nodiscard]] std::size_t byte_count() const;
+
  private:
   struct Stages;
   std::unique_ptr<Stages> stages_;
