@@ -30,6 +30,11 @@ constexpr std::size_t few = 8;
 /// Making a new order takes about as long as this many tests for each object.
 constexpr double tests_of_ordering = 64;
 
+/// A tree with more slots wants a new order.
+constexpr std::size_t most_slots(std::size_t objects) {
+  return 2 * objects + 64;
+}
+
 bool contains(const Box& box, const Box& other) {
   return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
 }
@@ -142,7 +147,7 @@ bool BroadPhase::leaves(const ObjectSummary& summary, Box& loose) const {
 
 bool BroadPhase::wants_new_order() const {
   const std::size_t count = loose_.size();
-  return tree_.slot_count() > 2 * count + 64 || tree_.unordered_count() > count / few + 64 ||
+  return tree_.slot_count() > most_slots(count) || tree_.unordered_count() > count / few + 64 ||
          excess_tests_ > tests_of_ordering * static_cast<double>(count);
 }
 
@@ -253,13 +258,21 @@ void BroadPhase::merge() {
   pairs_.swap(merged_);
 }
 
-void BroadPhase::reserve(std::size_t pairs) {
+void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
   constexpr std::size_t most_of_each_slice = 4096;
+  const std::size_t slots = most_slots(objects);
+  loose_.reserve(objects);
+  tree_.reserve(objects, slots);
+  left_.reserve(objects);
+  has_left_.reserve(objects);
+  slice_objects_.reserve(slices_of(objects, objects_of_slice));
+  rows_.reserve(objects + 1);
   pairs_.reserve(pairs);
   new_pairs_.reserve(pairs);
   merged_.reserve(pairs);
   pairs_of_each_slice_ = std::max(pairs_of_each_slice_, std::min(pairs, most_of_each_slice));
-  if (slices_.empty()) slices_.emplace_back();
+  const std::size_t slices = slices_of(slots, BoxOrder::block * blocks_of_slice);
+  if (slices_.size() < slices) slices_.resize(slices);
   for (Slice& slice : slices_) reserve(slice);
 }
 

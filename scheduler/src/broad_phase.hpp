@@ -38,8 +38,8 @@ class BroadPhase {
   [[nodiscard]] const Counters& counters() const { return counters_; }
   /// By place.
   [[nodiscard]] std::span<const Box> loose_boxes() const { return loose_; }
-  /// Makes room for so many pairs, of which any task finds up to 4,096.
-  void reserve(std::size_t pairs);
+  /// Makes room for so many objects and pairs, of which any task finds up to 4,096.
+  void reserve(std::size_t objects, std::size_t pairs);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

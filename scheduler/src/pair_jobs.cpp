@@ -24,10 +24,9 @@ std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::tim
 /// Pairs of leaves in the fronts of all pairs of objects together, 8 bytes each.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 
-// What each worker makes room for when room is reserved, of one pair; Scene::reserve says so.
-constexpr std::size_t most_contacts_reserved = 1024;
-constexpr std::size_t leaf_pairs_reserved = 1024;
-constexpr std::size_t ties_reserved = 256;
+/// What each worker makes room for when room is reserved, of one pair: so many contacts, pairs of leaves, and
+/// contacts at the least distance. SceneCapacity says so.
+constexpr std::size_t reserved_of_pair = 1024;
 
 /// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
 constexpr double stale_leaf_sizes = 0.25;
@@ -296,9 +295,8 @@ void PairJobs::reserve(std::size_t jobs, std::size_t contacts) {
   order_.reserve(jobs);
   small_jobs_.reserve(jobs);
   to_refit_.reserve(2 * jobs);
-  room_.contacts = std::max(room_.contacts, std::min(contacts, most_contacts_reserved));
-  room_.leaf_pairs = leaf_pairs_reserved;
-  room_.ties = ties_reserved;
+  room_.contacts = std::max(room_.contacts, std::min(contacts, reserved_of_pair));
+  room_.leaf_pairs = room_.ties = reserved_of_pair;
   room_.region_distances = settings_.region_distances;
   for (Worker& worker : workers_) worker.reserve(room_);
 }

@@ -119,8 +119,9 @@ bool PairTable::is_unchanged(const PairJob& job) const {
          memory.rules_version == filter_.rules_version();
 }
 
-void PairTable::reserve(std::size_t pairs, std::size_t leaf_pairs) {
-  broad_phase_.reserve(pairs);
+void PairTable::reserve(std::size_t objects, std::size_t pairs, std::size_t leaf_pairs) {
+  summaries_.reserve(objects);
+  broad_phase_.reserve(objects, pairs);
   selection_.reserve(pairs);
   memories_.reserve(pairs, leaf_pairs);
   jobs_.reserve(pairs);

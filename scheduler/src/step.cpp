@@ -1,5 +1,7 @@
 #include "step.hpp"
 
+#include <algorithm>
+
 #include "report_rows.hpp"
 
 namespace graze {
@@ -90,7 +92,8 @@ void Step::reserve(const SceneCapacity& capacity) {
                                       capacity.near_pairs > 0 ? settings_.region_distances : 0});
   if (capacity.near_pairs == 0) return;
   is_reserved_ = true;
-  pairs_.reserve(capacity.near_pairs, leaf_pairs_of_front);
+  pairs_.reserve(std::max(capacity.objects, store_.objects().size()), capacity.near_pairs,
+                 leaf_pairs_of_front);
   jobs_.reserve(capacity.near_pairs, capacity.contacts);
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
