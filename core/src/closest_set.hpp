@@ -1,5 +1,6 @@
 #pragma once
 
+#include <graze/pair_query.hpp>
 #include <limits>
 
 #include "contact_name.hpp"
@@ -24,6 +25,8 @@ struct Closest {
     pierced = false;
   }
   void reserve_as(const Closest& other) { names.reserve_as(other.names); }
+  void reserve(const PairRoom& room) { names.reserve(room.ties); }
+  [[nodiscard]] std::size_t byte_count() const { return names.byte_count(); }
 };
 
 /// Takes offers of names; the bound only shrinks.

@@ -23,6 +23,13 @@ struct DmvScratch {
     graze::reserve_as(front, other.front);
     graze::reserve_as(next, other.next);
   }
+  void reserve(const PairRoom& room) {
+    // Of the pairs of a level only some are near.
+    constexpr std::size_t tested_for_one = 16;
+    front.reserve(tested_for_one * room.leaf_pairs);
+    next.reserve(tested_for_one * room.leaf_pairs);
+  }
+  [[nodiscard]] std::size_t byte_count() const { return bytes_of(front) + bytes_of(next); }
 };
 
 /// How much of a query's budget is left, counted in region pairs tested.

@@ -57,6 +57,14 @@ class FeatureBlock {
     graze::reserve_as(owners_, other.owners_);
     graze::reserve_as(touches_, other.touches_);
   }
+  void reserve(std::size_t most) {
+    begin(most);
+    owners_.reserve(most);
+    touches_.reserve(most);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return bytes_of(data_) + bytes_of(owners_) + bytes_of(touches_);
+  }
 
   [[nodiscard]] Part part() const { return part_; }
   [[nodiscard]] std::size_t count() const { return owners_.size(); }

@@ -30,6 +30,11 @@ struct FloatFilterScratch {
     graze::reserve_as(index, other.index);
     graze::reserve_as(bound, other.bound);
   }
+  void reserve(std::size_t features) {
+    index.reserve(features);
+    bound.reserve(features);
+  }
+  [[nodiscard]] std::size_t byte_count() const { return bytes_of(index) + bytes_of(bound); }
 };
 
 /// Lets the float kernels look at all pairs of two blocks of features, and hands on what they leave. A quad

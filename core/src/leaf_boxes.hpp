@@ -43,6 +43,11 @@ class LeafBoxes {
     graze::reserve_as(boxes_, other.boxes_);
     graze::reserve_as(made_in_, other.made_in_);
   }
+  void reserve(std::size_t regions) {
+    boxes_.reserve(regions);
+    made_in_.reserve(regions);
+  }
+  [[nodiscard]] std::size_t byte_count() const { return bytes_of(boxes_) + bytes_of(made_in_); }
 
   /// Stays until the next `begin`.
   const Box& of(std::uint32_t leaf) {

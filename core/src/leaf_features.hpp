@@ -1,6 +1,7 @@
 #pragma once
 
 #include <graze/box.hpp>
+#include <graze/pair_query.hpp>
 #include <graze/region_tree.hpp>
 #include <graze/surface.hpp>
 #include <vector>
@@ -42,6 +43,17 @@ class LeafFeatures {
     triangles.reserve_as(other.triangles);
     folds.reserve_as(other.folds);
     graze::reserve_as(folded_, other.folded_);
+  }
+  void reserve(const PairRoom& room) {
+    vertices.reserve(room.leaf_vertices);
+    edges.reserve(room.leaf_edges);
+    triangles.reserve(2 * room.leaf_faces);
+    folds.reserve(room.leaf_faces);
+    folded_.reserve(room.leaf_faces);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return vertices.byte_count() + edges.byte_count() + triangles.byte_count() + folds.byte_count() +
+           bytes_of(folded_);
   }
 
  private:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "contact_name.hpp"
 #include "leaf_features.hpp"
 #include "piercing.hpp"
@@ -15,6 +17,14 @@ struct LeafScratch {
     a.reserve_as(other.a);
     b.reserve_as(other.b);
     filter.reserve_as(other.filter);
+  }
+  void reserve(const PairRoom& room) {
+    a.reserve(room);
+    b.reserve(room);
+    filter.reserve(std::max({room.leaf_vertices, room.leaf_edges, 2 * room.leaf_faces}));
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return a.byte_count() + b.byte_count() + filter.byte_count();
   }
 };
 

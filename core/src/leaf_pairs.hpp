@@ -31,6 +31,14 @@ struct LeafPairScratch {
     boxes_a.reserve_as(other.boxes_a);
     boxes_b.reserve_as(other.boxes_b);
   }
+  void reserve(const PairRoom& room) {
+    dmv.reserve(room);
+    boxes_a.reserve(room.regions);
+    boxes_b.reserve(room.regions);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return dmv.byte_count() + boxes_a.byte_count() + boxes_b.byte_count();
+  }
 };
 
 /// Pairs of leaves that a query looks into, and how near what it does not can be.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <graze/bytes_of.hpp>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "contact_name.hpp"
@@ -45,10 +47,18 @@ class NameSet {
     while (begins_.size() > 1) merge_last();
   }
 
+  void reserve(std::size_t count) {
+    names_.reserve(count);
+    begins_.reserve(std::numeric_limits<std::size_t>::digits);
+    merged_.reserve(count);
+  }
   void reserve_as(const NameSet& other) {
     graze::reserve_as(names_, other.names_);
     graze::reserve_as(begins_, other.begins_);
     graze::reserve_as(merged_, other.merged_);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return bytes_of(names_) + bytes_of(begins_) + bytes_of(merged_);
   }
 
  private:

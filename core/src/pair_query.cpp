@@ -1,8 +1,8 @@
+#include <algorithm>
 #include <graze/pair_query.hpp>
 
 #include "bounds.hpp"
 #include "pair_detector_scratch.hpp"
-#include "region_distances.hpp"
 
 namespace graze {
 
@@ -15,6 +15,17 @@ void PairCounters::add(const PairCounters& other) {
   fronts_left_out += other.fronts_left_out;
   for (std::size_t level = 0; level < regions_expanded.size(); ++level)
     regions_expanded[level] += other.regions_expanded[level];
+}
+
+void PairRoom::include(const Mesh& mesh) {
+  const auto all = mesh.regions().regions();
+  regions = std::max(regions, all.size());
+  for (const Region& region : all) {
+    if (!region.is_leaf()) continue;
+    leaf_vertices = std::max<std::size_t>(leaf_vertices, region.vertex_count);
+    leaf_edges = std::max<std::size_t>(leaf_edges, region.edge_count);
+    leaf_faces = std::max<std::size_t>(leaf_faces, region.face_count);
+  }
 }
 
 namespace {
@@ -41,6 +52,18 @@ PairDetector& PairDetector::operator=(PairDetector&&) noexcept = default;
 void PairDetector::reserve_as(const PairDetector& other) {
   scratch_->search.reserve_as(other.scratch_->search);
   scratch_->memory.reserve_as(other.scratch_->memory);
+  scratch_->region_distances.reserve_as(other.scratch_->region_distances);
+}
+
+void PairDetector::reserve(const PairRoom& room) {
+  scratch_->search.reserve(room);
+  scratch_->memory.reserve(room);
+  scratch_->region_distances.reserve(room);
+}
+
+std::size_t PairDetector::byte_count() const {
+  return sizeof(Scratch) + scratch_->search.byte_count() + scratch_->memory.byte_count() +
+         scratch_->region_distances.byte_count() + bytes_of(scratch_->no_front.leaves);
 }
 
 void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQuery& query,
@@ -68,8 +91,8 @@ void PairDetector::detect(const Surface& a, const Surface& b, const PairQuery& q
 
 void PairDetector::region_distances(const Surface& a, const Surface& b, const PairQuery& query,
                                     PairAnswer& answer) {
-  DecisionCount decisions;
-  find_region_distances({a, b, decisions}, query, scratch_->memory.leaf_pairs.dmv, answer);
+  scratch_->region_distances.begin(a, b, query, answer, false);
+  scratch_->region_distances.advance();
 }
 
 }  // namespace graze

@@ -158,6 +158,24 @@ void PairSearch::reserve_as(const PairSearch& other) {
   closest_.closest.reserve_as(other.closest_.closest);
 }
 
+void PairSearch::reserve(const PairRoom& room) {
+  if (slices_.empty()) slices_.emplace_back();
+  // A contact is found once for each of the features about it.
+  constexpr std::size_t names_of_contact = 8;
+  for (auto* const leaves : {&found_.leaves, &slices_.front().found.leaves}) leaves->reserve(room.leaf_pairs);
+  for (auto* const names : {&names_, &slices_.front().names})
+    names->reserve(names_of_contact * room.contacts);
+  closest_.closest.reserve(room);
+}
+
+std::size_t PairSearch::byte_count() const {
+  std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
+                      bytes_of(run_ends_) + bytes_of(merged_) + closest_.closest.byte_count();
+  for (const Slice& slice : slices_)
+    bytes += bytes_of(slice.found.leaves) + bytes_of(slice.names) + slice.closest.closest.byte_count();
+  return bytes;
+}
+
 // ---- Slices
 
 PairSearch::Slice& PairSearch::add_slice() {

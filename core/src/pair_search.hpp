@@ -30,6 +30,18 @@ struct SearchScratch {
     lowest.reserve_as(other.lowest);
     parallel.reserve_as(other.parallel);
   }
+  void reserve(const PairRoom& room) {
+    leaf_pairs.reserve(room);
+    features.reserve(room);
+    nearest_of_leaves.reserve(room);
+    paper.reserve(room);
+    lowest.reserve(room);
+    parallel.reserve(room);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return leaf_pairs.byte_count() + features.byte_count() + nearest_of_leaves.byte_count() +
+           paper.byte_count() + lowest.byte_count() + parallel.byte_count();
+  }
 };
 
 /// One query about one pair of surfaces: DMV, DV and contact determination, as stages of slices. A slice
@@ -50,6 +62,8 @@ class PairSearch {
 
   /// Of searches that are not cut.
   void reserve_as(const PairSearch& other);
+  void reserve(const PairRoom& room);
+  [[nodiscard]] std::size_t byte_count() const;
 
  private:
   /// What the slices that were made last are for.

@@ -21,6 +21,15 @@ struct PaperScratch {
     closest.reserve_as(other.closest);
     leaf_closest.reserve_as(other.leaf_closest);
   }
+  void reserve(const PairRoom& room) {
+    dmv.reserve(room);
+    leaves.reserve(room);
+    closest.reserve(room);
+    leaf_closest.reserve(room);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return dmv.byte_count() + leaves.byte_count() + closest.byte_count() + leaf_closest.byte_count();
+  }
 };
 
 /// What the paper's method found of a pair.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <graze/contact.hpp>
+#include <graze/pair_query.hpp>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,17 @@ struct ParallelScratch {
     graze::reserve_as(holders, other.holders);
     graze::reserve_as(candidates, other.candidates);
     graze::reserve_as(found, other.found);
+  }
+  void reserve(const PairRoom& room) {
+    holders_a.reserve(room.ties);
+    holders_b.reserve(room.ties);
+    holders.reserve(room.ties);
+    candidates.reserve(room.ties);
+    found.reserve(room.ties);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return bytes_of(holders_a) + bytes_of(holders_b) + bytes_of(holders) + bytes_of(candidates) +
+           bytes_of(found);
   }
 };
 

@@ -3,66 +3,178 @@
 #include <algorithm>
 
 #include "bounds.hpp"
+#include "contact_name.hpp"
 #include "paper.hpp"
+#include "reserve_as.hpp"
 
 namespace graze {
 namespace {
 
-class RegionDistances {
- public:
-  RegionDistances(const SurfacePair& pair, const PairQuery& query, PairAnswer& answer)
-      : pair_(pair),
-        query_(query),
-        answer_(answer),
-        bounds_(pair.a, pair.b, is_about_vertices(query.detail)) {}
+/// Pairs tested by a slice, some tens of microseconds of work.
+constexpr std::size_t pairs_each = 256;
 
-  /// Whether the pair is alive: eq. 4 in AccuracyMode::paper, otherwise the certified bound. The pair of
-  /// roots is where the walk begins and no distance of its own.
-  bool offer(const RegionPair& regions, const Region& a, const Region& b) {
-    const std::uint32_t level = std::max(a.level, b.level);
-    if (level == 0) return true;
-    if (!is_alive(regions, a, b)) return false;
-    if (answer_.region_distances.size() == query_.region_distance_limit) {
-      ++answer_.region_distances_left_out;
-      return false;
-    }
-    const Eigen::Vector3d& point_a = pair_.a.position(a.middle);
-    const Eigen::Vector3d& point_b = pair_.b.position(b.middle);
-    answer_.region_distances.push_back(
-        {level, regions.a, regions.b, a.middle, b.middle, point_a, point_b, (point_b - point_a).norm()});
-    return true;
+/// The regions that take a region's place one level down: a leaf stays.
+struct Below {
+  Below(const Region& region, std::uint32_t index)
+      : first(region.is_leaf() ? index : region.first_child),
+        count(region.is_leaf() ? 1 : region.child_count) {}
+  std::uint32_t first;
+  std::uint32_t count;
+};
+
+}  // namespace
+
+/// One thread's look at the pairs below others.
+class RegionDistances::Test {
+ public:
+  explicit Test(const RegionDistances& walk)
+      : query_(walk.query_),
+        pair_{*walk.a_, *walk.b_, decisions_},
+        bounds_(*walk.a_, *walk.b_, is_about_vertices(walk.query_.detail)),
+        room_(query_.region_distance_limit - walk.answer_->region_distances.size()) {}
+  Test(const Test&) = delete;
+  Test& operator=(const Test&) = delete;
+
+  void test_below(const RegionPair& parents, Slice& slice) const {
+    const Region& parent_a = region_a(parents.a);
+    const Region& parent_b = region_b(parents.b);
+    if (parent_a.is_leaf() && parent_b.is_leaf()) return;
+    const Below below_a(parent_a, parents.a);
+    const Below below_b(parent_b, parents.b);
+    for (std::uint32_t i = 0; i < below_a.count; ++i)
+      for (std::uint32_t j = 0; j < below_b.count; ++j) test({below_a.first + i, below_b.first + j}, slice);
   }
 
  private:
+  [[nodiscard]] const Region& region_a(std::uint32_t index) const {
+    return pair_.a.mesh().regions().region(index);
+  }
+  [[nodiscard]] const Region& region_b(std::uint32_t index) const {
+    return pair_.b.mesh().regions().region(index);
+  }
+
+  void test(const RegionPair& regions, Slice& slice) const {
+    const Region& a = region_a(regions.a);
+    const Region& b = region_b(regions.b);
+    if (!is_alive(regions, a, b)) return;
+    if (slice.alive.size() == room_) {
+      ++slice.left_out;
+      return;
+    }
+    const Eigen::Vector3d& point_a = pair_.a.position(a.middle);
+    const Eigen::Vector3d& point_b = pair_.b.position(b.middle);
+    slice.alive.push_back({std::max(a.level, b.level), regions.a, regions.b, a.middle, b.middle, point_a,
+                           point_b, (point_b - point_a).norm()});
+  }
+  /// Eq. 4 in AccuracyMode::paper, otherwise the certified bound.
   [[nodiscard]] bool is_alive(const RegionPair& regions, const Region& a, const Region& b) const {
     if (query_.mode == AccuracyMode::paper) return passes_as_in_paper(pair_, query_, a, b);
     const double lower = bounds_.lower(regions);
     return lower < query_.region_distance_reach || lower == 0;
   }
 
-  const SurfacePair& pair_;
   const PairQuery& query_;
-  PairAnswer& answer_;
-  RegionBounds bounds_;
+  DecisionCount decisions_;
+  const SurfacePair pair_;
+  const RegionBounds bounds_;
+  const std::size_t room_;  ///< places left when the level was cut
 };
 
-}  // namespace
-
-void find_region_distances(const SurfacePair& pair, const PairQuery& query, DmvScratch& scratch,
-                           PairAnswer& answer) {
+/// The pair of roots is where the walk begins and no distance of its own.
+void RegionDistances::begin(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer,
+                            bool sliced) {
+  a_ = &a;
+  b_ = &b;
+  query_ = query;
+  answer_ = &answer;
+  sliced_ = sliced;
   answer.region_distances.clear();
   answer.region_distances_left_out = 0;
-  RegionDistances distances(pair, query, answer);
-  PairCounters not_counted;
-  WorkMeter meter(PairQuery{}, not_counted);
-  scratch.front.assign(1, RegionPair{});
-  dmv(
-      pair.a.mesh().regions(), pair.b.mesh().regions(), scratch, meter,
-      [&](const RegionPair& regions, const Region& a, const Region& b) {
-        const bool alive = distances.offer(regions, a, b);
-        return Expansion{alive, alive};
-      },
-      [&](const RegionPair& leaves, const Region& a, const Region& b) { distances.offer(leaves, a, b); });
+  slice_count_ = 0;
+  Test(*this).test_below({}, add_slice(0, 0));
+}
+
+bool RegionDistances::advance() {
+  while (true) {
+    gather();
+    cut();
+    if (slice_count_ == 0) return true;
+    if (slice_count_ > 1) return false;
+    run_slice(0);
+  }
+}
+
+void RegionDistances::run_slice(std::size_t index) {
+  const Test test(*this);
+  Slice& slice = slices_[index];
+  for (std::size_t i = slice.begin; i < slice.end; ++i) {
+    const RegionDistance& listed = answer_->region_distances[i];
+    test.test_below({listed.region_a, listed.region_b}, slice);
+  }
+}
+
+void RegionDistances::reserve_as(const RegionDistances& other) {
+  if (other.slices_.empty()) return;
+  if (slices_.empty()) slices_.emplace_back();
+  graze::reserve_as(slices_.front().alive, other.slices_.front().alive);
+}
+
+void RegionDistances::reserve(const PairRoom& room) {
+  if (slices_.empty()) slices_.emplace_back();
+  slices_.front().alive.reserve(room.region_distances);
+}
+
+std::size_t RegionDistances::byte_count() const {
+  std::size_t bytes = bytes_of(slices_);
+  for (const Slice& slice : slices_) bytes += bytes_of(slice.alive);
+  return bytes;
+}
+
+RegionDistances::Slice& RegionDistances::add_slice(std::size_t begin, std::size_t end) {
+  if (slices_.size() == slice_count_) slices_.emplace_back();
+  Slice& slice = slices_[slice_count_++];
+  slice.begin = begin;
+  slice.end = end;
+  slice.alive.clear();
+  slice.left_out = 0;
+  return slice;
+}
+
+/// Lists what the slices found, as far as there are places.
+void RegionDistances::gather() {
+  auto& listed = answer_->region_distances;
+  level_begin_ = listed.size();
+  for (std::size_t i = 0; i < slice_count_; ++i) {
+    const Slice& slice = slices_[i];
+    const std::size_t taken = std::min(slice.alive.size(), query_.region_distance_limit - listed.size());
+    listed.insert(listed.end(), slice.alive.begin(),
+                  slice.alive.begin() + static_cast<std::ptrdiff_t>(taken));
+    answer_->region_distances_left_out += slice.alive.size() - taken + slice.left_out;
+  }
+}
+
+/// Makes the slices of the next level.
+void RegionDistances::cut() {
+  slice_count_ = 0;
+  const auto& listed = answer_->region_distances;
+  const std::size_t most = sliced_ ? pairs_each : std::numeric_limits<std::size_t>::max();
+  std::size_t begin = level_begin_;
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < listed.size(); ++i) {
+    count += count_below(listed[i]);
+    if (count < most && i + 1 < listed.size()) continue;
+    if (count > 0) add_slice(begin, i + 1);
+    begin = i + 1;
+    count = 0;
+  }
+}
+
+/// How many pairs take its place one level down.
+std::size_t RegionDistances::count_below(const RegionDistance& listed) const {
+  const Region& a = a_->mesh().regions().region(listed.region_a);
+  const Region& b = b_->mesh().regions().region(listed.region_b);
+  if (a.is_leaf() && b.is_leaf()) return 0;
+  return std::size_t{Below(a, listed.region_a).count} * Below(b, listed.region_b).count;
 }
 
 }  // namespace graze

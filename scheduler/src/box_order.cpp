@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <graze/bytes_of.hpp>
 #include <limits>
 
 namespace graze {
@@ -110,8 +111,14 @@ void BoxOrder::halve_large() {
     }
 }
 
+void BoxOrder::reserve(std::size_t boxes, std::size_t slots) {
+  unsorted_.reserve(boxes);
+  items_.reserve(slots);
+  ranges_.reserve(class_count + 4 * (boxes / large_range));
+}
+
 std::size_t BoxOrder::byte_count() const {
-  return (unsorted_.capacity() + items_.capacity()) * sizeof(Item) + ranges_.capacity() * sizeof(Range);
+  return bytes_of(unsorted_) + bytes_of(items_) + bytes_of(ranges_);
 }
 
 }  // namespace graze

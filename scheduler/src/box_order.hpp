@@ -22,6 +22,8 @@ class BoxOrder {
   /// what stays empty of the last is no_place, and the count is a multiple of `block`.
   void make(std::span<const Box> boxes, std::vector<std::uint32_t>& slots, TaskPool& tasks);
 
+  /// Makes room for orders of so many boxes and slots.
+  void reserve(std::size_t boxes, std::size_t slots);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

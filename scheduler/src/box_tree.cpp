@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <functional>
+#include <graze/bytes_of.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -245,11 +246,23 @@ std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::uint32_t other,
   return tested;
 }
 
+void BoxTree::reserve(std::size_t boxes, std::size_t slots) {
+  order_.reserve(boxes, slots);
+  slot_of_.reserve(boxes);
+  place_of_.reserve(slots);
+  ordered_sides_.reserve(slots / width + 1);
+  std::size_t nodes = slots;
+  for (std::size_t level = 0;; ++level, nodes = (nodes + width - 1) / width) {
+    if (levels_.size() <= level) levels_.emplace_back();
+    levels_[level].reserve((nodes + width - 1) / width * width);
+    if (nodes <= 1) return;
+  }
+}
+
 std::size_t BoxTree::byte_count() const {
-  std::size_t bytes = order_.byte_count() +
-                      (place_of_.capacity() + slot_of_.capacity()) * sizeof(std::uint32_t) +
-                      ordered_sides_.capacity() * sizeof(double);
-  for (const auto& level : levels_) bytes += level.capacity() * sizeof(Limits);
+  std::size_t bytes = order_.byte_count() + bytes_of(place_of_) + bytes_of(slot_of_) +
+                      bytes_of(ordered_sides_) + bytes_of(levels_);
+  for (const auto& level : levels_) bytes += bytes_of(level);
   return bytes;
 }
 

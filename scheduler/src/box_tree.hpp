@@ -50,6 +50,8 @@ class BoxTree {
   [[nodiscard]] std::size_t unordered_count() const { return place_of_.size() - ordered_; }
   /// Blocks that are more than twice as large as when they were ordered.
   [[nodiscard]] std::size_t widened_blocks() const;
+  /// Makes room for so many boxes and slots.
+  void reserve(std::size_t boxes, std::size_t slots);
   [[nodiscard]] std::size_t byte_count() const;
 
   /// Throws std::logic_error where a place is not in one slot with its box, or a node does not contain its

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <graze/bytes_of.hpp>
 
 namespace graze {
 namespace {
@@ -28,6 +29,11 @@ constexpr std::size_t few = 8;
 
 /// Making a new order takes about as long as this many tests for each object.
 constexpr double tests_of_ordering = 64;
+
+/// A tree with more slots wants a new order.
+constexpr std::size_t most_slots(std::size_t objects) {
+  return 2 * objects + 64;
+}
 
 bool contains(const Box& box, const Box& other) {
   return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
@@ -141,12 +147,12 @@ bool BroadPhase::leaves(const ObjectSummary& summary, Box& loose) const {
 
 bool BroadPhase::wants_new_order() const {
   const std::size_t count = loose_.size();
-  return tree_.slot_count() > 2 * count + 64 || tree_.unordered_count() > count / few + 64 ||
+  return tree_.slot_count() > most_slots(count) || tree_.unordered_count() > count / few + 64 ||
          excess_tests_ > tests_of_ordering * static_cast<double>(count);
 }
 
 std::span<BroadPhase::Slice> BroadPhase::begin_slices(std::size_t count) {
-  if (slices_.size() < count) slices_.resize(count);
+  while (slices_.size() < count) reserve(slices_.emplace_back());
   slice_count_ = count;
   for (Slice& slice : std::span(slices_).first(count)) {
     slice.pairs.clear();
@@ -252,14 +258,34 @@ void BroadPhase::merge() {
   pairs_.swap(merged_);
 }
 
+void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
+  constexpr std::size_t most_of_each_slice = 4096;
+  const std::size_t slots = most_slots(objects);
+  loose_.reserve(objects);
+  tree_.reserve(objects, slots);
+  left_.reserve(objects);
+  has_left_.reserve(objects);
+  slice_objects_.reserve(slices_of(objects, objects_of_slice));
+  rows_.reserve(objects + 1);
+  pairs_.reserve(pairs);
+  new_pairs_.reserve(pairs);
+  merged_.reserve(pairs);
+  pairs_of_each_slice_ = std::max(pairs_of_each_slice_, std::min(pairs, most_of_each_slice));
+  const std::size_t slices = slices_of(slots, BoxOrder::block * blocks_of_slice);
+  if (slices_.size() < slices) slices_.resize(slices);
+  for (Slice& slice : slices_) reserve(slice);
+}
+
+void BroadPhase::reserve(Slice& slice) const {
+  slice.pairs.reserve(pairs_of_each_slice_);
+  slice.found.reserve(pairs_of_each_slice_);
+}
+
 std::size_t BroadPhase::byte_count() const {
-  std::size_t bytes = loose_.capacity() * sizeof(Box) + tree_.byte_count() +
-                      (pairs_.capacity() + merged_.capacity() + new_pairs_.capacity()) * sizeof(PlacePair) +
-                      left_.capacity() * sizeof(std::uint32_t) + has_left_.capacity() +
-                      rows_.capacity() * sizeof(std::size_t) + slices_.capacity() * sizeof(Slice) +
-                      slice_objects_.capacity() * sizeof(SliceObjects);
-  for (const Slice& slice : slices_)
-    bytes += slice.pairs.capacity() * sizeof(PlacePair) + slice.found.capacity() * sizeof(std::uint32_t);
+  std::size_t bytes = bytes_of(loose_) + tree_.byte_count() + bytes_of(pairs_) + bytes_of(merged_) +
+                      bytes_of(new_pairs_) + bytes_of(left_) + bytes_of(has_left_) + bytes_of(rows_) +
+                      bytes_of(slices_) + bytes_of(slice_objects_);
+  for (const Slice& slice : slices_) bytes += bytes_of(slice.pairs) + bytes_of(slice.found);
   return bytes;
 }
 

@@ -38,6 +38,8 @@ class BroadPhase {
   [[nodiscard]] const Counters& counters() const { return counters_; }
   /// By place.
   [[nodiscard]] std::span<const Box> loose_boxes() const { return loose_; }
+  /// Makes room for so many objects and pairs, of which any task finds up to 4,096.
+  void reserve(std::size_t objects, std::size_t pairs);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
@@ -57,6 +59,7 @@ class BroadPhase {
   bool leaves(const ObjectSummary& summary, Box& loose) const;
   [[nodiscard]] bool wants_new_order() const;
   std::span<Slice> begin_slices(std::size_t count);
+  void reserve(Slice& slice) const;
   std::uint64_t sum_tests();
   void find_all(TaskPool& tasks);
   void sort_rows(TaskPool& tasks);
@@ -73,8 +76,9 @@ class BroadPhase {
   std::vector<std::uint8_t> has_left_;  ///< by place
   std::vector<SliceObjects> slice_objects_;
   std::vector<Slice> slices_;
-  std::size_t slice_count_ = 0;    ///< of them in use
-  std::vector<std::size_t> rows_;  ///< where in pairs_ those of each first object begin or end
+  std::size_t pairs_of_each_slice_ = 0;  ///< that room was reserved for
+  std::size_t slice_count_ = 0;          ///< of them in use
+  std::vector<std::size_t> rows_;        ///< where in pairs_ those of each first object begin or end
   std::vector<PlacePair> new_pairs_;
   std::vector<PlacePair> merged_;
   Counters counters_;

@@ -78,6 +78,7 @@ class CallQueue {
 
   /// Makes room for that many calls that wait at once.
   void reserve(std::size_t count) { calls_.reserve(count); }
+  [[nodiscard]] std::size_t byte_count() const noexcept { return calls_.byte_count(); }
 
  private:
   static constexpr std::uint32_t none = IndexPool<Call>::none;

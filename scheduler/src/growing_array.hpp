@@ -44,6 +44,15 @@ class GrowingArray {
     return made[place.offset];
   }
 
+  /// Bytes of the elements made; not what they hold themselves.
+  [[nodiscard]] std::size_t byte_count() const noexcept {
+    std::size_t bytes = 0;
+    for (std::size_t chunk = 0; chunk < chunk_count; ++chunk)
+      if (chunks_[chunk].load(std::memory_order_relaxed) != nullptr)
+        bytes += (first_chunk << chunk) * sizeof(Element);
+    return bytes;
+  }
+
  private:
   static constexpr std::size_t first_chunk = 64;
   static constexpr std::size_t chunk_count = 27;  ///< for every 32-bit index

@@ -63,6 +63,8 @@ class IndexPool {
   void reserve(std::size_t count) {
     for (std::size_t index = 0; index < count; ++index) entries_.make(static_cast<std::uint32_t>(index));
   }
+  /// Bytes of the elements made; not what they hold themselves.
+  [[nodiscard]] std::size_t byte_count() const noexcept { return entries_.byte_count(); }
 
  private:
   struct Entry {

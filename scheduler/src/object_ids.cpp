@@ -88,7 +88,7 @@ void ObjectIds::unpin(std::uint32_t index) noexcept {
   if ((before & phase_mask) != gone || (before & pin_mask) != 1) return;
   place.named.mesh.reset();
   place.named.settings = {};
-  place.named.spare_positions.clear();
+  place.named.spare_positions.clear(position_bytes_);
   const std::uint32_t generation = generation_of(before);
   place.state.store(std::uint64_t{generation} << 32 | absent, std::memory_order_relaxed);
   // An index whose generations are used up is never given again.

@@ -64,6 +64,15 @@ class ObjectIds {
   /// Ids given and not removed.
   [[nodiscard]] std::size_t count() const noexcept { return count_.load(std::memory_order_relaxed); }
   void reserve(std::size_t count) { places_.reserve(count); }
+  /// A buffer for a copy of the positions of an object that is pinned.
+  [[nodiscard]] SparePositions::Loan lend_positions(NamedObject& object) {
+    return object.spare_positions.lend(object.mesh->vertex_count(), position_bytes_);
+  }
+
+  /// Of all places, and of all buffers of positions, lent or kept.
+  [[nodiscard]] std::size_t byte_count() const noexcept {
+    return places_.byte_count() + position_bytes_.load(std::memory_order_relaxed);
+  }
 
  private:
   struct Place {
@@ -72,6 +81,7 @@ class ObjectIds {
   };
   void unpin(std::uint32_t index) noexcept;
 
+  SparePositions::ByteCount position_bytes_{0};  ///< goes after the places, whose buffers are counted in it
   IndexPool<Place> places_;
   std::atomic<std::size_t> count_{0};
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <graze/bytes_of.hpp>
 #include <utility>
 
 #include "object_name.hpp"
@@ -111,7 +112,7 @@ void ObjectStore::apply(const RemoveObject& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
   by_index_[call.object.index] = nullptr;
-  byte_count_ -= object->counted_bytes;
+  surface_bytes_ -= object->counted_bytes;
   object->removed = true;
   const auto place = std::lower_bound(serials_.begin(), serials_.end(), object->serial) - serials_.begin();
   removed_.push_back(std::move(objects_[static_cast<std::size_t>(place)]));
@@ -182,7 +183,13 @@ std::size_t ObjectStore::unread_count() const {
 
 void ObjectStore::count_bytes(Object& object) {
   const std::size_t bytes = object.surface().byte_count();
-  byte_count_ += bytes - std::exchange(object.counted_bytes, bytes);
+  surface_bytes_ += bytes - std::exchange(object.counted_bytes, bytes);
+}
+
+std::size_t ObjectStore::byte_count() const {
+  return surface_bytes_ + objects_.size() * sizeof(Object) + bytes_of(objects_) + bytes_of(serials_) +
+         bytes_of(by_index_) + bytes_of(removed_) + bytes_of(with_input_) + bytes_of(to_read_) +
+         bytes_of(large_) + bytes_of(parts_) + bytes_of(read_problems_) + bytes_of(problems_);
 }
 
 void ObjectStore::expect_input(Object& object) {

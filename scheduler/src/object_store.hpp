@@ -42,7 +42,7 @@ struct Object {
 
   bool is_large = false;          ///< it is worth several tasks
   bool removed = false;           ///< it goes before the next read
-  std::size_t counted_bytes = 0;  ///< its part of ObjectStore::byte_count
+  std::size_t counted_bytes = 0;  ///< its part of ObjectStore::surface_bytes_
 
   [[nodiscard]] const Surface& surface() const {
     require_read(StepData::surfaces, this);
@@ -84,8 +84,8 @@ class ObjectStore {
 
   /// Takes up how many bytes an object's surface holds now.
   void count_bytes(Object& object);
-  /// Of all surfaces, as they were counted last.
-  [[nodiscard]] std::size_t byte_count() const { return byte_count_; }
+  /// Of all objects, with their surfaces as they were counted last.
+  [[nodiscard]] std::size_t byte_count() const;
 
  private:
   /// Some vertices of a large object.
@@ -118,7 +118,7 @@ class ObjectStore {
   std::vector<std::optional<Diagnostic>> read_problems_;        ///< of `to_read_`; empty between reads
   std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial
   std::uint64_t next_serial_ = 0;
-  std::size_t byte_count_ = 0;
+  std::size_t surface_bytes_ = 0;
 };
 
 }  // namespace graze

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <graze/bytes_of.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -46,9 +47,12 @@ class ObjectSummaries {
   /// are where they were. New objects stand behind all others.
   [[nodiscard]] std::span<const std::uint32_t> moves() const { return moves_; }
   [[nodiscard]] bool some_unread() const { return some_unread_; }
-  [[nodiscard]] std::size_t byte_count() const {
-    return summaries_.capacity() * sizeof(ObjectSummary) + moves_.capacity() * sizeof(std::uint32_t);
+  /// Makes room for so many objects.
+  void reserve(std::size_t objects) {
+    summaries_.reserve(objects);
+    moves_.reserve(objects);
   }
+  [[nodiscard]] std::size_t byte_count() const { return bytes_of(summaries_) + bytes_of(moves_); }
 
  private:
   /// Takes those out that are gone, and puts new ones in.

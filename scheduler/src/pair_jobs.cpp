@@ -1,6 +1,7 @@
 #include "pair_jobs.hpp"
 
 #include <algorithm>
+#include <graze/bytes_of.hpp>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -23,6 +24,10 @@ std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::tim
 /// Pairs of leaves in the fronts of all pairs of objects together, 8 bytes each.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 
+/// What each worker makes room for when room is reserved, of one pair: so many contacts, pairs of leaves, and
+/// contacts at the least distance. SceneCapacity says so.
+constexpr std::size_t reserved_of_pair = 1024;
+
 /// How loose a front is made: it lasts for some steps of the last motion, but is not so loose that it lists
 /// much that is not near.
 double slack_of(const Surface& a, const Surface& b) {
@@ -35,10 +40,14 @@ double slack_of(const Surface& a, const Surface& b) {
   return std::clamp(steps * motion, least_leaf_sizes * leaf, most_leaf_sizes * leaf);
 }
 
+std::size_t bytes_of_lists(const PairAnswer& answer) {
+  return bytes_of(answer.contacts) + bytes_of(answer.region_distances);
+}
+
 }  // namespace
 
 PairJobs::PairJobs(const SceneSettings& settings, TaskPool& tasks)
-    : settings_(settings), tasks_(tasks), detectors_(tasks.worker_count()), counters_(tasks.worker_count()) {}
+    : settings_(settings), tasks_(tasks), answers_(tasks.worker_count()), workers_(tasks.worker_count()) {}
 
 PairQuery PairJobs::query_of(const PairJob& job) const {
   PairQuery query;
@@ -66,24 +75,15 @@ void PairJobs::run(std::span<const PairJob> jobs, std::uint64_t rules_version, C
   jobs_ = jobs;
   rules_version_ = rules_version;
   deadline_ = deadline_of(start, settings_.time_budget);
-  if (answers_.size() < jobs_.size()) answers_.resize(jobs_.size());
-  std::fill(counters_.begin(), counters_.end(), PairCounters{});
+  answers_.begin(jobs_.size());
+  large_answer_count_ = 0;
+  for (Worker& worker : workers_) worker.counters = {};
   order_.clear();
   for (std::uint32_t index = 0; index < jobs_.size(); ++index)
     if (jobs_[index].is_looked_at()) order_.push_back(index);
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget) return run_within_work(*settings_.work_budget);
   settings_.time_budget ? run_by_urgency() : run_group(order_);
-  even_out_memory();
-}
-
-/// Which worker gets which job is chance; what one has needed all have room for, so that a step like an
-/// earlier one takes no memory.
-void PairJobs::even_out_memory() {
-  for (std::size_t worker = 1; worker < detectors_.size(); ++worker)
-    detectors_.front().reserve_as(detectors_[worker]);
-  for (std::size_t worker = 1; worker < detectors_.size(); ++worker)
-    detectors_[worker].reserve_as(detectors_.front());
 }
 
 bool PairJobs::is_large(const PairJob& job) {
@@ -97,57 +97,86 @@ bool PairJobs::is_large(const PairJob& job) {
 /// worker; a slice writes its own place in its pair. Surfaces are only read. AccessScope holds them to it.
 void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
   small_jobs_.clear();
-  large_jobs_.clear();
+  large_count_ = 0;
   for (const std::uint32_t index : jobs)
-    (is_large(jobs_[index]) ? large_jobs_ : small_jobs_).push_back(index);
-  while (large_.size() < large_jobs_.size()) large_.emplace_back();
-  answered_.assign(large_jobs_.size(), 0);
+    if (is_large(jobs_[index]))
+      add_large(index);
+    else
+      small_jobs_.push_back(index);
   // Enough batches for any number of threads, and few enough that taking one costs nothing.
   const std::size_t each = std::clamp<std::size_t>(small_jobs_.size() / 256, 1, 16);
   const std::size_t batches = (small_jobs_.size() + each - 1) / each;
-  tasks_.run(large_jobs_.size() + batches, [&](unsigned worker, std::size_t item) {
-    if (item < large_jobs_.size()) return begin_large(static_cast<std::uint32_t>(item), worker);
-    const std::size_t begin = (item - large_jobs_.size()) * each;
+  large_answers_.resize(std::max(large_answers_.size(), large_answer_count_ + large_count_));
+  tasks_.run(large_count_ + batches, [&](unsigned worker, std::size_t item) {
+    if (item < large_count_) return begin_large(item, worker);
+    const std::size_t begin = (item - large_count_) * each;
     const std::size_t end = std::min(begin + each, small_jobs_.size());
     for (std::size_t i = begin; i < end; ++i) detect(small_jobs_[i], worker, unlimited);
   });
   run_rounds_of_slices();
+  large_answer_count_ += large_count_;
 }
 
-void PairJobs::begin_large(std::uint32_t place, unsigned worker) {
-  const std::uint32_t index = large_jobs_[place];
-  const PairJob& job = jobs_[index];
+void PairJobs::add_large(std::uint32_t index) {
+  if (large_.size() == large_count_) large_.emplace_back();
+  large_[large_count_++].job = index;
+}
+
+/// The place of its answer, in which it stays until the next step.
+PairAnswer& PairJobs::answer_of_large(std::size_t place) {
+  require_write(StepData::pairs, &jobs_[large_[place].job]);
+  return large_answers_[large_answer_count_ + place];
+}
+
+void PairJobs::begin_large(std::size_t place, unsigned worker) {
+  LargeJob& large = large_[place];
+  const PairJob& job = jobs_[large.job];
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
+  const Surface& a = job.a->surface();
+  const Surface& b = job.b->surface();
   PairQuery query = query_of(job);
   query.deadline = deadline_;
-  answered_[place] = 1;
-  if (is_late())
-    return PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query, answer_to_write(index));
-  large_[place].begin(job.a->surface(), job.b->surface(), query, job.memory_to_write().front,
-                      answer_to_write(index));
-  answered_[place] = large_[place].advance(detectors_[worker], counters_[worker]) ? 1 : 0;
-  if (answered_[place] != 0) was_detected(index, worker);
+  PairAnswer& answer = answer_of_large(place);
+  large.answered = is_late();
+  if (large.answered) {
+    PairDetector::outer_bounds(a, b, query, answer);
+    return answers_.refer_to(large.job, answer);
+  }
+  LeafFront& front = job.memory_to_write().front;
+  large.front_bytes = bytes_of(front.leaves);
+  large.pair.begin(a, b, query, front, answer);
+  advance_large(place, worker);
+}
+
+void PairJobs::advance_large(std::size_t place, unsigned worker) {
+  LargeJob& large = large_[place];
+  const PairJob& job = jobs_[large.job];
+  Worker& own = workers_[worker];
+  large.answered = large.pair.advance(own.detector, own.counters);
+  if (!large.answered) return;
+  const PairAnswer& answer = answer_of_large(place);
+  own.front_bytes += bytes_of(job.memory_to_write().front.leaves) - large.front_bytes;
+  was_detected(job, answer);
+  answers_.refer_to(large.job, answer);
 }
 
 /// The slices of all large pairs as one list, until every pair is answered.
 void PairJobs::run_rounds_of_slices() {
   while (true) {
     slices_.clear();
-    for (std::uint32_t place = 0; place < large_jobs_.size(); ++place)
-      if (answered_[place] == 0)
-        for (std::uint32_t slice = 0; slice < large_[place].slice_count(); ++slice)
+    for (std::uint32_t place = 0; place < large_count_; ++place)
+      if (!large_[place].answered)
+        for (std::uint32_t slice = 0; slice < large_[place].pair.slice_count(); ++slice)
           slices_.push_back({place, slice});
     if (slices_.empty()) return;
     tasks_.run(slices_.size(), [&](unsigned worker, std::size_t item) {
       const auto [place, slice] = slices_[item];
       const AccessScope access({AccessRight::read(), {}});
-      large_[place].run_slice(slice, detectors_[worker], counters_[worker]);
+      large_[place].pair.run_slice(slice, workers_[worker].detector, workers_[worker].counters);
     });
-    tasks_.run(large_jobs_.size(), [&](unsigned worker, std::size_t place) {
-      const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_jobs_[place]])});
-      if (answered_[place] != 0 || !large_[place].advance(detectors_[worker], counters_[worker])) return;
-      answered_[place] = 1;
-      was_detected(large_jobs_[place], worker);
+    tasks_.run(large_count_, [&](unsigned worker, std::size_t place) {
+      const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_[place].job])});
+      if (!large_[place].answered) advance_large(place, worker);
     });
   }
 }
@@ -164,24 +193,24 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
   query.deadline = deadline_;
   const Surface& a = job.a->surface();
   const Surface& b = job.b->surface();
-  if (work_limit == 0 || is_late()) return PairDetector::outer_bounds(a, b, query, answer_to_write(index));
-  detectors_[worker].detect(a, b, query, job.memory_to_write().front, answer_to_write(index),
-                            counters_[worker]);
-  was_detected(index, worker);
-}
-
-PairAnswer& PairJobs::answer_to_write(std::uint32_t index) {
-  require_write(StepData::pairs, &jobs_[index]);
-  return answers_[index];
+  Worker& own = workers_[worker];
+  if (work_limit == 0 || is_late()) {
+    PairDetector::outer_bounds(a, b, query, own.answer);
+  } else {
+    LeafFront& front = job.memory_to_write().front;
+    own.front_bytes -= bytes_of(front.leaves);
+    own.detector.detect(a, b, query, front, own.answer, own.counters);
+    own.front_bytes += bytes_of(front.leaves);
+    if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, own.answer);
+    was_detected(job, own.answer);
+  }
+  require_write(StepData::pairs, &job);
+  answers_.keep(index, own.answer, worker);
 }
 
 /// Remembers what the answer was about.
-void PairJobs::was_detected(std::uint32_t index, unsigned worker) {
-  const PairJob& job = jobs_[index];
-  if (settings_.region_distances > 0)
-    detectors_[worker].region_distances(job.a->surface(), job.b->surface(), query_of(job),
-                                        answer_to_write(index));
-  const bool whole = answers_[index].complete && job.task == PairJob::Task::detect;
+void PairJobs::was_detected(const PairJob& job, const PairAnswer& answer) {
+  const bool whole = answer.complete && job.task == PairJob::Task::detect;
   PairMemory& memory = job.memory_to_write();
   memory.version_a = whole ? job.a->surface().version() : 0;
   memory.version_b = whole ? job.b->surface().version() : 0;
@@ -214,17 +243,65 @@ void PairJobs::run_by_urgency() {
 /// One after the other: what a pair leaves of the budget is for the next, so the answer is the same on any
 /// machine.
 void PairJobs::run_within_work(std::uint64_t budget) {
+  const PairCounters& counters = workers_[0].counters;
   for (const std::uint32_t index : order_) {
-    const std::uint64_t before = counters_[0].region_pairs_tested;
+    const std::uint64_t before = counters.region_pairs_tested;
     detect(index, 0, budget);
-    budget -= std::min(budget, counters_[0].region_pairs_tested - before);
+    budget -= std::min(budget, counters.region_pairs_tested - before);
   }
 }
 
 PairCounters PairJobs::counters() const {
   PairCounters sum;
-  for (const PairCounters& counters : counters_) sum.add(counters);
+  for (const Worker& worker : workers_) sum.add(worker.counters);
   return sum;
+}
+
+// ---- Memory
+
+/// Which worker gets which job is chance; what one has needed all have room for.
+void PairJobs::even_out_memory() {
+  answers_.even_out();
+  Worker& first = workers_.front();
+  for (const Worker& worker : std::span(workers_).subspan(1)) first.reserve_as(worker);
+  for (Worker& worker : std::span(workers_).subspan(1)) worker.reserve_as(first);
+}
+
+void PairJobs::reserve(std::size_t jobs, std::size_t contacts) {
+  answers_.reserve(jobs, contacts, settings_.region_distances);
+  order_.reserve(jobs);
+  small_jobs_.reserve(jobs);
+  room_.contacts = std::max(room_.contacts, std::min(contacts, reserved_of_pair));
+  room_.leaf_pairs = room_.ties = reserved_of_pair;
+  room_.region_distances = settings_.region_distances;
+  for (Worker& worker : workers_) worker.reserve(room_);
+}
+
+void PairJobs::reserve_for(const Mesh& mesh) {
+  room_.include(mesh);
+  for (Worker& worker : workers_) worker.reserve(room_);
+}
+
+std::size_t PairJobs::byte_count() const {
+  std::size_t bytes = answers_.byte_count() + bytes_of(order_) + bytes_of(small_jobs_) + bytes_of(large_) +
+                      bytes_of(large_answers_) + bytes_of(slices_) + bytes_of(workers_);
+  for (const LargeJob& large : large_) bytes += large.pair.byte_count();
+  for (const PairAnswer& answer : large_answers_) bytes += bytes_of_lists(answer);
+  for (const Worker& worker : workers_)
+    bytes += worker.detector.byte_count() + bytes_of_lists(worker.answer) + worker.front_bytes;
+  return bytes;
+}
+
+void PairJobs::Worker::reserve_as(const Worker& other) {
+  detector.reserve_as(other.detector);
+  answer.contacts.reserve(other.answer.contacts.capacity());
+  answer.region_distances.reserve(other.answer.region_distances.capacity());
+}
+
+void PairJobs::Worker::reserve(const PairRoom& room) {
+  detector.reserve(room);
+  answer.contacts.reserve(room.contacts);
+  answer.region_distances.reserve(room.region_distances);
 }
 
 }  // namespace graze

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "pair_answers.hpp"
 #include "pair_job.hpp"
 #include "task_pool.hpp"
 
@@ -22,14 +23,41 @@ class PairJobs {
   /// Answers every job that is looked at; budgets began at `start`.
   void run(std::span<const PairJob> jobs, std::uint64_t rules_version, Clock::time_point start);
 
-  /// Of the job at that place; until the next `run`.
-  [[nodiscard]] const PairAnswer& answer(std::size_t index) const { return answers_[index]; }
+  /// Of the job at that place, where it is looked at; until `even_out_memory`.
+  [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
   [[nodiscard]] PairCounters counters() const;
 
+  /// Makes room, so that a step like the last takes no memory, whichever worker gets what. The answers are
+  /// gone then.
+  void even_out_memory();
+  /// Makes room for so many jobs, and contacts of all of them together.
+  void reserve(std::size_t jobs, std::size_t contacts);
+  /// Makes room for pairs of objects of that mesh.
+  void reserve_for(const Mesh& mesh);
+  /// Of what is here, and of what the fronts in the pairs' memories have grown by.
+  [[nodiscard]] std::size_t byte_count() const;
+
  private:
+  /// Each worker's own, which only it touches while jobs run.
+  struct Worker {
+    PairDetector detector;
+    PairCounters counters;
+    PairAnswer answer;  ///< of the job at hand
+    std::size_t front_bytes =
+        0;  ///< that fronts have grown by since the scene began; of all workers together
+
+    void reserve_as(const Worker& other);
+    void reserve(const PairRoom& room);
+  };
+  struct LargeJob {
+    std::uint32_t job = 0;
+    LargePair pair;
+    bool answered = false;
+    std::size_t front_bytes = 0;  ///< when it began
+  };
   /// A slice of a large pair.
   struct LargeSlice {
-    std::uint32_t large;  ///< into large_jobs_
+    std::uint32_t large;  ///< into large_
     std::uint32_t slice;
   };
 
@@ -37,11 +65,12 @@ class PairJobs {
   [[nodiscard]] static bool is_large(const PairJob& job);
   void run_group(std::span<const std::uint32_t> jobs);
   void run_rounds_of_slices();
-  void even_out_memory();
-  void begin_large(std::uint32_t place, unsigned worker);
+  void add_large(std::uint32_t index);
+  [[nodiscard]] PairAnswer& answer_of_large(std::size_t place);
+  void begin_large(std::size_t place, unsigned worker);
+  void advance_large(std::size_t place, unsigned worker);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
-  [[nodiscard]] PairAnswer& answer_to_write(std::uint32_t index);
-  void was_detected(std::uint32_t index, unsigned worker);
+  void was_detected(const PairJob& job, const PairAnswer& answer);
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();
   void run_by_urgency();
@@ -52,15 +81,16 @@ class PairJobs {
   std::span<const PairJob> jobs_;
   std::uint64_t rules_version_ = 0;
   Clock::time_point deadline_ = PairQuery::no_deadline;
-  std::vector<PairAnswer> answers_;        ///< one for each job; kept longer for their memory
+  PairAnswers answers_;
   std::vector<std::uint32_t> order_;       ///< jobs that are looked at, by urgency where there is a budget
   std::vector<std::uint32_t> small_jobs_;  ///< of one group
-  std::vector<std::uint32_t> large_jobs_;  ///< likewise
-  std::vector<LargePair> large_;           ///< one for each large job; kept longer for their memory
-  std::vector<std::uint8_t> answered_;     ///< likewise: whether it is
+  std::vector<LargeJob> large_;            ///< likewise; kept longer for their memory
+  std::size_t large_count_ = 0;
+  std::vector<PairAnswer> large_answers_;  ///< of all groups, one after the other; kept longer likewise
+  std::size_t large_answer_count_ = 0;     ///< of the groups before
   std::vector<LargeSlice> slices_;         ///< of all large jobs of the group
-  std::vector<PairDetector> detectors_;    ///< one for each worker
-  std::vector<PairCounters> counters_;     ///< likewise
+  std::vector<Worker> workers_;
+  PairRoom room_;  ///< what was reserved of the workers' memory
 };
 
 }  // namespace graze

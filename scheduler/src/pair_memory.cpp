@@ -1,5 +1,7 @@
 #include "pair_memory.hpp"
 
+#include <graze/bytes_of.hpp>
+
 namespace graze {
 
 void PairMemories::begin() {
@@ -38,11 +40,24 @@ void PairMemories::end() {
   skip_to(nullptr);
 }
 
+void PairMemories::reserve(std::size_t pairs, std::size_t leaf_pairs) {
+  free_.reserve(pairs);
+  last_.reserve(pairs);
+  entries_.reserve(pairs);
+  for (std::size_t place = memories_.size(); place < pairs; ++place) {
+    memories_.emplace_back();
+    free_.push_back(static_cast<std::uint32_t>(place));
+  }
+  for (PairMemory& memory : memories_) {
+    reserved_bytes_ -= bytes_of(memory.front.leaves);
+    memory.front.leaves.reserve(leaf_pairs);
+    reserved_bytes_ += bytes_of(memory.front.leaves);
+  }
+}
+
 std::size_t PairMemories::byte_count() const {
-  std::size_t bytes = memories_.size() * sizeof(PairMemory) + free_.capacity() * sizeof(std::uint32_t) +
-                      (last_.capacity() + entries_.capacity()) * sizeof(Entry);
-  for (const PairMemory& memory : memories_) bytes += memory.front.leaves.capacity() * sizeof(RegionPair);
-  return bytes;
+  return memories_.size() * sizeof(PairMemory) + reserved_bytes_ + bytes_of(free_) + bytes_of(last_) +
+         bytes_of(entries_);
 }
 
 }  // namespace graze

@@ -32,7 +32,9 @@ class PairMemories {
   /// Ends a step's asking.
   void end();
 
-  /// Bytes held.
+  /// Makes room for so many pairs with fronts of up to `leaf_pairs`. Not between `begin` and `end`.
+  void reserve(std::size_t pairs, std::size_t leaf_pairs);
+  /// Bytes held; of the fronts only what was reserved.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
@@ -46,7 +48,8 @@ class PairMemories {
   std::vector<std::uint32_t> free_;
   std::vector<Entry> last_;  ///< ascending
   std::vector<Entry> entries_;
-  std::size_t next_ = 0;  ///< into last_
+  std::size_t next_ = 0;            ///< into last_
+  std::size_t reserved_bytes_ = 0;  ///< of fronts
 };
 
 }  // namespace graze

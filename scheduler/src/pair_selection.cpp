@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <graze/bytes_of.hpp>
 
 namespace graze {
 namespace {
@@ -62,8 +63,13 @@ std::span<const PlacePair> PairSelection::select(std::span<const PlacePair> pair
   return std::span(selected_).first(count);
 }
 
+void PairSelection::reserve(std::size_t pairs) {
+  selected_.reserve(pairs);
+  slices_.reserve(pairs / pairs_of_slice + 1);
+}
+
 std::size_t PairSelection::byte_count() const {
-  return selected_.capacity() * sizeof(PlacePair) + slices_.capacity() * sizeof(Slice);
+  return bytes_of(selected_) + bytes_of(slices_);
 }
 
 }  // namespace graze

@@ -20,6 +20,8 @@ class PairSelection {
   std::span<const PlacePair> select(std::span<const PlacePair> pairs, const ObjectSummaries& summaries,
                                     const PairFilter& filter, TaskPool& tasks, StepStatistics& statistics);
 
+  /// Makes room for so many pairs that the broad phase keeps.
+  void reserve(std::size_t pairs);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

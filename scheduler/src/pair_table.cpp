@@ -1,5 +1,7 @@
 #include "pair_table.hpp"
 
+#include <graze/bytes_of.hpp>
+
 namespace graze {
 
 PairTable::PairTable(const SceneSettings& settings, ObjectStore& store) : store_(store), filter_(settings) {}
@@ -117,9 +119,18 @@ bool PairTable::is_unchanged(const PairJob& job) const {
          memory.rules_version == filter_.rules_version();
 }
 
+void PairTable::reserve(std::size_t objects, std::size_t pairs, std::size_t leaf_pairs) {
+  summaries_.reserve(objects);
+  broad_phase_.reserve(objects, pairs);
+  selection_.reserve(pairs);
+  memories_.reserve(pairs, leaf_pairs);
+  jobs_.reserve(pairs);
+  wanted_.reserve(2 * pairs);
+}
+
 std::size_t PairTable::byte_count() const {
   return memories_.byte_count() + filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
-         selection_.byte_count() + jobs_.capacity() * sizeof(PairJob) + wanted_.capacity() * sizeof(void*);
+         selection_.byte_count() + bytes_of(jobs_) + bytes_of(wanted_);
 }
 
 }  // namespace graze

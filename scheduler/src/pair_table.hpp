@@ -29,6 +29,10 @@ class PairTable {
   std::span<const PairJob> list(const FrameReport& previous, TaskPool& tasks,
                                 std::vector<Diagnostic>& diagnostics, StepStatistics& statistics);
 
+  /// Makes room for so many objects, and pairs whose loose boxes meet, with fronts of up to `leaf_pairs`.
+  /// Before a step's `list` only.
+  void reserve(std::size_t objects, std::size_t pairs, std::size_t leaf_pairs);
+  /// Of the fronts only what was reserved.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

@@ -1,6 +1,7 @@
 #include "region_refit.hpp"
 
 #include <algorithm>
+#include <graze/bytes_of.hpp>
 #include <graze/pair_query.hpp>
 
 namespace graze {
@@ -58,6 +59,15 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs) {
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   std::erase_if(large_, [&](const Object* object) { return !is_stale(object->surface()); });
+}
+
+void RegionRefit::reserve(std::size_t jobs) {
+  small_.reserve(2 * jobs);
+  large_.reserve(2 * jobs);
+}
+
+std::size_t RegionRefit::byte_count() const {
+  return bytes_of(small_) + bytes_of(large_) + bytes_of(parts_);
 }
 
 bool RegionRefit::is_stale(const Surface& surface) const {

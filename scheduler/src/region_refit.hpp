@@ -18,6 +18,10 @@ class RegionRefit {
   /// Refits every object that `jobs` look at and that has moved too far since its last refit.
   void run(std::span<const PairJob> jobs);
 
+  /// Makes room for so many jobs.
+  void reserve(std::size_t jobs);
+  [[nodiscard]] std::size_t byte_count() const;
+
  private:
   /// Regions of one object, refitted by one task.
   struct Part {

@@ -1,8 +1,26 @@
 #pragma once
 
+#include <algorithm>
+#include <graze/bytes_of.hpp>
 #include <graze/report.hpp>
 
 namespace graze {
+
+/// How much reports have room for.
+struct ReportRoom {
+  std::size_t pairs = 0;
+  std::size_t contacts = 0;
+  std::size_t region_distances = 0;
+
+  [[nodiscard]] bool covers(const ReportRoom& other) const {
+    return pairs >= other.pairs && contacts >= other.contacts && region_distances >= other.region_distances;
+  }
+  void include(const ReportRoom& other) {
+    pairs = std::max(pairs, other.pairs);
+    contacts = std::max(contacts, other.contacts);
+    region_distances = std::max(region_distances, other.region_distances);
+  }
+};
 
 /// The one place that writes into a report, before it is published.
 class ReportBuilder {
@@ -35,10 +53,20 @@ class ReportBuilder {
   }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
+
+  void reserve(const ReportRoom& room) {
+    report_.pairs_.reserve(room.pairs);
+    report_.contacts_.reserve(room.contacts);
+    report_.region_distances_.reserve(room.region_distances);
+  }
+  [[nodiscard]] ReportRoom room() const {
+    return {report_.pairs_.capacity(), report_.contacts_.capacity(), report_.region_distances_.capacity()};
+  }
   [[nodiscard]] std::size_t byte_count() const {
-    return report_.pairs_.capacity() * sizeof(PairReport) + report_.contacts_.capacity() * sizeof(Contact) +
-           report_.region_distances_.capacity() * sizeof(RegionDistance) +
-           report_.diagnostics_.capacity() * sizeof(Diagnostic);
+    std::size_t bytes = bytes_of(report_.pairs_) + bytes_of(report_.contacts_) +
+                        bytes_of(report_.region_distances_) + bytes_of(report_.diagnostics_);
+    for (const Diagnostic& diagnostic : report_.diagnostics_) bytes += diagnostic.message.capacity();
+    return bytes;
   }
 
  private:

@@ -1,6 +1,9 @@
 #include "report_pool.hpp"
 
+#include <algorithm>
 #include <graze/error.hpp>
+#include <string>
+#include <utility>
 
 namespace graze {
 
@@ -24,21 +27,87 @@ ReportHandle ReportPool::latest() noexcept {
 }
 
 FrameReport& ReportPool::begin() {
-  const auto published = static_cast<std::uint32_t>(current_.load(std::memory_order_relaxed) >> count_bits);
-  // Acquire: the last handle's reads are over before the slot is written again.
-  const bool any_free = free_count_.load(std::memory_order_acquire) > 0;
-  for (std::uint32_t index = 0; any_free && index < slot_count_; ++index)
-    if (index != published && slot(index).references.load(std::memory_order_acquire) == 0) {
-      free_count_.fetch_sub(1, std::memory_order_relaxed);
-      filling_ = index;
-      return slot(index).report;
-    }
-  if (slot_count_ == chunk_size * chunk_capacity)
+  constexpr std::uint32_t none = chunk_size * chunk_capacity;
+  const std::uint32_t found = find_free();
+  if (found == none && slot_count_ == none)
     throw Error("scene: " + std::to_string(slot_count_) +
                 " reports are held by handles; let some go before the next step");
-  if (slot_count_ % chunk_size == 0) chunks_[slot_count_ / chunk_size] = std::make_unique<Chunk>();
-  filling_ = slot_count_++;
+  if (found == none) {
+    filling_ = add_slot();
+  } else {
+    free_count_.fetch_sub(1, std::memory_order_relaxed);
+    filling_ = found;
+  }
+  make_room(filling_);
   return slot(filling_).report;
+}
+
+/// A slot that can be filled, better one that has room; past the last one where there is none.
+std::uint32_t ReportPool::find_free() {
+  std::uint32_t found = chunk_size * chunk_capacity;
+  // Acquire: the last handle's reads are over before the slot is written again.
+  if (free_count_.load(std::memory_order_acquire) == 0) return found;
+  for (std::uint32_t index = 0; index < slot_count_; ++index) {
+    if (!is_free(index)) continue;
+    if (has_room(index)) return index;
+    found = std::min(found, index);
+  }
+  return found;
+}
+
+/// Whether nobody reads it.
+bool ReportPool::is_free(std::uint32_t index) {
+  const auto published = static_cast<std::uint32_t>(current_.load(std::memory_order_relaxed) >> count_bits);
+  return index != published && slot(index).references.load(std::memory_order_acquire) == 0;
+}
+
+bool ReportPool::has_room(std::uint32_t index) {
+  return ReportBuilder(slot(index).report).room().covers(room_);
+}
+
+std::uint32_t ReportPool::add_slot() {
+  if (slot_count_ % chunk_size == 0) {
+    chunks_[slot_count_ / chunk_size] = std::make_unique<Chunk>();
+    byte_count_ += sizeof(Chunk);
+  }
+  return slot_count_++;
+}
+
+/// In a slot that nobody reads.
+void ReportPool::make_room(std::uint32_t index) {
+  ReportBuilder builder(slot(index).report);
+  builder.reserve(room_);
+  const std::size_t bytes = builder.byte_count();
+  byte_count_ += bytes - std::exchange(slot(index).counted_bytes, bytes);
+}
+
+void ReportPool::even_out() {
+  const ReportRoom needed = ReportBuilder(slot(filling_).report).room();
+  if (!room_.covers(needed)) all_have_room_ = false;
+  room_.include(needed);
+  make_room(filling_);
+  if (all_have_room_) return;
+  all_have_room_ = true;
+  for (std::uint32_t index = 0; index < slot_count_; ++index) {
+    if (is_free(index)) make_room(index);
+    all_have_room_ = all_have_room_ && has_room(index);
+  }
+}
+
+void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
+  room_.include(room);
+  all_have_room_ = false;
+  std::size_t with_room = 0;
+  for (std::uint32_t index = 0; index < slot_count_; ++index) {
+    if (is_free(index)) make_room(index);
+    if (has_room(index)) ++with_room;
+  }
+  // One is published and one is filled while the others are held.
+  const std::size_t wanted = std::min<std::size_t>(held, chunk_size * chunk_capacity - 2) + 2;
+  for (; with_room < wanted && slot_count_ < chunk_size * chunk_capacity; ++with_room) {
+    make_room(add_slot());
+    free_count_.fetch_add(1, std::memory_order_relaxed);
+  }
 }
 
 ReportHandle ReportPool::publish() noexcept {

@@ -6,6 +6,8 @@
 #include <graze/report.hpp>
 #include <memory>
 
+#include "report_builder.hpp"
+
 namespace graze {
 
 /// The reports of one scene: one published, any number still held by handles, the rest to be used again.
@@ -31,6 +33,15 @@ class ReportPool {
 
   /// A report that nobody reads, to be filled. Stepping thread only. Throws Error when all slots are held.
   [[nodiscard]] FrameReport& begin();
+  /// Gives every report that nobody reads as much room as any has needed, the others as soon as they are let
+  /// go of: whichever is next, a step like an earlier one takes no memory. Stepping thread only, as is what
+  /// follows.
+  void even_out();
+  /// Makes room for so many reports held at once, beside the published one, of that size.
+  void reserve(std::size_t held, const ReportRoom& room);
+  /// Of all reports, as of the last `even_out`.
+  [[nodiscard]] std::size_t byte_count() const { return byte_count_; }
+
   /// Publishes the report of the last `begin`.
   ReportHandle publish() noexcept;
 
@@ -43,6 +54,7 @@ class ReportPool {
   struct Slot {
     FrameReport report;
     std::atomic<std::int64_t> references{0};
+    std::size_t counted_bytes = 0;  ///< its part of byte_count_
   };
   static constexpr std::uint32_t chunk_size = 64;
   static constexpr std::uint32_t chunk_capacity = 1024;
@@ -58,6 +70,11 @@ class ReportPool {
   void add_reference(std::uint32_t index) noexcept {
     slot(index).references.fetch_add(1, std::memory_order_relaxed);
   }
+  [[nodiscard]] bool is_free(std::uint32_t index);
+  [[nodiscard]] std::uint32_t find_free();
+  [[nodiscard]] bool has_room(std::uint32_t index);
+  std::uint32_t add_slot();
+  void make_room(std::uint32_t index);
   void release(std::uint32_t index) noexcept;
   void retire(std::uint64_t taken) noexcept;
   void was_freed() noexcept;
@@ -72,6 +89,9 @@ class ReportPool {
   std::array<std::unique_ptr<Chunk>, chunk_capacity> chunks_;
   std::uint32_t slot_count_ = 0;
   std::uint32_t filling_ = 0;
+  ReportRoom room_;  ///< that every report gets when nobody reads it
+  bool all_have_room_ = true;
+  std::size_t byte_count_ = sizeof(ReportPool);
 };
 
 }  // namespace graze

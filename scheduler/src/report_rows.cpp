@@ -15,7 +15,7 @@ std::optional<PairReport> repeated_row(const PairJob& job) {
   return std::nullopt;
 }
 
-std::optional<PairReport> row_of(const PairJob& job, const PairAnswer& answer) {
+std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer) {
   const bool was = job.was_in_contact();
   PairReport row;
   row.a = job.a->id;

@@ -46,7 +46,7 @@ class SteppingEnd {
 class Scene::State {
  public:
   explicit State(const SceneSettings& given)
-      : settings(checked(given)), step(settings, staging), reports(ReportPool::create()) {}
+      : settings(checked(given)), reports(ReportPool::create()), step(settings, staging, *reports) {}
   ~State() {
     stepping->wait(true, std::memory_order_acquire);
     reports->close();
@@ -64,8 +64,8 @@ class Scene::State {
 
   const SceneSettings settings;
   Staging staging;
-  Step step;                  ///< goes before `staging`, to which its objects give buffers back
   ReportPool* const reports;  ///< deletes itself when the scene and all handles are gone
+  Step step;                  ///< goes before `staging`, to which its objects give buffers back
   const Stepping stepping = std::make_shared<std::atomic<bool>>(false);
   std::uint64_t frame = 0;
   std::exception_ptr problem;  ///< of the last step_async

@@ -57,7 +57,6 @@ bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& nam
 /// Copies the positions that faces use; returns the first that is not finite or beyond 2^120. The others
 /// stay whatever they were.
 std::uint32_t copy_used(const Mesh& mesh, const PositionView& view, Positions& positions) {
-  positions.resize(mesh.vertex_count());
   for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex) {
     if (!mesh.is_used(vertex)) continue;
     positions[vertex] = view[vertex];
@@ -146,7 +145,7 @@ void Staging::add_positions(Calls& calls, ObjectId object, const PositionView& p
   if (!named) return add_stale(calls, object, "set_positions");
   if (!check_view(calls, object, *named, positions, "set_positions")) return;
   const double promise = promise_of(calls, object, max_displacement, "set_positions");
-  SetPositions call{object, named->spare_positions.lend(), promise};
+  SetPositions call{object, ids_.lend_positions(*named), promise};
   const std::uint32_t bad = copy_used(*named->mesh, positions, *call.positions);
   if (bad == Surface::ReadResult::no_vertex) return calls.add(std::move(call));
   const bool finite = (*call.positions)[bad].allFinite();

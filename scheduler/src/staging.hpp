@@ -51,6 +51,8 @@ class Staging {
     return ids_.standing(object) != ObjectIds::Standing::stale;
   }
   [[nodiscard]] std::size_t object_count() const { return ids_.count(); }
+  /// Of what is told of objects, copies of positions, and waiting calls.
+  [[nodiscard]] std::size_t byte_count() const noexcept { return ids_.byte_count() + queue_.byte_count(); }
 
   /// Takes the calls made so far out of the queue. Stepping thread only.
   void take() noexcept { queue_.take(); }

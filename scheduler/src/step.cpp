@@ -1,5 +1,7 @@
 #include "step.hpp"
 
+#include <algorithm>
+
 #include "report_rows.hpp"
 
 namespace graze {
@@ -11,6 +13,9 @@ struct Overloaded : Visitors... {
 };
 template <typename... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+/// How many pairs of leaves a reserved pair's front has room for; Scene::reserve says so.
+constexpr std::size_t leaf_pairs_of_front = 64;
 
 /// Milliseconds since the last call, or since it was made.
 class Lap {
@@ -27,8 +32,10 @@ class Lap {
 
 }  // namespace
 
-Step::Step(const SceneSettings& settings, Staging& staging)
-    : staging_(staging),
+Step::Step(const SceneSettings& settings, Staging& staging, ReportPool& reports)
+    : settings_(settings),
+      staging_(staging),
+      reports_(reports),
       tasks_(settings.threads, settings.arena),
       pairs_(settings, store_),
       refit_(settings, tasks_),
@@ -51,8 +58,10 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
   jobs_.run(jobs, pairs_.filter().rules_version(), start);
   statistics.jobs_ms = lap();
   write_pairs(jobs, previous, builder);
-  sum_counters(jobs, statistics);
-  statistics.report_bytes = builder.byte_count();
+  sum_counters(statistics);
+  jobs_.even_out_memory();
+  reports_.even_out();
+  count_bytes(jobs, statistics);
   statistics.publish_ms = lap();
   statistics.step_ms = Lap(start)();
 }
@@ -70,8 +79,35 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
         if (const Object* const object = store_.find(removed.object)) pairs_.filter().forget(*object);
         store_.apply(removed);
       },
-      [&](Reserve& reserve) { store_.reserve(reserve.capacity.objects); },
+      [&](Reserve& call) { reserve(call.capacity); },
+      [&](AddObject& added) {
+        if (is_reserved_) make_ready(*added.surface);
+        store_.apply(added);
+      },
       [&](auto& other) { store_.apply(other); }});
+}
+
+void Step::reserve(const SceneCapacity& capacity) {
+  store_.reserve(capacity.objects);
+  reports_.reserve(capacity.reports, {capacity.near_pairs, capacity.contacts,
+                                      capacity.near_pairs > 0 ? settings_.region_distances : 0});
+  if (capacity.near_pairs == 0) return;
+  is_reserved_ = true;
+  pairs_.reserve(std::max(capacity.objects, store_.objects().size()), capacity.near_pairs,
+                 leaf_pairs_of_front);
+  refit_.reserve(capacity.near_pairs);
+  jobs_.reserve(capacity.near_pairs, capacity.contacts);
+  for (const auto& object : store_.objects()) {
+    if (object == nullptr) continue;  // removed in this step
+    make_ready(object->surface_to_write());
+    store_.count_bytes(*object);
+  }
+}
+
+/// Makes room for the first pair of an object: bounds of its regions, and its leaves in working memory.
+void Step::make_ready(Surface& surface) {
+  is_about_vertices(settings_.detail) ? surface.refit_vertices() : surface.refit_faces();
+  jobs_.reserve_for(surface.mesh());
 }
 
 /// The serial end of a step: jobs ran in any order, but their answers are put together in the order of the
@@ -85,12 +121,10 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
     if (!row) continue;
     if (repeats && !job.allowed) row->phase = PairPhase::ended;
     const bool in_contact = row->phase == PairPhase::began || row->phase == PairPhase::touching;
-    const PairAnswer& answer = jobs_.answer(index);
+    const KeptAnswer& answer = jobs_.answer(index);
     std::span<const Contact> contacts;
-    if (in_contact)
-      contacts = repeats ? previous.contacts(*job.last) : std::span<const Contact>(answer.contacts);
-    const auto regions = repeats ? previous.region_distances(*job.last)
-                                 : std::span<const RegionDistance>(answer.region_distances);
+    if (in_contact) contacts = repeats ? previous.contacts(*job.last) : answer.contacts;
+    const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
     const auto reported = builder.add(*row, contacts, regions);
     statistics.region_distances += regions.size();
     if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
@@ -101,7 +135,7 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
   }
 }
 
-void Step::sum_counters(std::span<const PairJob> jobs, StepStatistics& statistics) {
+void Step::sum_counters(StepStatistics& statistics) {
   const PairCounters sum = jobs_.counters();
   statistics.region_pairs_tested = sum.region_pairs_tested;
   statistics.leaf_pairs_tested = sum.leaf_pairs_tested;
@@ -110,12 +144,16 @@ void Step::sum_counters(std::span<const PairJob> jobs, StepStatistics& statistic
   statistics.exact_decisions = sum.exact_decisions;
   statistics.fronts_left_out = sum.fronts_left_out;
   statistics.regions_expanded = sum.regions_expanded;
+  statistics.objects_unread = store_.unread_count();
+}
+
+void Step::count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics) {
   // Only what a job looked at may have got memory for its regions.
   for (const PairJob& job : jobs)
     for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
-  statistics.object_bytes = store_.byte_count();
-  statistics.objects_unread = store_.unread_count();
-  statistics.pair_bytes = pairs_.byte_count();
+  statistics.object_bytes = store_.byte_count() + staging_.byte_count();
+  statistics.pair_bytes = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count();
+  statistics.report_bytes = reports_.byte_count();
 }
 
 }  // namespace graze

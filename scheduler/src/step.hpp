@@ -10,6 +10,7 @@
 #include "pair_table.hpp"
 #include "region_refit.hpp"
 #include "report_builder.hpp"
+#include "report_pool.hpp"
 #include "staging.hpp"
 #include "task_pool.hpp"
 
@@ -18,11 +19,11 @@ namespace graze {
 /// What one step does, and what is kept from step to step. Stepping thread only.
 class Step {
  public:
-  Step(const SceneSettings& settings, Staging& staging);
+  Step(const SceneSettings& settings, Staging& staging, ReportPool& reports);
 
   /// Takes the calls made so far for the next `run`.
   void take_calls() { staging_.take(); }
-  /// Fills `report` with frame `frame`, which follows `previous`.
+  /// Fills `report`, the last that the reports' pool has begun, with frame `frame`, which follows `previous`.
   void run(std::uint64_t frame, const FrameReport& previous, FrameReport& report);
 
   [[nodiscard]] TaskPool& tasks() { return tasks_; }
@@ -31,15 +32,21 @@ class Step {
   using Clock = std::chrono::steady_clock;
 
   void take_up_calls(std::vector<Diagnostic>& diagnostics);
+  void reserve(const SceneCapacity& capacity);
+  void make_ready(Surface& surface);
   void write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder);
-  void sum_counters(std::span<const PairJob> jobs, StepStatistics& statistics);
+  void sum_counters(StepStatistics& statistics);
+  void count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics);
 
+  const SceneSettings& settings_;
   Staging& staging_;
+  ReportPool& reports_;
   TaskPool tasks_;
   ObjectStore store_;
   PairTable pairs_;
   RegionRefit refit_;
   PairJobs jobs_;
+  bool is_reserved_ = false;  ///< room for near pairs, also of objects that come
 };
 
 }  // namespace graze

@@ -6,6 +6,9 @@
 #include <iostream>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <sstream>
+#include <string>
 
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
@@ -67,6 +70,17 @@ void check_same(const PairAnswer& answer, const PairAnswer& whole) {
   CHECK(text_of(answer.contacts) == text_of(whole.contacts));
 }
 
+/// Everything that is said of the regions, bit for bit.
+std::string text_of(std::span<const RegionDistance> distances) {
+  std::ostringstream text;
+  text << std::hexfloat;
+  for (const RegionDistance& line : distances)
+    text << line.level << ' ' << line.region_a << ' ' << line.region_b << ' ' << line.vertex_a << ' '
+         << line.vertex_b << ' ' << line.point_a.transpose() << ' ' << line.point_b.transpose() << ' '
+         << line.distance << '\n';
+  return text.str();
+}
+
 struct Motion {
   const char* name;
   oracle::Shape a;
@@ -125,6 +139,58 @@ TEMPLATE_TEST_CASE_SIG("large pair: slices give the answer of the whole, detail"
     CHECK(sliced.rounds >= 1);
   }
   std::cout << "compared " << compared << " answers, " << contacts << " contacts\n";
+}
+
+TEST_CASE("large pair: slices list the distances of regions that one walk lists, capped or not") {
+  const FloatingPointScope scope;
+  const oracle::Shape ball = shape_of(models::sphere(120, 80));
+  Surface a = surface_of(ball);
+  Surface b = surface_of(mapped(ball, 1.03, {0.01, 0.02, 0}));
+  move_to(a, ball, true);
+  move_to(b, mapped(ball, 1.03, {0.01, 0.02, 0}), true);
+  const std::array epsilon{0.9, 0.5, 0.3};
+  PairDetector detector;
+  std::size_t listed = 0;
+  for (const AccuracyMode mode : {AccuracyMode::exact, AccuracyMode::paper})
+    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::vertices}) {
+      if (mode == AccuracyMode::paper && detail == ContactDetail::none) continue;
+      PairQuery query = query_of(detail, 0.02);
+      query.reach = query.region_distance_reach = 0.05;
+      query.mode = mode;
+      if (mode == AccuracyMode::paper) query.epsilon = epsilon;
+      query.region_distance_limit = std::numeric_limits<std::size_t>::max();
+      PairAnswer whole;
+      detector.region_distances(a, b, query, whole);
+      const std::size_t count = whole.region_distances.size();
+      REQUIRE(count > 1000);
+      CHECK(whole.region_distances_left_out == 0);
+      listed += count;
+      for (const std::size_t limit :
+           {count, count - 1, count / 2, count / 9, std::size_t{70}, std::size_t{1}}) {
+        INFO("mode " << static_cast<int>(mode) << ", detail " << static_cast<int>(detail) << ", limit "
+                     << limit);
+        query.region_distance_limit = limit;
+        PairAnswer capped;
+        detector.region_distances(a, b, query, capped);
+        SlicedQueries sliced;
+        const PairAnswer& answer = sliced.detect(a, b, query, limit);
+        CHECK(capped.region_distances.size() == limit);
+        CHECK((capped.region_distances_left_out > 0) == (limit < count));
+        CHECK(answer.region_distances_left_out == capped.region_distances_left_out);
+        CHECK(text_of(answer.region_distances) == text_of(capped.region_distances));
+        CHECK(text_of(answer.region_distances) ==
+              text_of(std::span<const RegionDistance>(whole.region_distances).first(limit)));
+        query.region_distance_limit = 0;
+        SlicedQueries without;
+        CHECK(without.detect(a, b, query, limit).region_distances.empty());
+        // The walk has rounds of its own, the deepest of which has many slices.
+        if (limit > count / 3) {
+          CHECK(sliced.rounds > without.rounds);
+          CHECK(sliced.slices > without.slices + 10);
+        }
+      }
+    }
+  std::cout << "compared " << listed << " distances of regions\n";
 }
 
 }  // namespace graze::tests

@@ -29,6 +29,9 @@ std::uint64_t AllocationCount::by_tbb() {
 std::uint64_t AllocationCount::by_others() {
   return 0;
 }
+std::uint64_t AllocationCount::held_bytes() {
+  return 0;
+}
 std::string AllocationCount::first_of_others() {
   return {};
 }
@@ -39,6 +42,7 @@ std::string AllocationCount::first_of_others() {
 
 #include <execinfo.h>
 #include <link.h>
+#include <malloc.h>
 
 #include <cerrno>
 #include <cstring>
@@ -99,6 +103,11 @@ std::uint64_t AllocationCount::by_tbb() {
 
 std::uint64_t AllocationCount::by_others() {
   return count_of_others;
+}
+
+std::uint64_t AllocationCount::held_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;  // of the heaps, and by pages of their own
 }
 
 std::string AllocationCount::first_of_others() {

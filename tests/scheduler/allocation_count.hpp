@@ -19,6 +19,8 @@ class AllocationCount {
   /// What was counted: by oneTBB's library, and by all others.
   static std::uint64_t by_tbb();
   static std::uint64_t by_others();
+  /// Bytes that the allocator has given out now, to all the program; it need not be counting.
+  static std::uint64_t held_bytes();
   /// The calls that led to the first of the others; empty where there was none.
   static std::string first_of_others();
 };

@@ -1,169 +1,181 @@
-// After one period of a periodic motion no step and no call around it takes memory, whatever the detail and
-// the number of threads: a thousand frames, in each of which pairs begin and end.
+// After one period of a periodic motion, or after `reserve`, no step and no call around it takes memory,
+// whatever the detail, the number of threads, the budgets, and who else holds reports.
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <new>
-#include <numbers>
+#include <optional>
 #include <thread>
 
 #include "scheduler/allocation_count.hpp"
+#include "scheduler/bobbing.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
 
-constexpr std::size_t period = 20;
+using namespace std::chrono_literals;
+
+constexpr std::size_t period = Bobbing::period;
 constexpr std::size_t frame_count = 1000;
-constexpr double furthest_move = 0.1;  ///< between two frames
-
-std::shared_ptr<const Mesh> drop_mesh() {
-  models::MeshData sphere = models::sphere(8, 5);
-  for (Eigen::Vector3d& position : sphere.positions) position *= 0.15;
-  return mesh_of(sphere);
-}
-
-/// A plate over which drops bob up and down, each one frame later than the one before: in every frame one
-/// comes to touch the plate and one leaves it. They are moved in every way there is, by single calls and in
-/// batches, and every pair is filtered out now and then. All that is told was calculated before.
-class Bobbing {
- public:
-  explicit Bobbing(const SceneSettings& settings) : scene_(settings), mesh_(drop_mesh()) {
-    plate_ = scene_.add(mesh_of(models::sheet(16, 16, 4, 4)), motion_of(Motion::fixed));
-    for (std::size_t drop = 0; drop < period; ++drop) {
-      const Given given = given_of(drop);
-      ids_[drop] = scene_.add(mesh_, motion_of(given == Given::posed ? Motion::rigid : Motion::deformable));
-      of_[static_cast<std::size_t>(given)].push_back(drop);
-      for (std::size_t frame = 0; frame < period; ++frame) {
-        poses_[frame].push_back(pose(drop, frame));
-        positions_[frame].push_back(moved(mesh_->rest(), poses_[frame][drop].translation()));
-      }
-      own_.push_back(positions_[0][drop]);
-      if (given == Given::told) scene_.bind_positions(ids_[drop], own_[drop], BindPolicy::when_told);
-    }
-  }
-
-  [[nodiscard]] const Scene& scene() const { return scene_; }
-
-  ReportHandle step(std::size_t frame) {
-    copy(frame % period);
-    bind(frame % period);
-    tell(frame % period);
-    place(frame % period);
-    scene_.watch(plate_, ids_[frame % period]);
-    scene_.ignore(ids_[(frame + 1) % period], plate_);
-    return scene_.step();
-  }
-
- private:
-  enum class Given { copied, bound, told, posed };
-  static Given given_of(std::size_t drop) { return static_cast<Given>(drop % 4); }
-  static Eigen::Isometry3d pose(std::size_t drop, std::size_t frame) {
-    const double angle =
-        2 * std::numbers::pi * static_cast<double>((drop + frame) % period) / static_cast<double>(period);
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() =
-        Eigen::Vector3d(0.5 * static_cast<double>(drop % 5) - 1, 0.5 * static_cast<double>(drop / 5) - 1,
-                        0.3 + 0.3 * std::sin(angle));
-    return pose;
-  }
-  [[nodiscard]] const std::vector<std::size_t>& all(Given given) const {
-    return of_[static_cast<std::size_t>(given)];
-  }
-
-  /// What a batch says of the drops that are given in one way, from the second on; the first goes by itself.
-  struct Batch {
-    std::array<ObjectId, period> ids;
-    std::array<PositionView, period> views;
-    std::array<double, period> promises;
-    std::array<Eigen::Isometry3d, period> poses;
-    std::size_t size = 0;
-  };
-  Batch batch_of(Given given, std::size_t frame) const {
-    Batch batch;
-    for (const std::size_t drop : all(given)) {
-      if (drop == all(given)[0]) continue;
-      batch.ids[batch.size] = ids_[drop];
-      batch.views[batch.size] = positions_[frame][drop];
-      batch.promises[batch.size] = furthest_move;
-      batch.poses[batch.size] = poses_[frame][drop];
-      ++batch.size;
-    }
-    return batch;
-  }
-  template <typename Thing>
-  static std::span<const Thing> first(const std::array<Thing, period>& things, const Batch& batch) {
-    return std::span<const Thing>(things).first(batch.size);
-  }
-
-  void copy(std::size_t frame) {
-    const std::size_t single = all(Given::copied)[0];
-    scene_.set_positions(ids_[single], positions_[0][single]);  // the later call counts
-    scene_.set_positions(ids_[single], positions_[frame][single]);
-    const Batch batch = batch_of(Given::copied, frame);
-    scene_.set_positions(first(batch.ids, batch), first(batch.views, batch));
-  }
-  void bind(std::size_t frame) {
-    const std::size_t single = all(Given::bound)[0];
-    scene_.unbind_positions(ids_[single]);
-    scene_.bind_positions(ids_[single], positions_[frame][single]);
-    const Batch batch = batch_of(Given::bound, frame);
-    scene_.bind_positions(first(batch.ids, batch), first(batch.views, batch));
-  }
-  void tell(std::size_t frame) {
-    for (const std::size_t drop : all(Given::told)) own_[drop] = positions_[frame][drop];
-    scene_.positions_changed(ids_[all(Given::told)[0]]);
-    const Batch batch = batch_of(Given::told, frame);
-    scene_.positions_changed(first(batch.ids, batch));
-    scene_.positions_changed(first(batch.ids, batch), first(batch.promises, batch));
-  }
-  void place(std::size_t frame) {
-    const std::size_t single = all(Given::posed)[0];
-    scene_.set_pose(ids_[single], poses_[frame][single]);
-    const Batch batch = batch_of(Given::posed, frame);
-    scene_.set_poses(first(batch.ids, batch), first(batch.poses, batch));
-  }
-
-  Scene scene_;
-  std::shared_ptr<const Mesh> mesh_;
-  ObjectId plate_;
-  std::array<ObjectId, period> ids_;
-  std::array<std::vector<std::size_t>, 4> of_;  ///< the drops given in each way
-  std::array<std::vector<Eigen::Isometry3d>, period> poses_;
-  std::array<std::vector<Positions>, period> positions_;
-  std::vector<Positions> own_;  ///< bound, and read when told
-};
+constexpr std::size_t fewer_frames = 300;
 
 std::size_t count_of(const FrameReport& report, PairPhase phase) {
   return static_cast<std::size_t>(std::count_if(report.pairs().begin(), report.pairs().end(),
                                                 [&](const PairReport& pair) { return pair.phase == phase; }));
 }
 
-/// Of the frames from `begin` to `end` those in which no pair begins or none ends, or something was wrong.
-std::size_t idle_frames(Bobbing& bobbing, std::size_t begin, std::size_t end) {
+/// What came of some frames.
+struct Played {
+  std::size_t idle = 0;        ///< frames in which no pair began, or none ended
+  std::size_t incomplete = 0;  ///< frames in which a budget ran out
+  std::size_t diagnostics = 0;
+};
+
+enum class Stepping { step, step_async };
+
+/// Plays the frames from `begin` to `end`; three reports are held meanwhile.
+Played play(Bobbing& bobbing, std::size_t begin, std::size_t end, Stepping stepping = Stepping::step) {
   std::array<ReportHandle, 3> held;
-  std::size_t idle = 0;
+  Played played;
   for (std::size_t frame = begin; frame < end; ++frame) {
     ReportHandle& report = held[frame % held.size()];
-    report = bobbing.step(frame);
-    const bool busy = count_of(*report, PairPhase::began) > 0 && count_of(*report, PairPhase::ended) > 0;
-    if (!busy || !report->diagnostics().empty()) ++idle;
+    bobbing.tell(frame);
+    if (stepping == Stepping::step) {
+      report = bobbing.scene().step();
+    } else {
+      bobbing.scene().step_async();
+      report = bobbing.scene().wait();
+    }
+    if (count_of(*report, PairPhase::began) == 0 || count_of(*report, PairPhase::ended) == 0) ++played.idle;
+    if (!report->complete()) ++played.incomplete;
+    played.diagnostics += report->diagnostics().size();
   }
-  return idle;
+  return played;
 }
+
+bool is_skipped() {
+  if (!AllocationCount::is_possible()) std::cout << "skipped: the allocator cannot be replaced here\n";
+  return !AllocationCount::is_possible();
+}
+
+void check_none() {
+  INFO(AllocationCount::first_of_others());
+  CHECK(AllocationCount::by_tbb() == 0);
+  CHECK(AllocationCount::by_others() == 0);
+}
+
+/// A thread that takes reports at random, holds up to eight of them for some frames, and reads them.
+class Reader {
+ public:
+  explicit Reader(const Scene& scene) : thread_([this, &scene] { run(scene); }) {}
+  ~Reader() { end(); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  /// Waits until it has held that many at once.
+  void wait_for(std::size_t held) const {
+    while (most_held_ < held) std::this_thread::yield();
+  }
+  void end() {
+    ended_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  [[nodiscard]] std::size_t taken() const { return taken_; }
+  [[nodiscard]] std::size_t longest() const { return longest_; }
+  [[nodiscard]] std::size_t wrong() const { return wrong_; }
+
+  static constexpr std::size_t capacity = 8;
+  static constexpr std::size_t most_held = capacity + 1;  ///< with the one that it looks at
+
+ private:
+  struct Held {
+    ReportHandle report;
+    std::size_t contacts = 0;
+    std::uint64_t until = 0;  ///< the frame at which it is let go of
+  };
+  void run(const Scene& scene) {
+    oracle::Random random(7);
+    std::array<Held, capacity> all;
+    while (!ended_) {
+      Held& held = all[random.below(capacity)];
+      ReportHandle latest = scene.latest_report();
+      if (latest->frame() >= held.until) {
+        if (held.report) {
+          // What was held is as it was.
+          if (held.report->contacts().size() != held.contacts) ++wrong_;
+          longest_ = std::max<std::size_t>(longest_, latest->frame() - held.report->frame());
+        }
+        held.contacts = latest->contacts().size();
+        held.until = latest->frame() + 1 + random.below(60);
+        held.report = std::move(latest);
+        ++taken_;
+      }
+      most_held_ = static_cast<std::size_t>(
+          std::count_if(all.begin(), all.end(), [](const Held& one) { return bool(one.report); }));
+      std::this_thread::yield();
+    }
+  }
+
+  std::atomic<bool> ended_ = false;
+  std::atomic<std::size_t> most_held_ = 0;
+  std::atomic<std::size_t> taken_ = 0;
+  std::atomic<std::size_t> longest_ = 0;
+  std::atomic<std::size_t> wrong_ = 0;
+  std::thread thread_;
+};
+
+/// Drops over a plate, too far for any pair to be near, that come down all at once: half of them rigid, half
+/// by positions.
+class Falling {
+ public:
+  static constexpr std::size_t side = 5;
+  static constexpr std::size_t drops = side * side;
+  static constexpr std::size_t frames_aloft = 20;
+
+  explicit Falling(const SceneSettings& settings) : scene_(settings), mesh_(drop_mesh()) {
+    scene_.add(mesh_of(models::sheet(24, 24, 6, 6)), motion_of(Motion::fixed));
+    for (std::size_t drop = 0; drop < drops; ++drop) {
+      ids_[drop] = scene_.add(mesh_, motion_of(drop % 2 == 0 ? Motion::rigid : Motion::deformable));
+      positions_.emplace_back(mesh_->rest().begin(), mesh_->rest().end());
+    }
+  }
+  [[nodiscard]] Scene& scene() { return scene_; }
+  ReportHandle step(std::size_t frame) {
+    const double height = frame < frames_aloft ? 3 + 0.01 * static_cast<double>(frame % 2)
+                                               : 0.1 + 0.02 * static_cast<double>(frame % 7);
+    for (std::size_t drop = 0; drop < drops; ++drop) {
+      const Eigen::Vector3d at(1.1 * static_cast<double>(drop % side) - 2.2,
+                               1.1 * static_cast<double>(drop / side) - 2.2,
+                               height + 0.001 * static_cast<double>(drop));
+      if (drop % 2 == 0) {
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        pose.translation() = at;
+        scene_.set_pose(ids_[drop], pose);
+      } else {
+        for (std::size_t i = 0; i < positions_[drop].size(); ++i) positions_[drop][i] = mesh_->rest()[i] + at;
+        scene_.set_positions(ids_[drop], positions_[drop]);
+      }
+    }
+    return scene_.step();
+  }
+
+ private:
+  Scene scene_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::array<ObjectId, drops> ids_;
+  std::vector<Positions> positions_;
+};
 
 }  // namespace
 
 TEST_CASE("allocations of every kind and thread are counted") {
-  if (!AllocationCount::is_possible()) {
-    std::cout << "skipped: the allocator cannot be replaced here\n";
-    return;
-  }
+  if (is_skipped()) return;
   const auto counted = [](const auto& allocate) {
     AllocationCount::begin();
     allocate();
@@ -196,25 +208,123 @@ TEST_CASE("allocations of every kind and thread are counted") {
 }
 
 TEST_CASE("a thousand frames of a periodic motion take no memory after the first period") {
-  if (!AllocationCount::is_possible()) {
-    std::cout << "skipped: the allocator cannot be replaced here\n";
-    return;
-  }
+  if (is_skipped()) return;
   const auto detail = GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
                                ContactDetail::vertices, ContactDetail::features);
   const auto threads = GENERATE(1U, 2U);
   CAPTURE(static_cast<int>(detail), threads);
   SceneSettings settings = settings_of(0.05, 0.3, detail);
   settings.threads = threads;
+  settings.region_distances = detail == ContactDetail::none ? 500 : 0;
   Bobbing bobbing(settings);
-  idle_frames(bobbing, 0, period);
   AllocationCount::begin();
-  const std::size_t idle = idle_frames(bobbing, period, period + frame_count);
+  play(bobbing, 0, period);
   AllocationCount::end();
-  CHECK(idle == 0);
-  INFO(AllocationCount::first_of_others());
-  CHECK(AllocationCount::by_tbb() == 0);
-  CHECK(AllocationCount::by_others() == 0);
+  CHECK(AllocationCount::by_others() > 0);
+  AllocationCount::begin();
+  const Played played = play(bobbing, period, period + frame_count);
+  AllocationCount::end();
+  CHECK(played.idle == 0);
+  CHECK(played.diagnostics == 0);
+  check_none();
+}
+
+TEST_CASE("a reader that holds eight reports at random makes no step take memory") {
+  if (is_skipped()) return;
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(threads);
+  SceneSettings settings = settings_of(0.05, 0.3, ContactDetail::features);
+  settings.threads = threads;
+  Bobbing bobbing(settings);
+  bobbing.scene().reserve({.reports = Reader::most_held + 3});
+  play(bobbing, 0, 2 * period);
+  Reader reader(bobbing.scene());
+  reader.wait_for(Reader::capacity);
+  const std::size_t taken = reader.taken();
+  AllocationCount::begin();
+  const Played played = play(bobbing, 2 * period, 2 * period + fewer_frames);
+  AllocationCount::end();
+  reader.end();
+  CHECK(played.idle == 0);
+  CHECK(played.diagnostics == 0);
+  CHECK(reader.taken() > taken + Reader::capacity);
+  CHECK(reader.longest() > 10);
+  CHECK(reader.wrong() == 0);
+  check_none();
+}
+
+TEST_CASE("a budget takes no memory after the first period") {
+  if (is_skipped()) return;
+  const auto threads = GENERATE(1U, 2U);
+  const bool by_time = GENERATE(true, false);
+  CAPTURE(threads, by_time);
+  SceneSettings settings = settings_of(0.05, 0.3, ContactDetail::features);
+  settings.threads = threads;
+  Bobbing unlimited(settings);
+  play(unlimited, 0, period);
+  const ReportHandle report = unlimited.step(period);
+  const StepStatistics& work = report->statistics();
+  // About half of what a step needs.
+  if (by_time)
+    settings.time_budget = std::chrono::microseconds(
+        static_cast<std::int64_t>(500 * (work.read_ms + work.pairs_ms + work.refit_ms + work.jobs_ms)));
+  else
+    settings.work_budget = work.region_pairs_tested / 2;
+  Bobbing bobbing(settings);
+  // How far a budget in time lasts is chance: room is made for all.
+  bobbing.scene().reserve({.near_pairs = 400, .contacts = 40'000, .reports = 3});
+  play(bobbing, 0, 2 * period);
+  AllocationCount::begin();
+  const Played played = play(bobbing, 2 * period, 2 * period + fewer_frames);
+  AllocationCount::end();
+  CHECK(played.diagnostics == 0);
+  CHECK(played.incomplete > 0);
+  check_none();
+}
+
+TEST_CASE("step_async and wait take no memory after the first period") {
+  if (is_skipped()) return;
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(threads);
+  SceneSettings settings = settings_of(0.05, 0.3, ContactDetail::features);
+  settings.threads = threads;
+  Bobbing bobbing(settings);
+  play(bobbing, 0, 2 * period, Stepping::step_async);
+  AllocationCount::begin();
+  const Played played = play(bobbing, 2 * period, 2 * period + fewer_frames, Stepping::step_async);
+  AllocationCount::end();
+  CHECK(played.idle == 0);
+  CHECK(played.diagnostics == 0);
+  check_none();
+}
+
+TEST_CASE("first contacts take no memory where room was reserved") {
+  if (is_skipped()) return;
+  const auto detail = GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
+                               ContactDetail::vertices, ContactDetail::features);
+  const auto threads = GENERATE(1U, 2U);
+  const bool is_reserved = GENERATE(true, false);
+  CAPTURE(static_cast<int>(detail), threads, is_reserved);
+  SceneSettings settings = settings_of(0.05, 0.3, detail);
+  settings.threads = threads;
+  settings.region_distances = 500;
+  Falling falling(settings);
+  if (is_reserved) falling.scene().reserve({.near_pairs = 64, .contacts = 5'000, .reports = 4});
+  for (std::size_t frame = 0; frame < Falling::frames_aloft; ++frame)
+    CHECK(falling.step(frame)->statistics().pairs_tested == 0);
+  std::array<ReportHandle, 4> held;
+  std::size_t touching = 0;
+  AllocationCount::begin();
+  for (std::size_t frame = Falling::frames_aloft; frame < Falling::frames_aloft + 60; ++frame) {
+    held[frame % held.size()] = falling.step(frame);
+    touching = std::max(touching, held[frame % held.size()]->statistics().pairs_in_contact);
+  }
+  AllocationCount::end();
+  CHECK(touching > Falling::drops / 2);
+  if (is_reserved)
+    check_none();
+  else
+    CHECK(AllocationCount::by_others() > 50);
 }
 
 }  // namespace graze::tests

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <graze/box.hpp>
+#include <graze/large_pair.hpp>
 #include <iostream>
 #include <set>
+#include <sstream>
+#include <string>
 #include <tuple>
 
 #include "models/models.hpp"
@@ -168,6 +171,42 @@ TEST_CASE("region distances: beyond the cap the deepest are left out, and counte
     CHECK(keys_of(on_threads->region_distances()) == keys_of(some->region_distances()));
     // The answer itself knows nothing of it.
     CHECK(some->contacts().size() == none->contacts().size());
+  }
+}
+
+TEST_CASE("region distances: a large pair lists the same on any number of threads, capped or not") {
+  const auto mesh = mesh_of(models::sphere(90, 60));
+  REQUIRE(mesh->vertex_count() >= LargePair::least_vertex_count);
+  const Positions at_a(mesh->rest().begin(), mesh->rest().end());
+  const Positions at_b = moved(mesh->rest(), {0.02, 0.03, 0.01});
+  // Shells near each other everywhere: thousands of lines, so that every level below the first has slices.
+  const auto step_with = [&](std::size_t capacity, unsigned threads) {
+    SceneSettings settings = settings_with(ContactDetail::none, capacity);
+    settings.range = 0.1;
+    settings.threads = threads;
+    Scene scene(settings);
+    scene.add(mesh);
+    scene.set_positions(scene.add(mesh), PositionView(at_b));
+    return scene.step();
+  };
+  const auto text_of = [](const FrameReport& report) {
+    std::ostringstream text;
+    text << std::hexfloat << report.statistics().region_distances_left_out << '\n';
+    for (const RegionDistance& line : report.region_distances())
+      text << line.level << ' ' << line.region_a << ' ' << line.region_b << ' ' << line.distance << '\n';
+    return text.str();
+  };
+  const ReportHandle whole = step_with(1'000'000, 1);
+  PlainWalk plain{*mesh, *mesh, at_a, at_b, settings_with(ContactDetail::none, 0), {}};
+  plain.settings.range = 0.1;
+  plain.visit(0, 0);
+  CHECK((keys_of(whole->region_distances()) == plain.alive));
+  REQUIRE(plain.alive.size() > 5000);
+  for (const std::size_t capacity : {std::size_t{1'000'000}, plain.alive.size() / 2, std::size_t{100}}) {
+    const ReportHandle on_one = step_with(capacity, 1);
+    CHECK(on_one->region_distances().size() == std::min(capacity, plain.alive.size()));
+    CHECK((on_one->statistics().region_distances_left_out > 0) == (capacity < plain.alive.size()));
+    for (int repeat = 0; repeat < 3; ++repeat) CHECK(text_of(*step_with(capacity, 4)) == text_of(*on_one));
   }
 }
 

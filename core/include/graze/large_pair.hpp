@@ -9,10 +9,10 @@
 
 namespace graze {
 
-class PairSearch;
-
 /// A query about one pair of large surfaces, cut into slices that any threads may run at once. The answer is
-/// that of PairDetector::detect, bit for bit; how it is cut depends on the surfaces and the query only.
+/// that of PairDetector::detect, and where PairQuery::region_distance_limit asks for distances of regions
+/// also of PairDetector::region_distances, bit for bit; how it is cut depends on the surfaces and the query
+/// only.
 ///
 ///     large.begin(a, b, query, front, answer);
 ///     while (!large.advance(detector, counters))
@@ -30,7 +30,7 @@ class GRAZE_API LargePair {
   LargePair(LargePair&&) noexcept;
   LargePair& operator=(LargePair&&) noexcept;
 
-  /// As PairDetector::detect; what is referred to stays until the query is answered.
+  /// As PairDetector::detect and region_distances; what is referred to stays until the query is answered.
   void begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
              PairAnswer& answer);
   /// Does what is not cut. True: the answer is there. False: there are slices to be run.
@@ -38,8 +38,12 @@ class GRAZE_API LargePair {
   [[nodiscard]] std::size_t slice_count() const;
   void run_slice(std::size_t index, PairDetector& detector, PairCounters& counters);
 
+  /// Bytes of working memory held.
+  [[nodiscard]] std::size_t byte_count() const;
+
  private:
-  std::unique_ptr<PairSearch> search_;
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
 };
 
 }  // namespace graze

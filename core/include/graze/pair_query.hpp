@@ -55,6 +55,24 @@ struct GRAZE_API PairCounters {
   void add(const PairCounters& other);
 };
 
+/// How large the pairs are that working memory makes room for ahead of time. Pairs that need more take it
+/// when they are met.
+struct GRAZE_API PairRoom {
+  // Of one pair:
+  std::size_t contacts = 0;
+  std::size_t leaf_pairs = 0;        ///< that may be near
+  std::size_t ties = 0;              ///< names at the least distance, and features about them
+  std::size_t region_distances = 0;  ///< listed
+  // Of the largest of the meshes:
+  std::size_t regions = 0;
+  std::size_t leaf_vertices = 0;
+  std::size_t leaf_edges = 0;
+  std::size_t leaf_faces = 0;
+
+  /// Takes up how large a mesh's regions are.
+  void include(const Mesh& mesh);
+};
+
 /// What is known of one pair of objects.
 struct PairAnswer {
   bool in_contact = false;
@@ -98,6 +116,10 @@ class GRAZE_API PairDetector {
   /// Makes as much room as `other` and this have needed, so that either could have done the work of both
   /// without taking memory.
   void reserve_as(const PairDetector& other);
+  /// Makes room ahead of time.
+  void reserve(const PairRoom& room);
+  /// Bytes of working memory held.
+  [[nodiscard]] std::size_t byte_count() const;
 
   /// Bounds that need no search and no refit, for a pair whose turn does not come: an answer that is not
   /// complete.

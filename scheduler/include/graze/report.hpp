@@ -94,15 +94,16 @@ struct StepStatistics {
   std::uint64_t fronts_left_out = 0;
   /// Region pairs expanded, by level.
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
-  std::uint64_t object_bytes = 0;  ///< positions, boxes and radii of all objects; meshes are not counted
-  std::uint64_t pair_bytes = 0;    ///< what is remembered of pairs from step to step
-  std::uint64_t report_bytes = 0;
-  double read_ms = 0;     ///< staged changes, positions, objects' boxes
-  double pairs_ms = 0;    ///< broad phase and filters
-  double refit_ms = 0;    ///< boxes and radii of the regions
-  double jobs_ms = 0;     ///< DMV, DV and contacts
-  double publish_ms = 0;  ///< the report
-  double step_ms = 0;     ///< all of them
+  // Memory that the scene holds from step to step, in bytes; meshes and what oneTBB holds are not counted.
+  std::uint64_t object_bytes = 0;  ///< of objects: positions, copies of them, boxes, radii; waiting calls
+  std::uint64_t pair_bytes = 0;    ///< of pairs: what is remembered, answers, the threads' working memory
+  std::uint64_t report_bytes = 0;  ///< of all reports, those held by handles and those to be filled again
+  double read_ms = 0;              ///< staged changes, positions, objects' boxes
+  double pairs_ms = 0;             ///< broad phase and filters
+  double refit_ms = 0;             ///< boxes and radii of the regions
+  double jobs_ms = 0;              ///< DMV, DV and contacts
+  double publish_ms = 0;           ///< the report
+  double step_ms = 0;              ///< all of them
 };
 
 /// The published answer of one step; immutable. Read it from any thread.

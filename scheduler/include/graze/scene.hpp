@@ -26,7 +26,8 @@ namespace graze {
 ///
 /// Memory: `add`, `set_rule`, `object_settings` and what makes a Diagnostic allocate. The other calls do
 /// where more of them wait for a step than ever did or were reserved, and `set_positions` for the first
-/// copies of an object, and for each beyond four that wait at once.
+/// copies of an object, and for each beyond four that wait at once. A step takes memory where it needs more
+/// than any before and than was reserved.
 ///
 /// Forms for many objects mean the same as one call after the other in the order of `objects`; no other
 /// thread's calls come in between, and one step takes up all of them. Each object costs less than by a call
@@ -104,7 +105,9 @@ class GRAZE_API Scene {
   /// Thresholds for every pair of an object of `kind_a` and one of `kind_b`, in either order.
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
 
-  /// Makes room ahead of time, so that up to so many objects and calls are taken without an allocation.
+  /// Makes room ahead of time: for calls at once, for all else in the next step. Calls and steps that need no
+  /// more than that take no memory from the allocator, the first contacts included; but for pairs of two
+  /// surfaces of 4,096 vertices or more, more than 4,096 pairs of objects about one place, and diagnostics.
   void reserve(const SceneCapacity& capacity);
 
   /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step

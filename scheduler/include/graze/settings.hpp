@@ -64,6 +64,16 @@ struct SceneSettings {
 struct SceneCapacity {
   std::size_t objects = 0;
   std::size_t calls_per_step = 0;  ///< made between two steps; each object of a batch is one
+  /// Pairs near enough that StepStatistics::pairs_close counts them, or that the last report listed. Each has
+  /// its job, its answer, its memory between steps with room for 64 pairs of leaves, and its row in a report.
+  /// Where this is not 0 objects, those that come later too, have room for the bounds of their regions, and
+  /// each thread for a pair of 1,024 contacts, leaf pairs, and contacts at the least distance.
+  std::size_t near_pairs = 0;
+  /// Of all pairs together: in the answers of a step, and in a report.
+  std::size_t contacts = 0;
+  /// Held by handles at once, beside the latest. Each has room for `near_pairs` rows and `contacts`, or as
+  /// much as any report has needed.
+  std::size_t reports = 0;
 };
 
 }  // namespace graze

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace graze {
+
+/// Bytes of the allocator's that a vector holds; not what its elements hold themselves.
+template <typename Element>
+std::size_t bytes_of(const std::vector<Element>& elements) {
+  return elements.capacity() * sizeof(Element);
+}
+
+}  // namespace graze

@@ -1,0 +1,44 @@
+#include "pair_answers.hpp"
+
+namespace graze {
+namespace {
+
+KeptAnswer kept(const PairAnswer& answer, std::span<const Contact> contacts,
+                std::span<const RegionDistance> region_distances) {
+  return {answer.in_contact, answer.listed, answer.complete,  answer.distance,
+          answer.witness,    contacts,      region_distances, answer.region_distances_left_out};
+}
+
+}  // namespace
+
+void PairAnswers::begin(std::size_t count) {
+  if (answers_.size() < count) answers_.resize(count);
+  contacts_.begin();
+  region_distances_.begin();
+}
+
+void PairAnswers::keep(std::size_t job, const PairAnswer& answer, unsigned worker) {
+  answers_[job] = kept(answer, contacts_.keep(answer.contacts, worker),
+                       region_distances_.keep(answer.region_distances, worker));
+}
+
+void PairAnswers::refer_to(std::size_t job, const PairAnswer& answer) {
+  answers_[job] = kept(answer, answer.contacts, answer.region_distances);
+}
+
+void PairAnswers::even_out() {
+  contacts_.even_out();
+  region_distances_.even_out();
+}
+
+void PairAnswers::reserve(std::size_t answers, std::size_t contacts, std::size_t region_distances) {
+  if (answers_.size() < answers) answers_.resize(answers);
+  contacts_.reserve(contacts);
+  region_distances_.reserve(region_distances);
+}
+
+std::size_t PairAnswers::byte_count() const {
+  return bytes_of(answers_) + contacts_.byte_count() + region_distances_.byte_count();
+}
+
+}  // namespace graze

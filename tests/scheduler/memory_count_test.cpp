@@ -1,0 +1,87 @@
+// What a step's statistics say of memory against what the allocator has given.
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <optional>
+
+#include "scheduler/allocation_count.hpp"
+#include "scheduler/scene_support.hpp"
+#include "support/catch.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+namespace {
+
+double counted_bytes(const StepStatistics& statistics) {
+  return static_cast<double>(statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes);
+}
+
+/// Objects of one mesh that are moved at random about each other for some steps. On one thread: what oneTBB
+/// takes is not counted.
+struct Crowd {
+  const char* name;
+  models::MeshData mesh;
+  std::size_t count;
+  double spacing;
+  SceneSettings settings;
+};
+
+/// Of what the allocator gave since before the scene was made, the part that is counted.
+double counted_part(const Crowd& crowd) {
+  const auto mesh = mesh_of(crowd.mesh);
+  std::vector<ObjectId> ids(crowd.count);
+  Positions positions(mesh->vertex_count());
+  std::array<ReportHandle, 3> held;
+  oracle::Random random(11);
+  const std::uint64_t before = AllocationCount::held_bytes();
+  Scene scene(crowd.settings);
+  for (ObjectId& id : ids) id = scene.add(mesh);
+  const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(crowd.count)));
+  for (std::size_t frame = 0; frame < 12; ++frame) {
+    for (std::size_t i = 0; i < crowd.count; ++i) {
+      Eigen::Vector3d at(static_cast<double>(i % side), static_cast<double>(i / side % side),
+                         static_cast<double>(i / side / side));
+      for (int axis = 0; axis < 3; ++axis) at[axis] = crowd.spacing * (at[axis] + random.between(-0.1, 0.1));
+      for (std::size_t vertex = 0; vertex < positions.size(); ++vertex)
+        positions[vertex] = mesh->rest()[vertex] + at;
+      scene.set_positions(ids[i], positions);
+    }
+    held[frame % held.size()] = scene.step();
+  }
+  const StepStatistics& statistics = held[11 % held.size()]->statistics();
+  CHECK(statistics.pairs_in_contact > 0);
+  const auto in_use = static_cast<double>(AllocationCount::held_bytes() - before);
+  std::cout << "compared " << in_use / 1000 << " kB that " << crowd.name << " hold with "
+            << counted_bytes(statistics) / 1000 << " kB counted\n";
+  return counted_bytes(statistics) / in_use;
+}
+
+}  // namespace
+
+TEST_CASE("memory: what is counted is what the allocator gave, within a tenth") {
+  if (!AllocationCount::is_possible()) {
+    std::cout << "skipped: the allocator cannot be asked here\n";
+    return;
+  }
+  const auto settings = [](ContactDetail detail, std::size_t region_distances) {
+    SceneSettings made = settings_of(0.05, 0.2, detail);
+    made.threads = 1;
+    made.region_distances = region_distances;
+    return made;
+  };
+  for (const Crowd& crowd :
+       {Crowd{"300 spheres", models::sphere(10, 8), 300, 1.9, settings(ContactDetail::features, 0)},
+        Crowd{"2,000 boxes", models::box({1, 1, 1}), 2000, 1.1, settings(ContactDetail::closest, 0)},
+        Crowd{"60 tori with distances of regions", models::torus(), 60, 1.5,
+              settings(ContactDetail::vertices, 50'000)},
+        Crowd{"two large spheres", models::sphere(100, 60), 2, 0.05,
+              settings(ContactDetail::features, 100'000)}}) {
+    INFO(crowd.name);
+    const double part = counted_part(crowd);
+    CHECK(part > 0.9);
+    CHECK(part < 1.1);
+  }
+}
+
+}  // namespace graze::tests
