@@ -25,6 +25,7 @@ struct Crowd {
   std::size_t count;
   double spacing;
   SceneSettings settings;
+  std::size_t copies = 1;  ///< of each one's positions that wait for a step
 };
 
 /// Of what the allocator gave since before the scene was made, the part that is counted.
@@ -45,7 +46,7 @@ double counted_part(const Crowd& crowd) {
       for (int axis = 0; axis < 3; ++axis) at[axis] = crowd.spacing * (at[axis] + random.between(-0.1, 0.1));
       for (std::size_t vertex = 0; vertex < positions.size(); ++vertex)
         positions[vertex] = mesh->rest()[vertex] + at;
-      scene.set_positions(ids[i], positions);
+      for (std::size_t copy = 0; copy < crowd.copies; ++copy) scene.set_positions(ids[i], positions);
     }
     held[frame % held.size()] = scene.step();
   }
@@ -75,6 +76,8 @@ TEST_CASE("memory: what is counted is what the allocator gave, within a tenth") 
         Crowd{"2,000 boxes", models::box({1, 1, 1}), 2000, 1.1, settings(ContactDetail::closest, 0)},
         Crowd{"60 tori with distances of regions", models::torus(), 60, 1.5,
               settings(ContactDetail::vertices, 50'000)},
+        Crowd{"30 spheres with copies that waited", models::sphere(60, 40), 30, 1.95,
+              settings(ContactDetail::closest, 0), 4},
         Crowd{"two large spheres", models::sphere(100, 60), 2, 0.05,
               settings(ContactDetail::features, 100'000)}}) {
     INFO(crowd.name);
