@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <graze/large_pair.hpp>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -226,6 +228,41 @@ TEST_CASE("a thousand frames of a periodic motion take no memory after the first
   AllocationCount::end();
   CHECK(played.idle == 0);
   CHECK(played.diagnostics == 0);
+  check_none();
+}
+
+TEST_CASE("a large pair takes no memory after the first periods") {
+  if (is_skipped()) return;
+  const auto detail = GENERATE(ContactDetail::closest, ContactDetail::features);
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(static_cast<int>(detail), threads);
+  SceneSettings settings = settings_of(0.02, 0.1, detail);
+  settings.threads = threads;
+  settings.region_distances = 20'000;
+  Scene scene(settings);
+  const auto mesh = mesh_of(models::sphere(90, 60));
+  REQUIRE(mesh->vertex_count() >= LargePair::least_vertex_count);
+  scene.add(mesh, motion_of(Motion::fixed));
+  const ObjectId moving = scene.add(mesh, motion_of(Motion::rigid));
+  std::size_t least = ~std::size_t{0};
+  std::size_t most = 0;
+  const auto play_periods = [&](std::size_t count) {
+    constexpr std::size_t frames = 6;
+    for (std::size_t frame = 0; frame < count * frames; ++frame) {
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation().x() = 1.97 + 0.01 * static_cast<double>(frame % frames);
+      scene.set_pose(moving, pose);
+      const ReportHandle report = scene.step();
+      least = std::min(least, report->contacts().size());
+      most = std::max(most, report->contacts().size());
+      if (report->region_distances().empty()) FAIL("no distances of regions");
+    }
+  };
+  play_periods(4);
+  AllocationCount::begin();
+  play_periods(4);
+  AllocationCount::end();
+  CHECK(most > least);
   check_none();
 }
 
