@@ -125,6 +125,8 @@ StepStatistics read_statistics(const json& value) {
     throw BadLine("regions_expanded has too many levels");
   for (std::size_t level = 0; level < expanded.size(); ++level)
     statistics.regions_expanded[level] = read_whole<std::uint64_t>(expanded.at(level));
+  if (const auto found = value.find(thread_field.first); found != value.end())
+    statistics.*thread_field.second = read_whole<std::uint64_t>(*found);
   for (const auto& [name, member] : time_fields)
     if (const auto found = value.find(name); found != value.end()) statistics.*member = read_real(*found);
   return statistics;

@@ -94,8 +94,10 @@ void write_statistics(JsonText& json, const StepStatistics& statistics, bool inc
   json.key("regions_expanded").open('[');
   std::for_each(expanded.begin(), last.base(), [&](std::uint64_t count) { json.whole(count); });
   json.close(']');
-  if (include_times)
+  if (include_times) {
+    json.key(thread_field.first).whole(statistics.*thread_field.second);
     for (const auto& [name, member] : time_fields) json.key(name).real(statistics.*member);
+  }
   json.close('}');
 }
 

@@ -40,6 +40,10 @@ inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatis
     {"report_bytes", &StepStatistics::report_bytes},
 }};
 
+/// What follows which thread did what, which is chance; left out with the times.
+inline constexpr std::pair<std::string_view, std::uint64_t StepStatistics::*> thread_field{
+    "thread_bytes", &StepStatistics::thread_bytes};
+
 inline constexpr std::array<std::pair<std::string_view, double StepStatistics::*>, 6> time_fields{{
     {"read_ms", &StepStatistics::read_ms},
     {"pairs_ms", &StepStatistics::pairs_ms},

@@ -284,11 +284,16 @@ void PairJobs::reserve_for(const Mesh& mesh) {
 
 std::size_t PairJobs::byte_count() const {
   std::size_t bytes = answers_.byte_count() + bytes_of(order_) + bytes_of(small_jobs_) + bytes_of(large_) +
-                      bytes_of(large_answers_) + bytes_of(slices_) + bytes_of(workers_);
+                      bytes_of(large_answers_) + bytes_of(slices_);
   for (const LargeJob& large : large_) bytes += large.pair.byte_count();
   for (const PairAnswer& answer : large_answers_) bytes += bytes_of_lists(answer);
-  for (const Worker& worker : workers_)
-    bytes += worker.detector.byte_count() + bytes_of_lists(worker.answer) + worker.front_bytes;
+  for (const Worker& worker : workers_) bytes += worker.front_bytes;
+  return bytes;
+}
+
+std::size_t PairJobs::thread_byte_count() const {
+  std::size_t bytes = bytes_of(workers_);
+  for (const Worker& worker : workers_) bytes += worker.detector.byte_count() + bytes_of_lists(worker.answer);
   return bytes;
 }
 

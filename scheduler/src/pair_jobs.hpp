@@ -36,6 +36,8 @@ class PairJobs {
   void reserve_for(const Mesh& mesh);
   /// Of what is here, and of what the fronts in the pairs' memories have grown by.
   [[nodiscard]] std::size_t byte_count() const;
+  /// Of the workers.
+  [[nodiscard]] std::size_t thread_byte_count() const;
 
  private:
   /// Each worker's own, which only it touches while jobs run.

@@ -42,7 +42,7 @@ class SharedRoom {
   void reserve(std::size_t count) {
     if (room_.size() < count) room_.resize(count);
   }
-  [[nodiscard]] std::size_t byte_count() const { return bytes_of(room_) + bytes_of(beyond_); }
+  [[nodiscard]] std::size_t byte_count() const { return bytes_of(room_); }
 
  private:
   std::vector<Element> room_;

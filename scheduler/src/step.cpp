@@ -154,6 +154,7 @@ void Step::count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics
   statistics.object_bytes = store_.byte_count() + staging_.byte_count();
   statistics.pair_bytes = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count();
   statistics.report_bytes = reports_.byte_count();
+  statistics.thread_bytes = jobs_.thread_byte_count();
 }
 
 }  // namespace graze

@@ -187,7 +187,8 @@ TEST_CASE("2,000 objects in one place: memory bounded, degradation reported") {
   }
   for (std::size_t i = 0; i < count; ++i) scene.add(meshes[i % meshes.size()]);
   const auto bytes_of = [](const StepStatistics& statistics) {
-    return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes;
+    return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes +
+           statistics.thread_bytes;
   };
   std::uint64_t first_bytes = 0;
   for (int frame = 0; frame < 3; ++frame) {

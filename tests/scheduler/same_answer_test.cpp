@@ -74,6 +74,9 @@ TEST_CASE("reports are the same bit for bit for any number of threads and in eve
         REQUIRE(mine.region_pairs_tested == theirs.region_pairs_tested);
         REQUIRE(mine.exact_decisions == theirs.exact_decisions);
         REQUIRE(mine.regions_expanded == theirs.regions_expanded);
+        REQUIRE(mine.object_bytes == theirs.object_bytes);
+        REQUIRE(mine.pair_bytes == theirs.pair_bytes);
+        REQUIRE(mine.report_bytes == theirs.report_bytes);
       }
     }
   }

@@ -151,6 +151,7 @@ void check_statistics(const graze::StepStatistics& read, const graze::StepStatis
   CHECK(read.object_bytes == written.object_bytes);
   CHECK(read.report_bytes == written.report_bytes);
   CHECK(read.regions_expanded == written.regions_expanded);
+  CHECK(read.thread_bytes == (with_times ? written.thread_bytes : 0));
   CHECK(same_bits(read.step_ms, with_times ? written.step_ms : 0));
   CHECK(same_bits(read.read_ms, with_times ? written.read_ms : 0));
   CHECK(same_bits(read.pairs_ms, with_times ? written.pairs_ms : 0));

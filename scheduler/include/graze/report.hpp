@@ -96,8 +96,9 @@ struct StepStatistics {
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
   // Memory that the scene holds from step to step, in bytes; meshes and what oneTBB holds are not counted.
   std::uint64_t object_bytes = 0;  ///< of objects: positions, copies of them, boxes, radii; waiting calls
-  std::uint64_t pair_bytes = 0;    ///< of pairs: what is remembered, answers, the threads' working memory
+  std::uint64_t pair_bytes = 0;    ///< of pairs: what is remembered, and answers
   std::uint64_t report_bytes = 0;  ///< of all reports, those held by handles and those to be filled again
+  std::uint64_t thread_bytes = 0;  ///< working memory of the threads; which of them does what is chance
   double read_ms = 0;              ///< staged changes, positions, objects' boxes
   double pairs_ms = 0;             ///< broad phase and filters
   double refit_ms = 0;             ///< boxes and radii of the regions

@@ -39,7 +39,8 @@ struct ScalingRun {
   /// The same of each phase by itself, together by the phases' shares of a step.
   [[nodiscard]] double serial_fraction_by_phases() const;
   [[nodiscard]] std::uint64_t bytes() const {
-    return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes;
+    return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes +
+           statistics.thread_bytes;
   }
 };
 
