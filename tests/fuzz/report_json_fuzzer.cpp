@@ -73,7 +73,7 @@ FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::Scen
     pair.witness = read.witness;
     std::vector<Contact> contacts;
     for (const io::ReportedContact& contact : read.contacts) contacts.push_back(contact.contact);
-    builder.add(pair, contacts);
+    builder.add(pair, contacts, {});
   }
   for (const io::ReportedDiagnostic& read : frame.diagnostics) {
     const bool is_named = read.object && *read.object < objects.size();
