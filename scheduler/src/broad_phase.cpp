@@ -271,7 +271,7 @@ void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
   new_pairs_.reserve(pairs);
   merged_.reserve(pairs);
   pairs_of_each_slice_ = std::max(pairs_of_each_slice_, std::min(pairs, most_of_each_slice));
-  const std::size_t slices = slices_of(slots, BoxOrder::block * blocks_of_slice);
+  const std::size_t slices = slices_of(slots, std::size_t{BoxOrder::block} * blocks_of_slice);
   if (slices_.size() < slices) slices_.resize(slices);
   for (Slice& slice : slices_) reserve(slice);
 }

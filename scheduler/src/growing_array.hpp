@@ -63,7 +63,7 @@ class GrowingArray {
   /// Chunk c begins at first_chunk (2^c - 1).
   static Place place_of(std::uint32_t index) noexcept {
     const std::size_t units = index / first_chunk + 1;
-    const auto chunk = static_cast<std::size_t>(std::bit_width(units) - 1);
+    const auto chunk = static_cast<std::size_t>(std::bit_width(units / 2));  // the logarithm, rounded down
     return {chunk, index - first_chunk * ((std::size_t{1} << chunk) - 1)};
   }
 

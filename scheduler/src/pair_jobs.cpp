@@ -209,7 +209,7 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
 }
 
 /// Remembers what the answer was about.
-void PairJobs::was_detected(const PairJob& job, const PairAnswer& answer) {
+void PairJobs::was_detected(const PairJob& job, const PairAnswer& answer) const {
   const bool whole = answer.complete && job.task == PairJob::Task::detect;
   PairMemory& memory = job.memory_to_write();
   memory.version_a = whole ? job.a->surface().version() : 0;

@@ -72,7 +72,7 @@ class PairJobs {
   void begin_large(std::size_t place, unsigned worker);
   void advance_large(std::size_t place, unsigned worker);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
-  void was_detected(const PairJob& job, const PairAnswer& answer);
+  void was_detected(const PairJob& job, const PairAnswer& answer) const;
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();
   void run_by_urgency();
