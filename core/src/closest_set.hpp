@@ -1,6 +1,5 @@
 #pragma once
 
-#include <graze/pair_query.hpp>
 #include <limits>
 
 #include "contact_name.hpp"
@@ -24,9 +23,10 @@ struct Closest {
     upper = std::numeric_limits<double>::infinity();
     pierced = false;
   }
-  void reserve_as(const Closest& other) { names.reserve_as(other.names); }
-  void reserve(const PairRoom& room) { names.reserve(room.ties); }
-  [[nodiscard]] std::size_t byte_count() const { return names.byte_count(); }
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.names);
+  }
 };
 
 /// Takes offers of names; the bound only shrinks.

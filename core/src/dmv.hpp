@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 
@@ -19,9 +19,9 @@ struct DmvScratch {
   std::vector<RegionPair> front;
   std::vector<RegionPair> next;
 
-  void reserve_as(const DmvScratch& other) {
-    graze::reserve_as(front, other.front);
-    graze::reserve_as(next, other.next);
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.front, self.next);
   }
   void reserve(const PairRoom& room) {
     // Of the pairs of a level only some are near.
@@ -29,7 +29,6 @@ struct DmvScratch {
     front.reserve(tested_for_one * room.leaf_pairs);
     next.reserve(tested_for_one * room.leaf_pairs);
   }
-  [[nodiscard]] std::size_t byte_count() const { return bytes_of(front) + bytes_of(next); }
 };
 
 /// How much of a query's budget is left, counted in region pairs tested.

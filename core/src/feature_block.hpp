@@ -10,7 +10,7 @@
 
 #include "filter_frame.hpp"
 #include "kernels/filter.hpp"
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 
@@ -52,6 +52,10 @@ class FeatureBlock {
     touches_.push_back(touches ? 1 : 0);
   }
 
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.data_, self.owners_, self.touches_);
+  }
   void reserve_as(const FeatureBlock& other) {
     if (data_.size() < other.data_.size()) data_.resize(other.data_.size());
     graze::reserve_as(owners_, other.owners_);
@@ -61,9 +65,6 @@ class FeatureBlock {
     begin(most);
     owners_.reserve(most);
     touches_.reserve(most);
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(data_) + bytes_of(owners_) + bytes_of(touches_);
   }
 
   [[nodiscard]] Part part() const { return part_; }

@@ -8,7 +8,7 @@
 
 #include "arithmetic.hpp"
 #include "feature_block.hpp"
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 
@@ -26,15 +26,15 @@ struct FloatFilterScratch {
   std::vector<std::uint32_t> index;
   std::vector<float> bound;
 
-  void reserve_as(const FloatFilterScratch& other) {
-    graze::reserve_as(index, other.index);
-    graze::reserve_as(bound, other.bound);
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.index, self.bound);
   }
-  void reserve(std::size_t features) {
-    index.reserve(features);
-    bound.reserve(features);
+  void reserve(const PairRoom& room) {
+    const std::size_t most = std::max({room.leaf_vertices, room.leaf_edges, 2 * room.leaf_faces});
+    index.reserve(most);
+    bound.reserve(most);
   }
-  [[nodiscard]] std::size_t byte_count() const { return bytes_of(index) + bytes_of(bound); }
 };
 
 /// Lets the float kernels look at all pairs of two blocks of features, and hands on what they leave. A quad

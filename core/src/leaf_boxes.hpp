@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 
@@ -39,15 +39,14 @@ class LeafBoxes {
     }
   }
 
-  void reserve_as(const LeafBoxes& other) {
-    graze::reserve_as(boxes_, other.boxes_);
-    graze::reserve_as(made_in_, other.made_in_);
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.boxes_, self.made_in_);
   }
-  void reserve(std::size_t regions) {
-    boxes_.reserve(regions);
-    made_in_.reserve(regions);
+  void reserve(const PairRoom& room) {
+    boxes_.reserve(room.regions);
+    made_in_.reserve(room.regions);
   }
-  [[nodiscard]] std::size_t byte_count() const { return bytes_of(boxes_) + bytes_of(made_in_); }
 
   /// Stays until the next `begin`.
   const Box& of(std::uint32_t leaf) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "float_filter.hpp"
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 
@@ -37,12 +37,9 @@ class LeafFeatures {
   /// asked.
   bool is_fold(std::size_t fold, DecisionCount& count);
 
-  void reserve_as(const LeafFeatures& other) {
-    vertices.reserve_as(other.vertices);
-    edges.reserve_as(other.edges);
-    triangles.reserve_as(other.triangles);
-    folds.reserve_as(other.folds);
-    graze::reserve_as(folded_, other.folded_);
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.vertices, self.edges, self.triangles, self.folds, self.folded_);
   }
   void reserve(const PairRoom& room) {
     vertices.reserve(room.leaf_vertices);
@@ -50,10 +47,6 @@ class LeafFeatures {
     triangles.reserve(2 * room.leaf_faces);
     folds.reserve(room.leaf_faces);
     folded_.reserve(room.leaf_faces);
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return vertices.byte_count() + edges.byte_count() + triangles.byte_count() + folds.byte_count() +
-           bytes_of(folded_);
   }
 
  private:

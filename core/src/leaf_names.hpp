@@ -13,18 +13,9 @@ struct LeafScratch {
   LeafFeatures b;
   FloatFilterScratch filter;
 
-  void reserve_as(const LeafScratch& other) {
-    a.reserve_as(other.a);
-    b.reserve_as(other.b);
-    filter.reserve_as(other.filter);
-  }
-  void reserve(const PairRoom& room) {
-    a.reserve(room);
-    b.reserve(room);
-    filter.reserve(std::max({room.leaf_vertices, room.leaf_edges, 2 * room.leaf_faces}));
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return a.byte_count() + b.byte_count() + filter.byte_count();
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.a, self.b, self.filter);
   }
 };
 

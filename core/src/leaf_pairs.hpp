@@ -26,18 +26,9 @@ struct LeafPairScratch {
   LeafBoxes boxes_a;
   LeafBoxes boxes_b;
 
-  void reserve_as(const LeafPairScratch& other) {
-    dmv.reserve_as(other.dmv);
-    boxes_a.reserve_as(other.boxes_a);
-    boxes_b.reserve_as(other.boxes_b);
-  }
-  void reserve(const PairRoom& room) {
-    dmv.reserve(room);
-    boxes_a.reserve(room.regions);
-    boxes_b.reserve(room.regions);
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return dmv.byte_count() + boxes_a.byte_count() + boxes_b.byte_count();
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.dmv, self.boxes_a, self.boxes_b);
   }
 };
 

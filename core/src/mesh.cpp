@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <graze/bytes_of.hpp>
 #include <graze/error.hpp>
 #include <graze/floating_point_scope.hpp>
 #include <graze/mesh.hpp>
@@ -9,11 +10,6 @@
 
 namespace graze {
 namespace {
-
-template <typename T>
-std::size_t bytes_of(const std::vector<T>& values) {
-  return values.capacity() * sizeof(T);
-}
 
 /// Rows of values in compressed form: row i is values[begin[i], begin[i + 1]), ascending, each value once.
 class Rows {

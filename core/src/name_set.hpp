@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <graze/bytes_of.hpp>
 #include <iterator>
 #include <limits>
 #include <vector>
 
 #include "contact_name.hpp"
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 
@@ -47,18 +46,14 @@ class NameSet {
     while (begins_.size() > 1) merge_last();
   }
 
-  void reserve(std::size_t count) {
-    names_.reserve(count);
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.names_, self.begins_, self.merged_);
+  }
+  void reserve(const PairRoom& room) {
+    names_.reserve(room.ties);
     begins_.reserve(std::numeric_limits<std::size_t>::digits);
-    merged_.reserve(count);
-  }
-  void reserve_as(const NameSet& other) {
-    graze::reserve_as(names_, other.names_);
-    graze::reserve_as(begins_, other.begins_);
-    graze::reserve_as(merged_, other.merged_);
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(names_) + bytes_of(begins_) + bytes_of(merged_);
+    merged_.reserve(room.ties);
   }
 
  private:

@@ -51,18 +51,18 @@ PairDetector& PairDetector::operator=(PairDetector&&) noexcept = default;
 
 void PairDetector::reserve_as(const PairDetector& other) {
   scratch_->search.reserve_as(other.scratch_->search);
-  scratch_->memory.reserve_as(other.scratch_->memory);
+  graze::reserve_as(scratch_->memory, other.scratch_->memory);
   scratch_->region_distances.reserve_as(other.scratch_->region_distances);
 }
 
 void PairDetector::reserve(const PairRoom& room) {
   scratch_->search.reserve(room);
-  scratch_->memory.reserve(room);
+  graze::reserve(scratch_->memory, room);
   scratch_->region_distances.reserve(room);
 }
 
 std::size_t PairDetector::byte_count() const {
-  return sizeof(Scratch) + scratch_->search.byte_count() + scratch_->memory.byte_count() +
+  return sizeof(Scratch) + scratch_->search.byte_count() + bytes_of(scratch_->memory) +
          scratch_->region_distances.byte_count() + bytes_of(scratch_->no_front.leaves);
 }
 

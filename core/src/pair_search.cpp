@@ -1,6 +1,7 @@
 #include "pair_search.hpp"
 
 #include <algorithm>
+#include <graze/cut_by_work.hpp>
 #include <tuple>
 
 #include "feature_pairs.hpp"
@@ -155,7 +156,7 @@ void PairSearch::reserve_as(const PairSearch& other) {
   const std::size_t names = std::max(other.names_.capacity(), other.slices_.front().names.capacity());
   names_.reserve(names);
   slices_.front().names.reserve(names);
-  closest_.closest.reserve_as(other.closest_.closest);
+  graze::reserve_as(closest_.closest, other.closest_.closest);
 }
 
 void PairSearch::reserve(const PairRoom& room) {
@@ -165,14 +166,14 @@ void PairSearch::reserve(const PairRoom& room) {
   for (auto* const leaves : {&found_.leaves, &slices_.front().found.leaves}) leaves->reserve(room.leaf_pairs);
   for (auto* const names : {&names_, &slices_.front().names})
     names->reserve(names_of_contact * room.contacts);
-  closest_.closest.reserve(room);
+  graze::reserve(closest_.closest, room);
 }
 
 std::size_t PairSearch::byte_count() const {
   std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
-                      bytes_of(run_ends_) + bytes_of(merged_) + closest_.closest.byte_count();
+                      bytes_of(run_ends_) + bytes_of(merged_) + bytes_of(closest_.closest);
   for (const Slice& slice : slices_)
-    bytes += bytes_of(slice.found.leaves) + bytes_of(slice.names) + slice.closest.closest.byte_count();
+    bytes += bytes_of(slice.found.leaves) + bytes_of(slice.names) + bytes_of(slice.closest.closest);
   return bytes;
 }
 
@@ -277,21 +278,23 @@ bool PairSearch::may_touch(double lower) const {
   return lower < query_.threshold || (query_.detail == ContactDetail::features && lower == 0);
 }
 
+/// The same of what comes nearer by the slack that a walk asks about.
+auto PairSearch::may_touch_within_slack() const {
+  return [this](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); };
+}
+
 void PairSearch::begin_reach(Worker& worker) {
   stage_ = Stage::reach;
   from_front_ = front_->beyond_now(*a_, *b_) > query_.threshold;
   if (from_front_) return slice_front();
-  slice_walk(
-      worker, [&](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); },
-      [](const RegionPair&) {});
+  slice_walk(worker, may_touch_within_slack(), [](const RegionPair&) {});
 }
 
 void PairSearch::run_reach(Slice& slice, Worker& worker) {
   if (from_front_) return worker.leaf_pairs.take(slice.start, slice.found);
   if (slice.start.empty()) return;
   slice.complete = worker.leaf_pairs.walk(
-      slice.start, [&](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); },
-      [](const RegionPair&) {}, slice.found);
+      slice.start, may_touch_within_slack(), [](const RegionPair&) {}, slice.found);
 }
 
 void PairSearch::begin_contacts(Worker& worker) {
@@ -306,15 +309,9 @@ void PairSearch::begin_contacts(Worker& worker) {
 void PairSearch::slice_leaves_in_contact() {
   const auto& leaves = found_.leaves;
   if (!sliced_) return add_slices_of(0, leaves.size(), leaves.size());
-  std::size_t begin = 0;
-  std::size_t looked_into = 0;
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    if (may_touch(leaves[i].lower)) ++looked_into;
-    if (looked_into < leaf_pairs_each && i + 1 < leaves.size()) continue;
-    add_slices_of(begin, i + 1, i + 1 - begin);
-    begin = i + 1;
-    looked_into = 0;
-  }
+  cut_by_work(
+      0, leaves.size(), leaf_pairs_each, [&](std::size_t i) { return may_touch(leaves[i].lower) ? 1U : 0U; },
+      [&](std::size_t begin, std::size_t end) { add_slices_of(begin, end, end - begin); });
 }
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {

@@ -22,25 +22,10 @@ struct SearchScratch {
   Closest lowest;
   ParallelScratch parallel;
 
-  void reserve_as(const SearchScratch& other) {
-    leaf_pairs.reserve_as(other.leaf_pairs);
-    features.reserve_as(other.features);
-    nearest_of_leaves.reserve_as(other.nearest_of_leaves);
-    paper.reserve_as(other.paper);
-    lowest.reserve_as(other.lowest);
-    parallel.reserve_as(other.parallel);
-  }
-  void reserve(const PairRoom& room) {
-    leaf_pairs.reserve(room);
-    features.reserve(room);
-    nearest_of_leaves.reserve(room);
-    paper.reserve(room);
-    lowest.reserve(room);
-    parallel.reserve(room);
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return leaf_pairs.byte_count() + features.byte_count() + nearest_of_leaves.byte_count() +
-           paper.byte_count() + lowest.byte_count() + parallel.byte_count();
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.leaf_pairs, self.features, self.nearest_of_leaves, self.paper, self.lowest,
+                    self.parallel);
   }
 };
 
@@ -102,6 +87,7 @@ class PairSearch {
   void finish_measuring(Worker& worker);
   [[nodiscard]] ContactName lowest_measured(Worker& worker) const;
   [[nodiscard]] bool may_touch(double lower) const;
+  [[nodiscard]] auto may_touch_within_slack() const;
 
   void begin_approach(Worker& worker);
   void approach(Worker& worker);

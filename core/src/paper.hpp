@@ -15,20 +15,9 @@ struct PaperScratch {
   Closest closest;
   Closest leaf_closest;
 
-  void reserve_as(const PaperScratch& other) {
-    dmv.reserve_as(other.dmv);
-    leaves.reserve_as(other.leaves);
-    closest.reserve_as(other.closest);
-    leaf_closest.reserve_as(other.leaf_closest);
-  }
-  void reserve(const PairRoom& room) {
-    dmv.reserve(room);
-    leaves.reserve(room);
-    closest.reserve(room);
-    leaf_closest.reserve(room);
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return dmv.byte_count() + leaves.byte_count() + closest.byte_count() + leaf_closest.byte_count();
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.dmv, self.leaves, self.closest, self.leaf_closest);
   }
 };
 

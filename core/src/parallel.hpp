@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact_name.hpp"
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 
@@ -28,23 +28,12 @@ struct ParallelScratch {
   std::vector<FeaturePair> candidates;
   std::vector<ParallelContact> found;
 
-  void reserve_as(const ParallelScratch& other) {
-    graze::reserve_as(holders_a, other.holders_a);
-    graze::reserve_as(holders_b, other.holders_b);
-    graze::reserve_as(holders, other.holders);
-    graze::reserve_as(candidates, other.candidates);
-    graze::reserve_as(found, other.found);
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.holders_a, self.holders_b, self.holders, self.candidates, self.found);
   }
   void reserve(const PairRoom& room) {
-    holders_a.reserve(room.ties);
-    holders_b.reserve(room.ties);
-    holders.reserve(room.ties);
-    candidates.reserve(room.ties);
-    found.reserve(room.ties);
-  }
-  [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(holders_a) + bytes_of(holders_b) + bytes_of(holders) + bytes_of(candidates) +
-           bytes_of(found);
+    std::apply([&](auto&... part) { (part.reserve(room.ties), ...); }, parts(*this));
   }
 };
 

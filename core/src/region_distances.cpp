@@ -1,11 +1,12 @@
 #include "region_distances.hpp"
 
 #include <algorithm>
+#include <graze/cut_by_work.hpp>
 
 #include "bounds.hpp"
 #include "contact_name.hpp"
 #include "paper.hpp"
-#include "reserve_as.hpp"
+#include "working_memory.hpp"
 
 namespace graze {
 namespace {
@@ -158,15 +159,9 @@ void RegionDistances::cut() {
   slice_count_ = 0;
   const auto& listed = answer_->region_distances;
   const std::size_t most = sliced_ ? pairs_each : std::numeric_limits<std::size_t>::max();
-  std::size_t begin = level_begin_;
-  std::size_t count = 0;
-  for (std::size_t i = begin; i < listed.size(); ++i) {
-    count += count_below(listed[i]);
-    if (count < most && i + 1 < listed.size()) continue;
-    if (count > 0) add_slice(begin, i + 1);
-    begin = i + 1;
-    count = 0;
-  }
+  cut_by_work(
+      level_begin_, listed.size(), most, [&](std::size_t i) { return count_below(listed[i]); },
+      [&](std::size_t begin, std::size_t end) { add_slice(begin, end); });
 }
 
 /// How many pairs take its place one level down.

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <graze/box.hpp>
+#include <graze/bytes_of.hpp>
 #include <graze/mesh.hpp>
 #include <graze/region_tree.hpp>
 #include <numeric>
@@ -155,9 +156,8 @@ RegionTree::RegionTree(const Mesh& mesh) {
 }
 
 std::size_t RegionTree::byte_count() const {
-  return regions_.capacity() * sizeof(Region) +
-         (level_begin_.capacity() + vertices_.capacity() + faces_.capacity() + edges_.capacity()) *
-             sizeof(std::uint32_t);
+  return bytes_of(regions_) + bytes_of(level_begin_) + bytes_of(vertices_) + bytes_of(faces_) +
+         bytes_of(edges_);
 }
 
 }  // namespace graze

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <graze/bytes_of.hpp>
 #include <graze/error.hpp>
 #include <graze/surface.hpp>
 #include <limits>
@@ -112,12 +113,8 @@ double Surface::motion_since(const Refit& refit) const {
   return motion_since(refit.travel);
 }
 
-double Surface::motion_since_vertex_refit() const {
-  return motion_since(vertex_refit_);
-}
-
-double Surface::motion_since_face_refit() const {
-  return motion_since(face_refit_);
+double Surface::motion_since_refit(RefitOf what) const {
+  return motion_since(what == RefitOf::vertices ? vertex_refit_ : face_refit_);
 }
 
 double Surface::leaf_size() const {
@@ -164,18 +161,11 @@ Box Surface::face_box_now(const Region& region) const {
   return box;
 }
 
-void Surface::refit_vertices() {
-  if (motion_since_vertex_refit() == 0) return;
-  begin_refit(RefitOf::vertices);
-  refit_regions(RefitOf::vertices, 0, mesh_->regions().region_count());
-  finish_refit(RefitOf::vertices);
-}
-
-void Surface::refit_faces() {
-  if (motion_since_face_refit() == 0) return;
-  begin_refit(RefitOf::faces);
-  refit_regions(RefitOf::faces, 0, mesh_->regions().region_count());
-  finish_refit(RefitOf::faces);
+void Surface::refit(RefitOf what) {
+  if (motion_since_refit(what) == 0) return;
+  begin_refit(what);
+  refit_regions(what, 0, mesh_->regions().region_count());
+  finish_refit(what);
 }
 
 void Surface::begin_refit(RefitOf what) {
@@ -207,33 +197,37 @@ void Surface::refit_vertices_of(std::uint32_t index) {
 }
 
 void Surface::finish_refit(RefitOf what) {
-  const RegionTree& tree = mesh_->regions();
-  if (what == RefitOf::vertices) {
-    level_radii_.assign(tree.level_count(), 0);
-    for (std::uint32_t index = 0; index < tree.region_count(); ++index) {
-      double& radius = level_radii_[tree.region(index).level];
-      radius = std::max(radius, radii_[index]);
-    }
-    vertex_refit_ = {version_, travel_};
-  } else {
-    // Children have higher numbers than their parent, so theirs are already those of now.
-    for (std::uint32_t index = tree.region_count(); index-- > 0;) {
-      const Region& region = tree.region(index);
-      if (region.is_leaf()) continue;
-      Box box;
-      for (std::uint32_t child = 0; child < region.child_count; ++child)
-        box.add(face_boxes_[region.first_child + child]);
-      face_boxes_[index] = box;
-    }
-    face_refit_ = {version_, travel_};
-  }
+  what == RefitOf::vertices ? finish_vertex_refit() : finish_face_refit();
   validate(*this);
 }
 
+void Surface::finish_vertex_refit() {
+  const RegionTree& tree = mesh_->regions();
+  level_radii_.assign(tree.level_count(), 0);
+  for (std::uint32_t index = 0; index < tree.region_count(); ++index) {
+    double& radius = level_radii_[tree.region(index).level];
+    radius = std::max(radius, radii_[index]);
+  }
+  vertex_refit_ = {version_, travel_};
+}
+
+void Surface::finish_face_refit() {
+  const RegionTree& tree = mesh_->regions();
+  // Children have higher numbers than their parent, so theirs are already those of now.
+  for (std::uint32_t index = tree.region_count(); index-- > 0;) {
+    const Region& region = tree.region(index);
+    if (region.is_leaf()) continue;
+    Box box;
+    for (std::uint32_t child = 0; child < region.child_count; ++child)
+      box.add(face_boxes_[region.first_child + child]);
+    face_boxes_[index] = box;
+  }
+  face_refit_ = {version_, travel_};
+}
+
 std::size_t Surface::byte_count() const {
-  return sizeof(Surface) + (positions_.capacity() + incoming_.capacity()) * sizeof(Eigen::Vector3d) +
-         (radii_.capacity() + level_radii_.capacity()) * sizeof(double) +
-         (vertex_boxes_.capacity() + face_boxes_.capacity()) * sizeof(Box);
+  return sizeof(Surface) + bytes_of(positions_) + bytes_of(incoming_) + bytes_of(radii_) +
+         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_);
 }
 
 }  // namespace graze

@@ -33,6 +33,19 @@ bool contains(const Box& box, const Eigen::Vector3d& point) {
   return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
 }
 
+/// The corners of what a leaf owns, where they are now.
+std::vector<Eigen::Vector3d> corners_of(const Surface& surface, const Region& leaf) {
+  const Mesh& mesh = surface.mesh();
+  const RegionTree& tree = mesh.regions();
+  std::vector<Eigen::Vector3d> corners;
+  const auto add = [&](std::uint32_t vertex) { corners.push_back(surface.position(vertex)); };
+  for (const std::uint32_t vertex : tree.vertices(leaf)) add(vertex);
+  for (const std::uint32_t face : tree.faces(leaf))
+    for (const std::uint32_t corner : mesh.face(face)) add(corner);
+  for (const std::uint32_t edge : tree.edges(leaf)) add(mesh.edge(edge)[1]);
+  return corners;
+}
+
 }  // namespace
 
 void validate(const RegionTree& tree, const Mesh& mesh) {
@@ -91,23 +104,6 @@ void validate(const Surface& surface) {
               "an edge sticks out of its box", edge);
   }
 }
-
-namespace {
-
-/// The corners of what a leaf owns, where they are now.
-std::vector<Eigen::Vector3d> corners_of(const Surface& surface, const Region& leaf) {
-  const Mesh& mesh = surface.mesh();
-  const RegionTree& tree = mesh.regions();
-  std::vector<Eigen::Vector3d> corners;
-  const auto add = [&](std::uint32_t vertex) { corners.push_back(surface.position(vertex)); };
-  for (const std::uint32_t vertex : tree.vertices(leaf)) add(vertex);
-  for (const std::uint32_t face : tree.faces(leaf))
-    for (const std::uint32_t corner : mesh.face(face)) add(corner);
-  for (const std::uint32_t edge : tree.edges(leaf)) add(mesh.edge(edge)[1]);
-  return corners;
-}
-
-}  // namespace
 
 /// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,
 /// and neither those nor the boxes of now always give the greater bound.

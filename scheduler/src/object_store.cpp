@@ -100,7 +100,7 @@ void ObjectStore::apply(AddObject& call) {
   object->settings = std::move(call.settings);
   object->owned_surface = std::move(call.surface);
   object->box = object->surface().box();
-  object->is_large = object->surface().mesh().vertex_count() > vertices_each;
+  object->in_parts = object->surface().mesh().vertex_count() > vertices_each;
   count_bytes(*object);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
   by_index_[call.object.index] = object.get();
@@ -248,7 +248,7 @@ void ObjectStore::begin_list() {
 }
 
 void ObjectStore::list_to_read(Object& object) {
-  if (!object.is_large) return to_read_.push_back(&object);
+  if (!object.in_parts) return to_read_.push_back(&object);
   const std::uint32_t count = object.surface().mesh().vertex_count();
   for (std::uint32_t begin = 0; begin < count; begin += vertices_each)
     parts_.push_back({&object, begin, std::min(vertices_each, count - begin), {}});

@@ -40,7 +40,7 @@ struct Object {
   /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
   bool frozen = false;
 
-  bool is_large = false;          ///< it is worth several tasks
+  bool in_parts = false;          ///< it is so large that several tasks read and refit it
   bool removed = false;           ///< it goes before the next read
   std::size_t counted_bytes = 0;  ///< its part of ObjectStore::surface_bytes_
 

@@ -1,15 +1,6 @@
 #include "pair_answers.hpp"
 
 namespace graze {
-namespace {
-
-KeptAnswer kept(const PairAnswer& answer, std::span<const Contact> contacts,
-                std::span<const RegionDistance> region_distances) {
-  return {answer.in_contact, answer.listed, answer.complete,  answer.distance,
-          answer.witness,    contacts,      region_distances, answer.region_distances_left_out};
-}
-
-}  // namespace
 
 void PairAnswers::begin(std::size_t count) {
   if (answers_.size() < count) answers_.resize(count);
@@ -18,12 +9,12 @@ void PairAnswers::begin(std::size_t count) {
 }
 
 void PairAnswers::keep(std::size_t job, const PairAnswer& answer, unsigned worker) {
-  answers_[job] = kept(answer, contacts_.keep(answer.contacts, worker),
-                       region_distances_.keep(answer.region_distances, worker));
+  answers_[job] = {answer, contacts_.keep(answer.contacts, worker),
+                   region_distances_.keep(answer.region_distances, worker)};
 }
 
 void PairAnswers::refer_to(std::size_t job, const PairAnswer& answer) {
-  answers_[job] = kept(answer, answer.contacts, answer.region_distances);
+  answers_[job] = {answer, answer.contacts, answer.region_distances};
 }
 
 void PairAnswers::even_out() {

@@ -10,15 +10,9 @@
 namespace graze {
 
 /// A PairAnswer whose lists are elsewhere.
-struct KeptAnswer {
-  bool in_contact = false;
-  bool listed = false;
-  bool complete = true;
-  DistanceBounds distance;
-  Witness witness;
+struct KeptAnswer : PairFinding {
   std::span<const Contact> contacts;
   std::span<const RegionDistance> region_distances;
-  std::uint64_t region_distances_left_out = 0;
 };
 
 /// The answers of a step's jobs, and their contacts in a memory that follows how many there are of all pairs

@@ -45,8 +45,9 @@ class PairJobs {
     PairDetector detector;
     PairCounters counters;
     PairAnswer answer;  ///< of the job at hand
-    std::size_t front_bytes =
-        0;  ///< that fronts have grown by since the scene began; of all workers together
+    /// That fronts have grown by since the scene began. Only the sum over all workers means something: one
+    /// may shrink a front that another has made grow.
+    std::size_t front_bytes = 0;
 
     void reserve_as(const Worker& other);
     void reserve(const PairRoom& room);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <graze/bytes_of.hpp>
+#include <graze/cut_by_work.hpp>
 #include <graze/pair_query.hpp>
 
 namespace graze {
@@ -11,7 +12,7 @@ namespace {
 constexpr double stale_leaf_sizes = 0.25;
 
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
-constexpr std::uint32_t work_each = 8192;
+constexpr std::size_t work_each = 8192;
 
 /// What a region's bounds are made from; those of faces from its children, but for leaves.
 std::uint32_t work_of(const Region& region, RefitOf what) {
@@ -52,7 +53,7 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs) {
   large_.clear();
   for (const PairJob& job : jobs)
     if (job.is_looked_at())
-      for (Object* const object : {job.a, job.b}) (object->is_large ? large_ : small_).push_back(object);
+      for (Object* const object : {job.a, job.b}) (object->in_parts ? large_ : small_).push_back(object);
   for (std::vector<Object*>* const list : {&small_, &large_}) {
     std::sort(list->begin(), list->end(),
               [](const Object* left, const Object* right) { return left->serial < right->serial; });
@@ -71,31 +72,24 @@ std::size_t RegionRefit::byte_count() const {
 }
 
 bool RegionRefit::is_stale(const Surface& surface) const {
-  const double motion =
-      what_ == RefitOf::vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit();
   const bool to_the_letter =
       settings_.accuracy.mode() == AccuracyMode::paper || settings_.region_distances > 0;
-  return motion > (to_the_letter ? 0 : stale_leaf_sizes * surface.leaf_size());
+  return surface.motion_since_refit(what_) > (to_the_letter ? 0 : stale_leaf_sizes * surface.leaf_size());
 }
 
 void RegionRefit::list_parts(Object& object) {
   const RegionTree& tree = object.surface().mesh().regions();
-  std::uint32_t begin = 0;
-  std::uint32_t work = 0;
-  for (std::uint32_t index = 0; index < tree.region_count(); ++index) {
-    work += work_of(tree.region(index), what_);
-    if (work < work_each && index + 1 < tree.region_count()) continue;
-    parts_.push_back({&object, begin, index + 1});
-    begin = index + 1;
-    work = 0;
-  }
+  cut_by_work(
+      0, tree.region_count(), work_each,
+      [&](std::size_t index) { return work_of(tree.regions()[index], what_); },
+      [&](std::size_t begin, std::size_t end) {
+        parts_.push_back({&object, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
+      });
 }
 
 void RegionRefit::refit_small(Object& object) const {
   const AccessScope access({AccessRight::write(&object), {}});
-  Surface& surface = object.surface_to_write();
-  if (!is_stale(surface)) return;
-  what_ == RefitOf::vertices ? surface.refit_vertices() : surface.refit_faces();
+  if (is_stale(object.surface())) object.surface_to_write().refit(what_);
 }
 
 }  // namespace graze

@@ -20,6 +20,8 @@ class RegionRefit {
 
   /// Makes room for so many jobs.
   void reserve(std::size_t jobs);
+  /// Makes a surface's bounds, so that its first job finds them.
+  void make_ready(Surface& surface) const { surface.refit(what_); }
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

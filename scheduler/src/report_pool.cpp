@@ -27,12 +27,11 @@ ReportHandle ReportPool::latest() noexcept {
 }
 
 FrameReport& ReportPool::begin() {
-  constexpr std::uint32_t none = chunk_size * chunk_capacity;
   const std::uint32_t found = find_free();
-  if (found == none && slot_count_ == none)
+  if (found == slot_limit && slot_count_ == slot_limit)
     throw Error("scene: " + std::to_string(slot_count_) +
                 " reports are held by handles; let some go before the next step");
-  if (found == none) {
+  if (found == slot_limit) {
     filling_ = add_slot();
   } else {
     free_count_.fetch_sub(1, std::memory_order_relaxed);
@@ -42,9 +41,9 @@ FrameReport& ReportPool::begin() {
   return slot(filling_).report;
 }
 
-/// A slot that can be filled, better one that has room; past the last one where there is none.
+/// A slot that can be filled, better one that has room; slot_limit where there is none.
 std::uint32_t ReportPool::find_free() {
-  std::uint32_t found = chunk_size * chunk_capacity;
+  std::uint32_t found = slot_limit;
   // Acquire: the last handle's reads are over before the slot is written again.
   if (free_count_.load(std::memory_order_acquire) == 0) return found;
   for (std::uint32_t index = 0; index < slot_count_; ++index) {
@@ -103,8 +102,8 @@ void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
     if (has_room(index)) ++with_room;
   }
   // One is published and one is filled while the others are held.
-  const std::size_t wanted = std::min<std::size_t>(held, chunk_size * chunk_capacity - 2) + 2;
-  for (; with_room < wanted && slot_count_ < chunk_size * chunk_capacity; ++with_room) {
+  const std::size_t wanted = std::min<std::size_t>(held, slot_limit - 2) + 2;
+  for (; with_room < wanted && slot_count_ < slot_limit; ++with_room) {
     make_room(add_slot());
     free_count_.fetch_add(1, std::memory_order_relaxed);
   }

@@ -58,6 +58,7 @@ class ReportPool {
   };
   static constexpr std::uint32_t chunk_size = 64;
   static constexpr std::uint32_t chunk_capacity = 1024;
+  static constexpr std::uint32_t slot_limit = chunk_size * chunk_capacity;
   static constexpr int count_bits = 40;
   static constexpr std::uint64_t count_mask = (std::uint64_t{1} << count_bits) - 1;
   static constexpr std::int64_t bias = std::int64_t{1} << 50;

@@ -106,7 +106,7 @@ void Step::reserve(const SceneCapacity& capacity) {
 
 /// Makes room for the first pair of an object: bounds of its regions, and its leaves in working memory.
 void Step::make_ready(Surface& surface) {
-  is_about_vertices(settings_.detail) ? surface.refit_vertices() : surface.refit_faces();
+  refit_.make_ready(surface);
   jobs_.reserve_for(surface.mesh());
 }
 

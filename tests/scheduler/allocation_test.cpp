@@ -72,6 +72,17 @@ void check_none() {
   CHECK(AllocationCount::by_others() == 0);
 }
 
+/// In every frame pairs begin and end, without a diagnostic, and no memory is taken.
+void check_play_takes_none(Bobbing& bobbing, std::size_t begin, std::size_t end,
+                           Stepping stepping = Stepping::step) {
+  AllocationCount::begin();
+  const Played played = play(bobbing, begin, end, stepping);
+  AllocationCount::end();
+  CHECK(played.idle == 0);
+  CHECK(played.diagnostics == 0);
+  check_none();
+}
+
 /// A thread that takes reports at random, holds up to eight of them for some frames, and reads them.
 class Reader {
  public:
@@ -223,12 +234,7 @@ TEST_CASE("a thousand frames of a periodic motion take no memory after the first
   play(bobbing, 0, period);
   AllocationCount::end();
   CHECK(AllocationCount::by_others() > 0);
-  AllocationCount::begin();
-  const Played played = play(bobbing, period, period + frame_count);
-  AllocationCount::end();
-  CHECK(played.idle == 0);
-  CHECK(played.diagnostics == 0);
-  check_none();
+  check_play_takes_none(bobbing, period, period + frame_count);
 }
 
 TEST_CASE("a large pair takes no memory after the first periods") {
@@ -327,12 +333,7 @@ TEST_CASE("step_async and wait take no memory after the first period") {
   settings.threads = threads;
   Bobbing bobbing(settings);
   play(bobbing, 0, 2 * period, Stepping::step_async);
-  AllocationCount::begin();
-  const Played played = play(bobbing, 2 * period, 2 * period + fewer_frames, Stepping::step_async);
-  AllocationCount::end();
-  CHECK(played.idle == 0);
-  CHECK(played.diagnostics == 0);
-  check_none();
+  check_play_takes_none(bobbing, 2 * period, 2 * period + fewer_frames, Stepping::step_async);
 }
 
 TEST_CASE("first contacts take no memory where room was reserved") {

@@ -73,17 +73,20 @@ struct GRAZE_API PairRoom {
   void include(const Mesh& mesh);
 };
 
-/// What is known of one pair of objects.
-struct PairAnswer {
+/// What is known of one pair of objects, but for its lists.
+struct PairFinding {
   bool in_contact = false;
   bool listed = false;   ///< in contact, or nearer than the reach; otherwise nothing below means anything
   bool complete = true;  ///< false where the work limit was reached: the bounds hold, contacts are empty
   DistanceBounds distance;
   Witness witness;
+  std::uint64_t region_distances_left_out = 0;  ///< at least so many more were not listed
+};
+
+struct PairAnswer : PairFinding {
   std::vector<Contact> contacts;  ///< sorted by (kind, feature a, feature b)
   /// By level; those of `PairDetector::region_distances`.
   std::vector<RegionDistance> region_distances;
-  std::uint64_t region_distances_left_out = 0;  ///< at least so many more were not listed
 };
 
 /// Answers queries about pairs of surfaces: DMV, DV and contact determination (paper, sections 3.2 and 3.3).

@@ -59,8 +59,8 @@ class GRAZE_API Surface {
 
   /// What reading some of the vertices found.
   struct PartRead {
-    std::uint32_t bad_vertex =
-        ReadResult::no_vertex;  ///< the first, as in ReadResult; nothing after it was read
+    /// The first, as in ReadResult; nothing after it was read.
+    std::uint32_t bad_vertex = ReadResult::no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
     double furthest_squared = 0;
     bool changed = false;
@@ -92,8 +92,9 @@ class GRAZE_API Surface {
   ///
   /// Vertex bounds: a radius about the middle vertex (eq. 2) and a box, of the region's vertices. Surface
   /// bounds: a box of the vertices and all corners of the faces and edges that the region owns.
-  void refit_vertices();
-  void refit_faces();
+  void refit_vertices() { refit(RefitOf::vertices); }
+  void refit_faces() { refit(RefitOf::faces); }
+  void refit(RefitOf what);
   /// The same in parts: `begin_refit`, then ranges of regions that do not overlap and are all of them
   /// together, by several threads at once if need be, then `finish_refit`.
   void begin_refit(RefitOf what);
@@ -101,8 +102,9 @@ class GRAZE_API Surface {
   void finish_refit(RefitOf what);
   /// At least how far any used vertex is from where the last refit saw it: 0 where the bounds are those of
   /// the present positions, infinite before the first refit and after a jump.
-  [[nodiscard]] double motion_since_vertex_refit() const;
-  [[nodiscard]] double motion_since_face_refit() const;
+  [[nodiscard]] double motion_since_vertex_refit() const { return motion_since_refit(RefitOf::vertices); }
+  [[nodiscard]] double motion_since_face_refit() const { return motion_since_refit(RefitOf::faces); }
+  [[nodiscard]] double motion_since_refit(RefitOf what) const;
   /// The boxes of one region at the present positions, made from its vertices and faces.
   [[nodiscard]] Box vertex_box_now(const Region& region) const;
   [[nodiscard]] Box face_box_now(const Region& region) const;
@@ -132,6 +134,8 @@ class GRAZE_API Surface {
   template <typename PositionOf>
   PartRead read(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
   void refit_vertices_of(std::uint32_t index);
+  void finish_vertex_refit();
+  void finish_face_refit();
   void count_motion(double displacement, const Box& before);
   [[nodiscard]] double motion_since(const Refit& refit) const;
 
