@@ -35,6 +35,7 @@ void run(StressOptions options) {
   if (options.reader) {
     result = run_reader_study(options.seconds);
   } else if (options.soak) {
+    options.soaking.frames = options.frames;
     result = run_soak_study(options.soaking);
   } else if (options.determinism) {
     if (options.frames > 0) options.playing.frames = options.frames;
@@ -82,7 +83,7 @@ void add_stress_command(CLI::App& app) {
       ->add_option(
           "--frames", options->frames,
           "How many frames --objects times and --determinism plays; by default 20 of the latter, and "
-          "more of smaller scenes")
+          "more of smaller scenes. --soak takes as many in place of --minutes")
       ->check(CLI::PositiveNumber);
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
       ->check(CLI::PositiveNumber)

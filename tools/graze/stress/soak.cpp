@@ -24,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t check_every = 100;
-constexpr std::size_t remake_every = 700;
+constexpr std::size_t remake_every = 250;
 constexpr std::size_t intervals = 30;
 
 // After the first fifth of the time the largest figures of the second half may exceed those of the first by
@@ -147,11 +147,16 @@ class Soak {
       if (frame % check_every == 0) check(frame);
       if (frame % remake_every == 0) remake();
       interval_.minutes = ns_between(start, Clock::now()) / 60e9;
-      const auto part = options_.minutes * static_cast<double>(intervals_.size() + 1) / intervals;
-      if (interval_.minutes < part) continue;
-      progress.at(intervals_.size());
-      close_interval();
+      while (intervals_.size() < intervals && share_done(frame) * intervals >= intervals_.size() + 1.0) {
+        progress.at(intervals_.size());
+        close_interval();
+      }
     }
+  }
+
+  [[nodiscard]] double share_done(std::uint64_t frame) const {
+    return options_.frames > 0 ? static_cast<double>(frame) / static_cast<double>(options_.frames)
+                               : interval_.minutes / options_.minutes;
   }
 
   void check(std::uint64_t frame) {
