@@ -147,7 +147,8 @@ class Soak {
       if (frame % check_every == 0) check(frame);
       if (frame % remake_every == 0) remake();
       interval_.minutes = ns_between(start, Clock::now()) / 60e9;
-      while (intervals_.size() < intervals && share_done(frame) * intervals >= intervals_.size() + 1.0) {
+      const auto intervals_done = static_cast<std::size_t>(share_done(frame) * intervals);
+      while (intervals_.size() < std::min(intervals_done, intervals)) {
         progress.at(intervals_.size());
         close_interval();
       }
