@@ -28,27 +28,30 @@ inline double lower_distance(const Eigen::Vector3d& middle_a, double radius_a,
 }
 
 /// The certified bound of docs/method.md, section 2, for the regions of two surfaces as they are now: from
-/// the boxes, and for vertices the spheres about the middle vertices (eq. 2), of the last refit, less the
-/// motion since then.
+/// the boxes of the last refit, less the motion since then.
 class RegionBounds {
  public:
-  RegionBounds(const Surface& a, const Surface& b, bool about_vertices)
+  RegionBounds(const Surface& a, const Surface& b, RefitOf boxes)
       : a_(a),
         b_(b),
-        about_vertices_(about_vertices),
-        motion_(about_vertices ? (a.motion_since_vertex_refit() + b.motion_since_vertex_refit()) * round_up
-                               : (a.motion_since_face_refit() + b.motion_since_face_refit()) * round_up) {}
+        boxes_(boxes),
+        motion_((a.motion_since_refit(boxes) + b.motion_since_refit(boxes)) * round_up) {}
 
   /// At most the distance of the regions' vertices, or of the faces and edges that they own.
   [[nodiscard]] double lower(const RegionPair& pair) const {
-    const double boxes = less_motion(lower_distance(box_a(pair), box_b(pair)), motion_);
-    if (!about_vertices_) return boxes;
+    return less_motion(lower_distance(box_a(pair), box_b(pair)), motion_);
+  }
+  /// The same for vertices, from the spheres about the middle vertices (eq. 2) too. They leave out next to
+  /// nothing that boxes do not, and are worth their refit only where the paper's regions are to be told of.
+  [[nodiscard]] double lower_with_spheres(const RegionPair& pair) const {
     const Region& region_a = a_.mesh().regions().region(pair.a);
     const Region& region_b = b_.mesh().regions().region(pair.b);
+    const double motion =
+        (a_.motion_since_refit(RefitOf::radii) + b_.motion_since_refit(RefitOf::radii)) * round_up;
     // A radius grows by twice the motion: that of the middle vertex and that of the others.
-    return std::max(boxes, less_motion(lower_distance(a_.middle(region_a), a_.radii()[pair.a],
-                                                      b_.middle(region_b), b_.radii()[pair.b]),
-                                       2 * motion_));
+    return std::max(lower(pair), less_motion(lower_distance(a_.middle(region_a), a_.radii()[pair.a],
+                                                            b_.middle(region_b), b_.radii()[pair.b]),
+                                             2 * motion));
   }
 
   /// The longest sides of the regions' boxes at the last refit.
@@ -56,12 +59,8 @@ class RegionBounds {
   [[nodiscard]] double size_b(const RegionPair& pair) const { return size(box_b(pair)); }
 
  private:
-  [[nodiscard]] const Box& box_a(const RegionPair& pair) const {
-    return about_vertices_ ? a_.vertex_boxes()[pair.a] : a_.face_boxes()[pair.a];
-  }
-  [[nodiscard]] const Box& box_b(const RegionPair& pair) const {
-    return about_vertices_ ? b_.vertex_boxes()[pair.b] : b_.face_boxes()[pair.b];
-  }
+  [[nodiscard]] const Box& box_a(const RegionPair& pair) const { return a_.boxes(boxes_)[pair.a]; }
+  [[nodiscard]] const Box& box_b(const RegionPair& pair) const { return b_.boxes(boxes_)[pair.b]; }
   static double size(const Box& box) { return (box.max - box.min).maxCoeff(); }
   static double less_motion(double distance, double motion) {
     return motion == 0 ? distance : std::max(0.0, (distance - motion) * round_down);
@@ -69,7 +68,7 @@ class RegionBounds {
 
   const Surface& a_;
   const Surface& b_;
-  bool about_vertices_;
+  RefitOf boxes_;
   double motion_;
 };
 

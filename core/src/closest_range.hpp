@@ -54,12 +54,17 @@ class ClosestRange {
     if (limit < set_.upper()) found_.lower = std::min(found_.lower, limit);
   }
 
+  /// Whether nothing can come nearer, and what is nearest need not be looked for among others: surfaces that
+  /// pierce each other do so in many places, any of which is a witness.
+  [[nodiscard]] bool is_settled() const { return set_.is_settled(query_.threshold); }
+
   void offer(const ContactName& name) { set_.offer(name); }
   void offer_middles(const RegionPair& regions) {
     const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;
     const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
-    if (upper_distance(pair_.a.position(a), pair_.b.position(b)) < set_.upper())
-      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+    // Not at 0: whether a walk came by must not show in the witness.
+    const double upper = upper_distance(pair_.a.position(a), pair_.b.position(b));
+    if (upper > 0 && upper < set_.upper()) set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
   }
   void offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_name(pair_, leaf_a, leaf_b, scratch, *this, [&](const ContactName& name) { set_.offer(name); });

@@ -49,6 +49,10 @@ class ClosestSet {
     else if (name < names_.front())
       names_.assign(name);
   }
+  /// Whether one name is enough, it is at distance 0, and that is contact.
+  [[nodiscard]] bool is_settled(double threshold) const {
+    return ties_ == Ties::lowest && closest_.upper == 0 && (closest_.pierced || threshold > 0);
+  }
   /// Puts the names in order.
   void settle() { names_.settle(); }
 

@@ -16,18 +16,16 @@ class LeafBoxes {
  public:
   /// For one query; `surface` does not change meanwhile. What was made for a query about the same positions
   /// is kept.
-  void begin(const Surface& surface, bool about_vertices) {
+  void begin(const Surface& surface, RefitOf what) {
     surface_ = &surface;
-    const bool fitted =
-        (about_vertices ? surface.motion_since_vertex_refit() : surface.motion_since_face_refit()) == 0;
+    const bool fitted = surface.motion_since_refit(what) == 0;
     fitted_ = {};
-    if (fitted) fitted_ = about_vertices ? surface.vertex_boxes() : surface.face_boxes();
-    const bool same =
-        serial_ == surface.serial() && version_ == surface.version() && about_vertices_ == about_vertices;
+    if (fitted) fitted_ = surface.boxes(what);
+    const bool same = serial_ == surface.serial() && version_ == surface.version() && what_ == what;
     if (fitted || same) return;
     serial_ = surface.serial();
     version_ = surface.version();
-    about_vertices_ = about_vertices;
+    what_ = what;
     const std::size_t count = surface.mesh().regions().regions().size();
     if (boxes_.size() < count) {
       boxes_.resize(count);
@@ -54,14 +52,15 @@ class LeafBoxes {
     if (made_in_[leaf] != query_) {
       made_in_[leaf] = query_;
       const Region& region = surface_->mesh().regions().region(leaf);
-      boxes_[leaf] = about_vertices_ ? surface_->vertex_box_now(region) : surface_->face_box_now(region);
+      boxes_[leaf] =
+          what_ == RefitOf::vertices ? surface_->vertex_box_now(region) : surface_->face_box_now(region);
     }
     return boxes_[leaf];
   }
 
  private:
   const Surface* surface_ = nullptr;
-  bool about_vertices_ = false;
+  RefitOf what_ = RefitOf::faces;
   std::span<const Box> fitted_;
   std::uint64_t serial_ = 0;  ///< of the surface and the positions that the boxes are of
   std::uint64_t version_ = 0;

@@ -48,7 +48,7 @@ bool LeafFeatures::collect(const Surface& surface, const Region& leaf, const Box
     else
       all = false;
   };
-  const auto at = [&](std::uint32_t vertex) -> const Eigen::Vector3d& { return surface.position(vertex); };
+  const auto at = [&](std::uint32_t vertex) { return surface.position(vertex); };
   edges.begin(leaf.edge_count);
   for (const std::uint32_t edge : mesh.regions().edges(leaf)) {
     const auto end = mesh.edge(edge);

@@ -52,9 +52,9 @@ class LeafPairs {
         query_(query),
         scratch_(scratch),
         meter_(meter),
-        bounds_(pair.a, pair.b, is_about_vertices(query.detail)) {
-    scratch_.boxes_a.begin(pair.a, is_about_vertices(query.detail));
-    scratch_.boxes_b.begin(pair.b, is_about_vertices(query.detail));
+        bounds_(pair.a, pair.b, boxes_for(query.detail)) {
+    scratch_.boxes_a.begin(pair.a, boxes_for(query.detail));
+    scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
   }
 
   /// Appends leaf pairs of a front.

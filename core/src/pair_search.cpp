@@ -434,7 +434,7 @@ void PairSearch::run_approach(Slice& slice, Worker& worker) {
 
 void PairSearch::take_up_closest(Worker& worker) {
   ClosestSet set(worker.pair, ties(), closest_.closest);
-  for (std::size_t i = 0; i < slice_count_; ++i) {
+  for (std::size_t i = 0; i < slice_count_ && !set.is_settled(query_.threshold); ++i) {
     const ClosestFound& found = slices_[i].closest;
     for (const ContactName& name : found.closest.names.names()) set.offer(name);
     closest_.closest.pierced = closest_.closest.pierced || found.closest.pierced;
@@ -457,14 +457,17 @@ void PairSearch::begin_closest(Worker& worker) {
   // Leaf pairs are kept or not by their lower bounds alone, which ascend.
   ClosestRange range(worker.pair, query_, ties(), closest_);
   std::size_t end = first;
-  while (end < leaves.size() && range.keep(leaves[end].lower)) ++end;
+  while (end < leaves.size() && !range.is_settled() && range.keep(leaves[end].lower)) ++end;
   add_slices_of(first, end, closest_each);
 }
 
-/// Looks into a range of the leaf pairs found; false when the budget ran out.
+/// Looks into a range of the leaf pairs found, as far as need be; false when the budget ran out.
+///
+/// Leaf pairs whose boxes overlap now are the same ones, in the same order, whatever was known of earlier
+/// steps, so a witness at distance 0 does not depend on those either.
 bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const {
   ClosestRange range(worker.pair, query_, ties(), found);
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t i = begin; i < end && !range.is_settled(); ++i) {
     const LeafPair& leaves = found_.leaves[i];
     if (!range.keep(leaves.lower)) continue;
     if (!worker.meter.spend()) return false;

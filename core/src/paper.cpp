@@ -28,7 +28,7 @@ class Paper {
         scratch_(scratch),
         meter_(meter),
         names_(names),
-        bounds_(pair.a, pair.b, true),
+        bounds_(pair.a, pair.b, RefitOf::vertices),
         nearest_(pair, Ties::lowest, scratch.closest) {}
 
   PaperFound run() {
@@ -54,7 +54,7 @@ class Paper {
     if (std::max(a.level, b.level) == 0) return true;
     nearest_.offer(middles_of(a, b));
     if (passes_as_in_paper(pair_, query_, a, b)) return true;
-    found_.lower = std::min(found_.lower, bounds_.lower(regions));
+    found_.lower = std::min(found_.lower, bounds_.lower_with_spheres(regions));
     return false;
   }
 

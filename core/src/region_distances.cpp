@@ -31,7 +31,7 @@ class RegionDistances::Test {
   explicit Test(const RegionDistances& walk)
       : query_(walk.query_),
         pair_{*walk.a_, *walk.b_, decisions_},
-        bounds_(*walk.a_, *walk.b_, is_about_vertices(walk.query_.detail)),
+        bounds_(*walk.a_, *walk.b_, boxes_for(walk.query_.detail)),
         room_(query_.region_distance_limit - walk.answer_->region_distances.size()) {}
   Test(const Test&) = delete;
   Test& operator=(const Test&) = delete;
@@ -62,15 +62,16 @@ class RegionDistances::Test {
       ++slice.left_out;
       return;
     }
-    const Eigen::Vector3d& point_a = pair_.a.position(a.middle);
-    const Eigen::Vector3d& point_b = pair_.b.position(b.middle);
+    const Eigen::Vector3d point_a = pair_.a.position(a.middle);
+    const Eigen::Vector3d point_b = pair_.b.position(b.middle);
     slice.alive.push_back({std::max(a.level, b.level), regions.a, regions.b, a.middle, b.middle, point_a,
                            point_b, (point_b - point_a).norm()});
   }
   /// Eq. 4 in AccuracyMode::paper, otherwise the certified bound.
   [[nodiscard]] bool is_alive(const RegionPair& regions, const Region& a, const Region& b) const {
     if (query_.mode == AccuracyMode::paper) return passes_as_in_paper(pair_, query_, a, b);
-    const double lower = bounds_.lower(regions);
+    const double lower =
+        is_about_vertices(query_.detail) ? bounds_.lower_with_spheres(regions) : bounds_.lower(regions);
     return lower < query_.region_distance_reach || lower == 0;
   }
 

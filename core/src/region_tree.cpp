@@ -6,6 +6,7 @@
 #include <graze/mesh.hpp>
 #include <graze/region_tree.hpp>
 #include <numeric>
+#include <utility>
 
 #include "middle_vertex.hpp"
 #include "validate.hpp"
@@ -152,12 +153,32 @@ RegionTree::RegionTree(const Mesh& mesh) {
   }
   faces_ = std::move(owned_faces.order);
   edges_ = std::move(owned_edges.order);
+  list_borders(mesh);
   validate(*this, mesh);
+}
+
+void RegionTree::list_borders(const Mesh& mesh) {
+  std::vector<std::uint32_t> listed_for(mesh.vertex_count(), 0);  // a leaf's number, plus one
+  for (std::uint32_t index = 0; index < region_count(); ++index) {
+    Region& leaf = regions_[index];
+    if (!leaf.is_leaf()) continue;
+    for (const std::uint32_t vertex : vertices(leaf)) listed_for[vertex] = index + 1;
+    leaf.first_border = static_cast<std::uint32_t>(border_.size());
+    const auto add = [&](std::uint32_t vertex) {
+      if (std::exchange(listed_for[vertex], index + 1) != index + 1) border_.push_back(vertex);
+    };
+    for (const std::uint32_t face : faces(leaf))
+      for (const std::uint32_t corner : mesh.face(face)) add(corner);
+    for (const std::uint32_t edge : edges(leaf))
+      for (const std::uint32_t end : mesh.edge(edge)) add(end);
+    leaf.border_count = static_cast<std::uint32_t>(border_.size()) - leaf.first_border;
+  }
+  border_.shrink_to_fit();
 }
 
 std::size_t RegionTree::byte_count() const {
   return bytes_of(regions_) + bytes_of(level_begin_) + bytes_of(vertices_) + bytes_of(faces_) +
-         bytes_of(edges_);
+         bytes_of(edges_) + bytes_of(border_);
 }
 
 }  // namespace graze

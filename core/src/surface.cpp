@@ -6,8 +6,11 @@
 #include <graze/error.hpp>
 #include <graze/surface.hpp>
 #include <limits>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
+#include "kernels/positions.hpp"
 #include "limits.hpp"
 #include "validate.hpp"
 
@@ -24,10 +27,11 @@ std::uint64_t next_serial() {
 
 Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), serial_(next_serial()) {
   if (mesh_ == nullptr) throw Error("surface: there is no mesh");
-  positions_.assign(mesh_->vertex_count(), Eigen::Vector3d::Zero());
-  incoming_ = positions_;
-  const auto rest = mesh_->rest();
-  take(read(0, mesh_->vertex_count(), [&](std::uint32_t vertex) { return rest[vertex]; }));
+  const std::uint32_t count = mesh_->vertex_count();
+  all_used_ = true;
+  for (std::uint32_t vertex = 0; vertex < count; ++vertex) all_used_ = all_used_ && mesh_->is_used(vertex);
+  in_double_.assign(count, Eigen::Vector3d::Zero());
+  set_positions(mesh_->rest());
 }
 
 bool Surface::is_within_limits(const Eigen::Vector3d& position) {
@@ -43,33 +47,35 @@ bool is_same(const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
 
 }  // namespace
 
-void Surface::PartRead::add(const PartRead& later) {
+void Surface::PartSeen::add(const PartSeen& later) {
   if (bad_vertex != ReadResult::no_vertex) return;
   bad_vertex = later.bad_vertex;
   bad_position = later.bad_position;
   furthest_squared = std::max(furthest_squared, later.furthest_squared);
+  furthest = furthest.cwiseMax(later.furthest);
   changed = changed || later.changed;
+  in_double = later.in_double;
   if (!later.box.empty()) box.add(later.box);
 }
 
 template <typename PositionOf>
-Surface::PartRead Surface::read(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) {
-  PartRead part;
+Surface::PartSeen Surface::look(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const {
+  PartSeen part;
   Box box;  // these three stay in registers, which `part` does not
   double furthest_squared = 0;
   bool changed = false;
   for (std::uint32_t vertex = begin; vertex < end; ++vertex) {
     if (!mesh_->is_used(vertex)) continue;
-    const Eigen::Vector3d position = position_of(vertex);
-    if (!is_within_limits(position)) {
+    const Eigen::Vector3d now = position_of(vertex);
+    if (!is_within_limits(now)) {
       part.bad_vertex = vertex;
-      part.bad_position = position;
+      part.bad_position = now;
       return part;
     }
-    furthest_squared = std::max(furthest_squared, (position - positions_[vertex]).squaredNorm());
-    changed = changed || !is_same(position, positions_[vertex]);
-    box.add(position);
-    incoming_[vertex] = position;
+    const Eigen::Vector3d before = position(vertex);
+    furthest_squared = std::max(furthest_squared, (now - before).squaredNorm());
+    changed = changed || !is_same(now, before);
+    box.add(now);
   }
   part.furthest_squared = furthest_squared;
   part.changed = changed;
@@ -77,14 +83,30 @@ Surface::PartRead Surface::read(std::uint32_t begin, std::uint32_t end, const Po
   return part;
 }
 
-Surface::ReadResult Surface::take(const PartRead& all) {
+template <typename PositionOf>
+void Surface::write(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) {
+  for (std::uint32_t vertex = begin; vertex < end; ++vertex) {
+    if (!mesh_->is_used(vertex)) continue;
+    if (in_double_.empty())
+      in_float_[vertex] = position_of(vertex).template cast<float>();
+    else
+      in_double_[vertex] = position_of(vertex);
+  }
+}
+
+Surface::ReadResult Surface::take(const PartSeen& all) {
   ReadResult result;
   result.bad_vertex = all.bad_vertex;
   result.bad_position = all.bad_position;
   if (!result.taken()) return result;
-  if (all.changed || version_ == 0) {
-    result.displacement = std::sqrt(all.furthest_squared);
-    positions_.swap(incoming_);
+  result.changed = all.changed || version_ == 0;
+  if (result.changed) {
+    const std::uint32_t count = mesh_->vertex_count();
+    if (all.in_double != in_float_.empty()) {
+      in_double_ = std::vector<Eigen::Vector3d>(all.in_double ? count : 0, Eigen::Vector3d::Zero());
+      in_float_ = std::vector<Eigen::Vector3f>(all.in_double ? 0 : count, Eigen::Vector3f::Zero());
+    }
+    result.displacement = std::sqrt(std::max(all.furthest_squared, all.furthest.squaredNorm()));
     count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, all.box));
   }
   displacement_ = result.displacement;
@@ -114,7 +136,7 @@ double Surface::motion_since(const Refit& refit) const {
 }
 
 double Surface::motion_since_refit(RefitOf what) const {
-  return motion_since(what == RefitOf::vertices ? vertex_refit_ : face_refit_);
+  return motion_since(refits_[static_cast<std::size_t>(what)]);
 }
 
 double Surface::leaf_size() const {
@@ -122,42 +144,100 @@ double Surface::leaf_size() const {
 }
 
 Surface::ReadResult Surface::set_positions(const PositionView& view) {
-  return take(read_positions(view, 0, mesh_->vertex_count()));
+  const ReadResult result = take(look_at_positions(view, 0, mesh_->vertex_count()));
+  if (result.changed) write_positions(view, 0, mesh_->vertex_count());
+  return result;
 }
 
 Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
-  return take(read_pose(rows, 0, mesh_->vertex_count()));
+  const ReadResult result = take(look_at_pose(rows, 0, mesh_->vertex_count()));
+  if (result.changed) write_pose(rows, 0, mesh_->vertex_count());
+  return result;
 }
 
-Surface::PartRead Surface::read_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end) {
-  return read(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
+/// Whether positions lie in memory as the surface's own do.
+bool Surface::is_laid_out_like(const PositionView& view) const {
+  const std::size_t number = view.is_double() ? sizeof(double) : sizeof(float);
+  return all_used_ && view.is_double() == in_float_.empty() && view.stride_bytes() == 3 * number &&
+         reinterpret_cast<std::uintptr_t>(view.data()) % number == 0;
 }
 
-Surface::PartRead Surface::read_pose(const std::array<double, 12>& rows, std::uint32_t begin,
-                                     std::uint32_t end) {
-  const auto rest = mesh_->rest();
-  return read(begin, end, [&](std::uint32_t vertex) {
-    const Eigen::Vector3d& p = rest[vertex];
-    const auto coordinate = [&](std::size_t row) {
-      const double* const r = &rows[row * 4];
-      return ((r[0] * p.x() + r[1] * p.y()) + r[2] * p.z()) + r[3];
-    };
-    return Eigen::Vector3d(coordinate(0), coordinate(1), coordinate(2));
-  });
+namespace {
+
+/// One pass over positions that lie as the ones before do; nothing where one of them is bad.
+template <typename Number>
+std::optional<Surface::PartSeen> seen_in_one_pass(const void* now, const void* before, std::uint32_t begin,
+                                                  std::uint32_t end) {
+  kernels::PositionsSeen<Number> seen{};
+  const auto pass = [&](const auto& of_set) {
+    of_set(static_cast<const Number*>(now) + std::size_t{3} * begin,
+           static_cast<const Number*>(before) + std::size_t{3} * begin, end - begin,
+           static_cast<Number>(largest_coordinate), seen);
+  };
+  if constexpr (std::is_same_v<Number, float>)
+    pass(kernels::position_passes().floats);
+  else
+    pass(kernels::position_passes().doubles);
+  if (seen.bad) return std::nullopt;
+  Surface::PartSeen part;
+  part.changed = seen.changed;
+  for (int axis = 0; axis < 3; ++axis) {
+    part.box.min[axis] = static_cast<double>(seen.min[axis]);
+    part.box.max[axis] = static_cast<double>(seen.max[axis]);
+    // A difference is rounded once; where it underflows it is exact.
+    part.furthest[axis] = static_cast<double>(seen.furthest[axis]) *
+                          (1 + static_cast<double>(std::numeric_limits<Number>::epsilon()));
+  }
+  return part;
+}
+
+Eigen::Vector3d posed(const std::array<double, 12>& rows, const Eigen::Vector3d& p) {
+  const auto coordinate = [&](std::size_t row) {
+    const double* const r = &rows[row * 4];
+    return ((r[0] * p.x() + r[1] * p.y()) + r[2] * p.z()) + r[3];
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+}  // namespace
+
+Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
+                                             Displacement displacement) const {
+  std::optional<PartSeen> part;
+  if (displacement == Displacement::bound && begin < end && is_laid_out_like(view))
+    part = view.is_double() ? seen_in_one_pass<double>(view.data(), in_double_.data(), begin, end)
+                            : seen_in_one_pass<float>(view.data(), in_float_.data(), begin, end);
+  if (!part) part = look(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
+  part->in_double = view.is_double();
+  return *part;
+}
+
+Surface::PartSeen Surface::look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
+                                        std::uint32_t end) const {
+  return look(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
+}
+
+void Surface::write_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end) {
+  if (!is_laid_out_like(view)) return write(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
+  const std::size_t each = view.stride_bytes();
+  void* const own =
+      view.is_double() ? static_cast<void*>(in_double_.data() + begin) : in_float_.data() + begin;
+  std::memcpy(own, static_cast<const std::byte*>(view.data()) + begin * each, (end - begin) * each);
+}
+
+void Surface::write_pose(const std::array<double, 12>& rows, std::uint32_t begin, std::uint32_t end) {
+  write(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
 }
 
 Box Surface::vertex_box_now(const Region& region) const {
   Box box;
-  for (const std::uint32_t vertex : mesh_->regions().vertices(region)) box.add(positions_[vertex]);
+  for (const std::uint32_t vertex : mesh_->regions().vertices(region)) box.add(position(vertex));
   return box;
 }
 
-Box Surface::face_box_now(const Region& region) const {
-  const RegionTree& tree = mesh_->regions();
-  Box box = vertex_box_now(region);
-  for (const std::uint32_t face : tree.faces(region))
-    for (const std::uint32_t corner : mesh_->face(face)) box.add(positions_[corner]);
-  for (const std::uint32_t edge : tree.edges(region)) box.add(positions_[mesh_->edge(edge)[1]]);
+Box Surface::face_box_now(const Region& leaf) const {
+  Box box = vertex_box_now(leaf);
+  for (const std::uint32_t vertex : mesh_->regions().border(leaf)) box.add(position(vertex));
   return box;
 }
 
@@ -170,63 +250,59 @@ void Surface::refit(RefitOf what) {
 
 void Surface::begin_refit(RefitOf what) {
   const std::uint32_t count = mesh_->regions().region_count();
-  if (what == RefitOf::faces) return face_boxes_.resize(count);
-  radii_.resize(count);
-  vertex_boxes_.resize(count);
+  what == RefitOf::radii ? radii_.resize(count) : boxes_to_write(what).resize(count);
 }
 
 void Surface::refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end) {
   for (std::uint32_t index = begin; index < end; ++index) {
-    if (what == RefitOf::vertices)
-      refit_vertices_of(index);
-    else if (const Region& region = mesh_->regions().region(index); region.is_leaf())
-      face_boxes_[index] = face_box_now(region);
+    const Region& region = mesh_->regions().region(index);
+    if (what == RefitOf::radii)
+      radii_[index] = radius_now(region);
+    else if (region.is_leaf())
+      boxes_to_write(what)[index] = what == RefitOf::vertices ? vertex_box_now(region) : face_box_now(region);
   }
-}
-
-void Surface::refit_vertices_of(std::uint32_t index) {
-  const Region& region = mesh_->regions().region(index);
-  double radius_squared = 0;
-  Box box;
-  for (const std::uint32_t vertex : mesh_->regions().vertices(region)) {
-    radius_squared = std::max(radius_squared, (positions_[vertex] - middle(region)).squaredNorm());
-    box.add(positions_[vertex]);
-  }
-  radii_[index] = std::sqrt(radius_squared);
-  vertex_boxes_[index] = box;
 }
 
 void Surface::finish_refit(RefitOf what) {
-  what == RefitOf::vertices ? finish_vertex_refit() : finish_face_refit();
+  what == RefitOf::radii ? gather_level_radii() : box_inner_regions(boxes_to_write(what));
+  refits_[static_cast<std::size_t>(what)] = {version_, travel_};
   validate(*this);
 }
 
-void Surface::finish_vertex_refit() {
+/// Eq. 2.
+double Surface::radius_now(const Region& region) const {
+  const Eigen::Vector3d centre = middle(region);
+  double radius_squared = 0;
+  for (const std::uint32_t vertex : mesh_->regions().vertices(region))
+    radius_squared = std::max(radius_squared, (position(vertex) - centre).squaredNorm());
+  return std::sqrt(radius_squared);
+}
+
+/// Eq. 3.
+void Surface::gather_level_radii() {
   const RegionTree& tree = mesh_->regions();
   level_radii_.assign(tree.level_count(), 0);
   for (std::uint32_t index = 0; index < tree.region_count(); ++index) {
     double& radius = level_radii_[tree.region(index).level];
     radius = std::max(radius, radii_[index]);
   }
-  vertex_refit_ = {version_, travel_};
 }
 
-void Surface::finish_face_refit() {
+/// Children have higher numbers than their parent, so theirs are already those of now.
+void Surface::box_inner_regions(std::vector<Box>& boxes) const {
   const RegionTree& tree = mesh_->regions();
-  // Children have higher numbers than their parent, so theirs are already those of now.
   for (std::uint32_t index = tree.region_count(); index-- > 0;) {
     const Region& region = tree.region(index);
     if (region.is_leaf()) continue;
     Box box;
     for (std::uint32_t child = 0; child < region.child_count; ++child)
-      box.add(face_boxes_[region.first_child + child]);
-    face_boxes_[index] = box;
+      box.add(boxes[region.first_child + child]);
+    boxes[index] = box;
   }
-  face_refit_ = {version_, travel_};
 }
 
 std::size_t Surface::byte_count() const {
-  return sizeof(Surface) + bytes_of(positions_) + bytes_of(incoming_) + bytes_of(radii_) +
+  return sizeof(Surface) + bytes_of(in_float_) + bytes_of(in_double_) + bytes_of(radii_) +
          bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_);
 }
 

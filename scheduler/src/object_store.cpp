@@ -54,32 +54,64 @@ void add_promise(Object& object) {
   object.promise = std::numeric_limits<double>::infinity();
 }
 
-/// Some vertices of what an object is to be read from.
-Surface::PartRead read_part(Object& object, std::uint32_t begin, std::uint32_t end) {
-  Surface& surface = object.surface_to_write();
-  if (object.positions) return surface.read_positions(*object.positions, begin, end);
-  if (object.bound) return surface.read_positions(*object.bound, begin, end);
-  return surface.read_pose(*object.pose, begin, end);
+/// Looks at some vertices of what an object is to be read from.
+Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
+  const Surface& surface = object.surface();
+  if (object.pose) return surface.look_at_pose(*object.pose, begin, end);
+  // A promise is held against what moved furthest, not against a bound of it.
+  const auto displacement =
+      std::isfinite(object.promised) ? Surface::Displacement::exact : Surface::Displacement::bound;
+  const PositionView view = object.positions ? PositionView(*object.positions) : *object.bound;
+  return surface.look_at_positions(view, begin, end, displacement);
 }
 
-/// Takes what all vertices were read as, or says why not.
-std::optional<Diagnostic> take_read(Object& object, const Surface::PartRead& all) {
-  const Surface::ReadResult result = object.surface_to_write().take(all);
+void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
+  Surface& surface = object.surface_to_write();
+  if (object.pose) return surface.write_pose(*object.pose, begin, end);
+  surface.write_positions(object.positions ? PositionView(*object.positions) : *object.bound, begin, end);
+}
+
+/// What came of looking at all vertices.
+struct Looked {
+  bool to_write = false;  ///< all vertices, and then the read is to be finished
   std::optional<Diagnostic> problem;
-  if (object.positions || object.bound) {
+};
+
+/// Takes what was seen of all vertices, or says why not.
+Looked take_seen(Object& object, const Surface::PartSeen& all) {
+  const Surface::ReadResult result = object.surface_to_write().take(all);
+  Looked looked{result.changed, std::nullopt};
+  if (object.pose) {
+    if (!result.taken()) looked.problem = bad_vertex(object, result, "the pose was not taken");
+  } else {
     object.frozen = !result.taken();
-    if (object.frozen) return bad_vertex(object, result, "it stands still until good positions are read");
-    problem = check_promise(object, result);
+    looked.problem = object.frozen
+                         ? bad_vertex(object, result, "it stands still until good positions are read")
+                         : check_promise(object, result);
+  }
+  return looked;
+}
+
+/// After all was written: lets go of what was read. Bad memory is read again until it is good.
+void finish_read(Object& object) {
+  if (object.pose) {
+    object.pose.reset();
+  } else {
+    if (object.frozen) return;
     if (!object.positions) object.told = false;
     object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
-  } else {
-    if (!result.taken()) problem = bad_vertex(object, result, "the pose was not taken");
-    object.pose.reset();
   }
   object.unread = false;
   object.promised = 0;
   object.box = object.surface().box();
-  return problem;
+}
+
+std::optional<Diagnostic> read_whole(Object& object) {
+  const std::uint32_t count = object.surface().mesh().vertex_count();
+  Looked looked = take_seen(object, look_at_part(object, 0, count));
+  if (looked.to_write) write_part(object, 0, count);
+  finish_read(object);
+  return std::move(looked.problem);
 }
 
 /// Surfaces of more vertices are read and refitted in parts, each of some tens of microseconds.
@@ -256,19 +288,18 @@ void ObjectStore::list_to_read(Object& object) {
 }
 
 void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
-  // A task writes its own objects and their own places in read_problems_, or its own vertices of an object
-  // and its own part; nothing is shared.
+  // A task writes its own objects and their own places in read_problems_, or looks at its own vertices of an
+  // object and writes its own part; nothing is shared.
   if (read_problems_.size() < to_read_.size()) read_problems_.resize(to_read_.size());
   tasks.run(parts_.size() + to_read_.size(), [&](unsigned, std::size_t item) {
     if (item < parts_.size()) {
       Part& part = parts_[item];
-      const AccessScope access({AccessRight::write(part.object), {}});
-      part.read = read_part(*part.object, part.begin, part.begin + part.count);
+      const AccessScope access({AccessRight::read(), {}});
+      part.seen = look_at_part(*part.object, part.begin, part.begin + part.count);
     } else {
       Object& object = *to_read_[item - parts_.size()];
       const AccessScope access({AccessRight::write(&object), {}});
-      read_problems_[item - parts_.size()] =
-          take_read(object, read_part(object, 0, object.surface().mesh().vertex_count()));
+      read_problems_[item - parts_.size()] = read_whole(object);
     }
   });
   problems_.clear();
@@ -277,15 +308,31 @@ void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnost
       problems_.emplace_back(to_read_[place]->serial, std::move(*problem));
       problem.reset();
     }
-  std::size_t part = 0;
-  for (const auto& [object, end] : large_) {
-    Surface::PartRead all;
-    for (; part < end; ++part) all.add(parts_[part].read);
-    if (auto problem = take_read(*object, all)) problems_.emplace_back(object->serial, std::move(*problem));
-  }
+  take_large(tasks);
   std::sort(problems_.begin(), problems_.end(),
             [](const auto& left, const auto& right) { return left.first < right.first; });
   for (auto& [serial, problem] : problems_) diagnostics.push_back(std::move(problem));
+}
+
+/// Takes what was seen of the large objects' parts, and writes those of the objects that changed.
+void ObjectStore::take_large(TaskPool& tasks) {
+  std::size_t part = 0;
+  std::size_t to_write = 0;
+  for (const auto& [object, end] : large_) {
+    Surface::PartSeen all;
+    const std::size_t begin = part;
+    for (; part < end; ++part) all.add(parts_[part].seen);
+    Looked looked = take_seen(*object, all);
+    if (looked.problem) problems_.emplace_back(object->serial, std::move(*looked.problem));
+    if (!looked.to_write) continue;
+    for (std::size_t place = begin; place < end; ++place) parts_[to_write++] = parts_[place];
+  }
+  tasks.run(to_write, [&](unsigned, std::size_t item) {
+    const auto& [object, begin, count, seen] = parts_[item];
+    const AccessScope access({AccessRight::write(object), {}});
+    write_part(*object, begin, begin + count);
+  });
+  for (const auto& [object, end] : large_) finish_read(*object);
 }
 
 }  // namespace graze

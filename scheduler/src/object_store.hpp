@@ -93,7 +93,7 @@ class ObjectStore {
     Object* object;
     std::uint32_t begin;
     std::uint32_t count;
-    Surface::PartRead read;
+    Surface::PartSeen seen;
   };
   struct LargeObject {
     Object* object;
@@ -106,6 +106,7 @@ class ObjectStore {
   void begin_list();
   void list_to_read(Object& object);
   void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
+  void take_large(TaskPool& tasks);
 
   std::vector<std::unique_ptr<Object>> objects_;  ///< null in the place of one removed, until the next read
   std::vector<std::uint64_t> serials_;            ///< of `objects_`, side by side for the search of one

@@ -14,41 +14,51 @@ constexpr double stale_leaf_sizes = 0.25;
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
 constexpr std::size_t work_each = 8192;
 
-/// What a region's bounds are made from; those of faces from its children, but for leaves.
+/// How many vertices a region's bounds are made from; boxes but for leaves come from the children.
 std::uint32_t work_of(const Region& region, RefitOf what) {
-  if (what == RefitOf::vertices) return region.vertex_count;
-  return region.is_leaf() ? region.vertex_count + region.face_count : 0;
+  if (what != RefitOf::radii && !region.is_leaf()) return 0;
+  return region.vertex_count + (what == RefitOf::faces ? region.border_count : 0);
 }
 
 }  // namespace
 
 RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
-    : settings_(settings),
-      tasks_(tasks),
-      what_(is_about_vertices(settings.detail) ? RefitOf::vertices : RefitOf::faces) {}
+    : tasks_(tasks),
+      boxes_(boxes_for(settings.detail)),
+      to_the_letter_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
 
 void RegionRefit::run(std::span<const PairJob> jobs) {
-  list_objects(jobs);
+  refit(jobs, boxes_);
+  if (with_radii()) refit(jobs, RefitOf::radii);
+}
+
+void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
+  list_objects(jobs, what);
   parts_.clear();
   for (Object* const object : large_) {
-    object->surface_to_write().begin_refit(what_);
-    list_parts(*object);
+    object->surface_to_write().begin_refit(what);
+    list_parts(*object, what);
   }
   // A task writes the bounds of its own object, or of its own regions of one.
   tasks_.run(parts_.size() + small_.size(), [&](unsigned, std::size_t item) {
-    if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()]);
+    if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()], what);
     const Part& part = parts_[item];
     const AccessScope access({AccessRight::write(part.object), {}});
-    part.object->surface_to_write().refit_regions(what_, part.begin, part.end);
+    part.object->surface_to_write().refit_regions(what, part.begin, part.end);
   });
   tasks_.run(large_.size(), [&](unsigned, std::size_t index) {
     const AccessScope access({AccessRight::write(large_[index]), {}});
-    large_[index]->surface_to_write().finish_refit(what_);
+    large_[index]->surface_to_write().finish_refit(what);
   });
 }
 
+void RegionRefit::make_ready(Surface& surface) const {
+  surface.refit(boxes_);
+  if (with_radii()) surface.refit(RefitOf::radii);
+}
+
 /// Each once, however many jobs look at it.
-void RegionRefit::list_objects(std::span<const PairJob> jobs) {
+void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   small_.clear();
   large_.clear();
   for (const PairJob& job : jobs)
@@ -59,7 +69,7 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs) {
               [](const Object* left, const Object* right) { return left->serial < right->serial; });
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
-  std::erase_if(large_, [&](const Object* object) { return !is_stale(object->surface()); });
+  std::erase_if(large_, [&](const Object* object) { return !is_stale(object->surface(), what); });
 }
 
 void RegionRefit::reserve(std::size_t jobs) {
@@ -71,25 +81,23 @@ std::size_t RegionRefit::byte_count() const {
   return bytes_of(small_) + bytes_of(large_) + bytes_of(parts_);
 }
 
-bool RegionRefit::is_stale(const Surface& surface) const {
-  const bool to_the_letter =
-      settings_.accuracy.mode() == AccuracyMode::paper || settings_.region_distances > 0;
-  return surface.motion_since_refit(what_) > (to_the_letter ? 0 : stale_leaf_sizes * surface.leaf_size());
+bool RegionRefit::is_stale(const Surface& surface, RefitOf what) const {
+  return surface.motion_since_refit(what) > (to_the_letter_ ? 0 : stale_leaf_sizes * surface.leaf_size());
 }
 
-void RegionRefit::list_parts(Object& object) {
+void RegionRefit::list_parts(Object& object, RefitOf what) {
   const RegionTree& tree = object.surface().mesh().regions();
   cut_by_work(
       0, tree.region_count(), work_each,
-      [&](std::size_t index) { return work_of(tree.regions()[index], what_); },
+      [&](std::size_t index) { return work_of(tree.regions()[index], what); },
       [&](std::size_t begin, std::size_t end) {
         parts_.push_back({&object, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
       });
 }
 
-void RegionRefit::refit_small(Object& object) const {
+void RegionRefit::refit_small(Object& object, RefitOf what) const {
   const AccessScope access({AccessRight::write(&object), {}});
-  if (is_stale(object.surface())) object.surface_to_write().refit(what_);
+  if (is_stale(object.surface(), what)) object.surface_to_write().refit(what);
 }
 
 }  // namespace graze

@@ -21,7 +21,7 @@ class RegionRefit {
   /// Makes room for so many jobs.
   void reserve(std::size_t jobs);
   /// Makes a surface's bounds, so that its first job finds them.
-  void make_ready(Surface& surface) const { surface.refit(what_); }
+  void make_ready(Surface& surface) const;
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
@@ -32,14 +32,16 @@ class RegionRefit {
     std::uint32_t end;
   };
 
-  void list_objects(std::span<const PairJob> jobs);
-  [[nodiscard]] bool is_stale(const Surface& surface) const;
-  void list_parts(Object& object);
-  void refit_small(Object& object) const;
+  void refit(std::span<const PairJob> jobs, RefitOf what);
+  [[nodiscard]] bool with_radii() const { return to_the_letter_ && boxes_ == RefitOf::vertices; }
+  void list_objects(std::span<const PairJob> jobs, RefitOf what);
+  [[nodiscard]] bool is_stale(const Surface& surface, RefitOf what) const;
+  void list_parts(Object& object, RefitOf what);
+  void refit_small(Object& object, RefitOf what) const;
 
-  const SceneSettings& settings_;
   TaskPool& tasks_;
-  RefitOf what_;
+  RefitOf boxes_;
+  bool to_the_letter_;          ///< bounds are told of or compared as they are in the paper
   std::vector<Object*> small_;  ///< that the jobs look at
   std::vector<Object*> large_;  ///< that are refitted
   std::vector<Part> parts_;     ///< of `large_`

@@ -20,6 +20,7 @@ Surface surface_of(const Body& body) {
   Surface surface(mesh_of(body.rest));
   surface.set_positions(body.now.positions);
   surface.refit_vertices();
+  surface.refit(RefitOf::radii);
   surface.refit_faces();
   return surface;
 }

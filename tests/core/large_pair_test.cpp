@@ -55,6 +55,7 @@ void move_to(Surface& surface, const oracle::Shape& shape, bool refits) {
   REQUIRE(surface.set_positions(shape.positions).taken());
   if (!refits) return;
   surface.refit_vertices();
+  surface.refit(RefitOf::radii);
   surface.refit_faces();
 }
 

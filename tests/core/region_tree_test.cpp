@@ -269,6 +269,7 @@ TEST_CASE("regions: a surface reads positions whole or not at all") {
   CHECK(surface.motion_since_face_refit() > 0);
   CHECK(same(surface.box(), {{0, 0, 2}, {1, 1, 3}}));
   surface.refit_vertices();
+  surface.refit(RefitOf::radii);
   surface.refit_faces();
   CHECK(same(surface.vertex_boxes()[0], surface.box()));
   CHECK(same(surface.face_boxes()[0], surface.box()));

@@ -1,6 +1,8 @@
 // A surface that is read and refitted in parts, in any order, is the one that is read and refitted whole.
 
 #include <algorithm>
+#include <cmath>
+#include <graze/instruction_set.hpp>
 #include <graze/surface.hpp>
 #include <iostream>
 #include <limits>
@@ -32,16 +34,32 @@ std::vector<Range> random_ranges(std::uint32_t count, oracle::Random& random) {
   return ranges;
 }
 
-/// Reads in a random order, and puts together in that of the vertices.
-template <typename ReadPart>
-Surface::ReadResult read_in_parts(Surface& surface, oracle::Random& random, const ReadPart& read_part) {
-  std::vector<std::pair<std::uint32_t, Surface::PartRead>> parts;
-  for (const Range& range : random_ranges(surface.mesh().vertex_count(), random))
-    parts.emplace_back(range.begin, read_part(range.begin, range.end));
+/// Looks and writes in a random order, and puts together in that of the vertices.
+template <typename LookAt, typename Write>
+Surface::ReadResult read_in_parts(Surface& surface, oracle::Random& random, const LookAt& look_at,
+                                  const Write& write) {
+  const std::uint32_t count = surface.mesh().vertex_count();
+  std::vector<std::pair<std::uint32_t, Surface::PartSeen>> parts;
+  for (const Range& range : random_ranges(count, random))
+    parts.emplace_back(range.begin, look_at(range.begin, range.end));
   std::sort(parts.begin(), parts.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-  Surface::PartRead all;
+  Surface::PartSeen all;
   for (const auto& [begin, part] : parts) all.add(part);
-  return surface.take(all);
+  const Surface::ReadResult result = surface.take(all);
+  if (result.changed)
+    for (const Range& range : random_ranges(count, random)) write(range.begin, range.end);
+  return result;
+}
+
+template <typename Points>
+Surface::ReadResult read_positions_in_parts(Surface& surface, const Points& positions, oracle::Random& random,
+                                            Surface::Displacement displacement) {
+  return read_in_parts(
+      surface, random,
+      [&](std::uint32_t begin, std::uint32_t end) {
+        return surface.look_at_positions(positions, begin, end, displacement);
+      },
+      [&](std::uint32_t begin, std::uint32_t end) { surface.write_positions(positions, begin, end); });
 }
 
 void refit_in_parts(Surface& surface, RefitOf what, oracle::Random& random) {
@@ -90,22 +108,23 @@ TEST_CASE("a surface in parts: read by several tasks as by one") {
     Surface whole(mesh_of(shape));
     for (int frame = 0; frame < 4; ++frame) {
       const oracle::Shape moved = mapped(shape, 1 + 0.01 * frame, Eigen::Vector3d(0.1 * frame, 0, 0));
-      check_same(read_in_parts(parts, random,
-                               [&](std::uint32_t begin, std::uint32_t end) {
-                                 return parts.read_positions(moved.positions, begin, end);
-                               }),
+      check_same(read_positions_in_parts(parts, moved.positions, random, Surface::Displacement::exact),
                  whole.set_positions(moved.positions));
-      for (const RefitOf what : {RefitOf::vertices, RefitOf::faces}) refit_in_parts(parts, what, random);
+      for (const RefitOf what : {RefitOf::vertices, RefitOf::faces, RefitOf::radii})
+        refit_in_parts(parts, what, random);
       whole.refit_vertices();
+      whole.refit(RefitOf::radii);
       whole.refit_faces();
       check_same(parts, whole);
       vertices += moved.positions.size();
     }
     const std::array<double, 12> pose{0, -1, 0, 0.5, 1, 0, 0, 0.25, 0, 0, 1, -4};
-    check_same(read_in_parts(
-                   parts, random,
-                   [&](std::uint32_t begin, std::uint32_t end) { return parts.read_pose(pose, begin, end); }),
-               whole.set_pose(pose));
+    check_same(
+        read_in_parts(
+            parts, random,
+            [&](std::uint32_t begin, std::uint32_t end) { return parts.look_at_pose(pose, begin, end); },
+            [&](std::uint32_t begin, std::uint32_t end) { parts.write_pose(pose, begin, end); }),
+        whole.set_pose(pose));
     check_same(parts, whole);
   }
   std::cout << "compared " << vertices << " vertices\n";
@@ -121,14 +140,105 @@ TEST_CASE("a surface in parts: the first bad vertex is named and nothing is take
     for (int bad = 0; bad < 3; ++bad)
       moved.positions[random.below(static_cast<std::uint32_t>(moved.positions.size()))].y() =
           bad == 1 ? 0x1p121 : std::numeric_limits<double>::quiet_NaN();
-    const Surface::ReadResult result =
-        read_in_parts(parts, random, [&](std::uint32_t begin, std::uint32_t end) {
-          return parts.read_positions(moved.positions, begin, end);
-        });
+    const auto displacement = seed % 2 == 0 ? Surface::Displacement::exact : Surface::Displacement::bound;
+    const Surface::ReadResult result = read_positions_in_parts(parts, moved.positions, random, displacement);
     CHECK_FALSE(result.taken());
+    CHECK_FALSE(result.changed);
     check_same(result, whole.set_positions(moved.positions));
     check_same(parts, whole);
   }
+}
+
+namespace {
+
+/// Positions at random, some where they were before, some coordinates huge, tiny or -0.
+template <typename Number>
+std::vector<Eigen::Matrix<Number, 3, 1>> moved_somehow(std::vector<Eigen::Matrix<Number, 3, 1>> positions,
+                                                       oracle::Random& random) {
+  const bool some_move = random.chance(0.8);
+  for (auto& position : positions)
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!some_move || random.chance(0.3)) continue;
+      const int scale = random.chance(0.1) ? static_cast<int>(random.below(200)) - 100 : 0;
+      position[axis] = static_cast<Number>(std::ldexp(random.between(-1, 1), scale));
+      if (random.chance(0.05)) position[axis] = Number(-0.0);
+    }
+  return positions;
+}
+
+/// One pass in the surface's own layout against going through the vertices one by one.
+template <typename Number>
+std::size_t check_one_pass(std::uint64_t seed) {
+  oracle::Random random(seed);
+  const std::uint32_t rows = 2 + random.below(9);
+  const oracle::Shape rest = shape_of(models::sheet(rows, 2 + random.below(9), 1, 1));
+  Surface surface(mesh_of(rest));
+  std::vector<Eigen::Matrix<Number, 3, 1>> positions;
+  for (const Eigen::Vector3d& point : rest.positions) positions.push_back(point.cast<Number>() * Number(1.1));
+  surface.set_positions(positions);
+  const auto count = static_cast<std::uint32_t>(positions.size());
+  const auto next = moved_somehow(positions, random);
+  const std::uint32_t begin = random.below(count);
+  const std::uint32_t end = begin + 1 + random.below(count - begin);
+  const auto exact = surface.look_at_positions(next, begin, end);
+  CHECK(exact.bad_vertex == Surface::ReadResult::no_vertex);
+  for (const InstructionSet set : available_instruction_sets()) {
+    use_instruction_set(set);
+    const auto bound = surface.look_at_positions(next, begin, end, Surface::Displacement::bound);
+    CHECK(is_same(bound.box, exact.box));
+    CHECK(bound.changed == exact.changed);
+    CHECK(bound.in_double == exact.in_double);
+    const double furthest = std::sqrt(exact.furthest_squared);
+    CHECK(bound.furthest_squared == 0);  // it is the one pass that looked
+    CHECK(bound.furthest.norm() >= furthest * (1 - 0x1p-50));
+    CHECK(bound.furthest.norm() <= furthest * std::sqrt(3.0) * (1 + 0x1p-20));
+    // A bad coordinate anywhere is found, and the vertex named.
+    auto bad = next;
+    const std::uint32_t vertex = begin + random.below(end - begin);
+    const Number worst[] = {std::numeric_limits<Number>::quiet_NaN(),
+                            -std::numeric_limits<Number>::infinity(), static_cast<Number>(0x1.000002p120)};
+    bad[vertex][static_cast<int>(random.below(3))] = worst[random.below(3)];
+    CHECK(surface.look_at_positions(bad, begin, end, Surface::Displacement::bound).bad_vertex == vertex);
+  }
+  use_instruction_set(available_instruction_sets().back());
+  return end - begin;
+}
+
+}  // namespace
+
+TEST_CASE("a surface in parts: one pass sees what a look at every vertex does, with every instruction set") {
+  std::size_t vertices = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    vertices += check_one_pass<float>(seed);
+    vertices += check_one_pass<double>(seed);
+  }
+  std::cout << "compared " << vertices << " vertices with " << available_instruction_sets().size()
+            << " instruction sets\n";
+}
+
+TEST_CASE("a surface in parts: positions are kept in the precision in which they come") {
+  const oracle::Shape rest = shape_of(models::sphere(20, 20));
+  std::vector<Eigen::Vector3f> floats;
+  for (const Eigen::Vector3d& point : rest.positions) floats.push_back(point.cast<float>() * 1.1F);
+  Surface surface(mesh_of(rest));
+  const std::size_t in_double = surface.byte_count();
+  const auto check = [&](const auto& positions) {
+    for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex)
+      CHECK(surface.position(vertex) == positions[vertex].template cast<double>());
+  };
+  surface.set_positions(floats);
+  check(floats);
+  CHECK(surface.byte_count() == in_double - 12 * floats.size());
+  // The same numbers in double are no motion.
+  std::vector<Eigen::Vector3d> doubles;
+  for (const Eigen::Vector3f& point : floats) doubles.push_back(point.cast<double>());
+  const std::uint64_t version = surface.version();
+  CHECK_FALSE(surface.set_positions(doubles).changed);
+  CHECK(surface.version() == version);
+  doubles[7].x() += 0x1p-40;
+  CHECK(surface.set_positions(doubles).changed);
+  check(doubles);
+  CHECK(surface.byte_count() == in_double);
 }
 
 }  // namespace graze::tests

@@ -27,6 +27,7 @@ std::optional<Surface> surface_of(const oracle::Shape& shape) {
   try {
     Surface surface(tests::mesh_of(shape));
     surface.refit_vertices();
+    surface.refit(RefitOf::radii);
     surface.refit_faces();
     return surface;
   } catch (const Error&) {

@@ -220,9 +220,17 @@ Shape any_large_shape(Random& random) {
   return shape_of(models::sphere(12 + random.below(20), 8 + random.below(10), models::Faces::quads));
 }
 
+/// A surface's vertices, without faces.
+Shape vertices_of(const Surface& surface) {
+  Shape shape;
+  for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex)
+    shape.positions.push_back(surface.position(vertex));
+  return shape;
+}
+
 /// The faces that a region owns, as a shape.
 Shape faces_of(const Surface& surface, const Region& region) {
-  Shape shape{{surface.positions().begin(), surface.positions().end()}, {}};
+  Shape shape = vertices_of(surface);
   for (const std::uint32_t face : surface.mesh().regions().faces(region)) {
     const auto corners = surface.mesh().face(face);
     shape.faces.emplace_back(corners.begin(), corners.end());
@@ -233,8 +241,8 @@ Shape faces_of(const Surface& surface, const Region& region) {
 /// Every pair of regions of two surfaces at every level: spheres, boxes and middle vertices.
 void check_regions(const Surface& a, const Surface& b, std::uint64_t seed, Random& random, Checks& checks) {
   const RegionTruth truth(a, b);
-  const RegionBounds vertex_bounds(a, b, true);
-  const RegionBounds face_bounds(a, b, false);
+  const RegionBounds vertex_bounds(a, b, RefitOf::vertices);
+  const RegionBounds face_bounds(a, b, RefitOf::faces);
   const auto regions_a = a.mesh().regions().regions();
   const auto regions_b = b.mesh().regions().regions();
   for (std::uint32_t i = 0; i < regions_a.size(); ++i)
@@ -244,6 +252,7 @@ void check_regions(const Surface& a, const Surface& b, std::uint64_t seed, Rando
                std::to_string(seed);
       };
       checks.expect(truth.is_at_least(i, j, vertex_bounds.lower({i, j})), describe);
+      checks.expect(truth.is_at_least(i, j, vertex_bounds.lower_with_spheres({i, j})), describe);
       checks.expect(truth.is_at_least(i, j, face_bounds.lower({i, j})), describe);
       const double middles = upper_distance(a.middle(regions_a[i]), b.middle(regions_b[j]));
       checks.expect(truth.is_at_most(i, j, middles), describe);
@@ -301,8 +310,7 @@ void check_region_bounds(std::uint64_t seed, Checks& checks) {
   check_covers(b, seed, checks);
   check_regions(a, b, seed, random, checks);
   const double little = std::ldexp(1.0, -static_cast<int>(random.below(12)));
-  a.set_positions(
-      wobbled({{a.positions().begin(), a.positions().end()}, {}}, little * 0.1, seed + 2).positions);
+  a.set_positions(wobbled(vertices_of(a), little * 0.1, seed + 2).positions);
   check_regions(a, b, seed, random, checks);
 }
 

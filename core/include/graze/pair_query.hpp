@@ -138,5 +138,9 @@ class GRAZE_API PairDetector {
 constexpr bool is_about_vertices(ContactDetail detail) {
   return detail == ContactDetail::regions || detail == ContactDetail::vertices;
 }
+/// The boxes that a query of this detail asks for.
+constexpr RefitOf boxes_for(ContactDetail detail) {
+  return is_about_vertices(detail) ? RefitOf::vertices : RefitOf::faces;
+}
 
 }  // namespace graze

@@ -23,6 +23,8 @@ struct Region {
   std::uint32_t face_count = 0;
   std::uint32_t first_edge = 0;  ///< into RegionTree::edges()
   std::uint32_t edge_count = 0;
+  std::uint32_t first_border = 0;  ///< of a leaf: into RegionTree::border()
+  std::uint32_t border_count = 0;
   std::uint32_t middle = 0;  ///< the middle vertex (eq. 1), a vertex of the mesh
 
   [[nodiscard]] bool is_leaf() const { return child_count == 0; }
@@ -70,17 +72,24 @@ class GRAZE_API RegionTree {
   [[nodiscard]] std::span<const std::uint32_t> edges(const Region& region) const {
     return edges().subspan(region.first_edge, region.edge_count);
   }
+  /// The other corners of the faces and edges that a leaf owns: vertices of other leaves, each once.
+  [[nodiscard]] std::span<const std::uint32_t> border(const Region& leaf) const {
+    return std::span(border_).subspan(leaf.first_border, leaf.border_count);
+  }
 
   /// Bytes held.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
+  void list_borders(const Mesh& mesh);
+
   std::vector<Region> regions_;
   std::uint32_t leaf_level_ = 0;
   std::vector<std::uint32_t> level_begin_;
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> edges_;
+  std::vector<std::uint32_t> border_;
 };
 
 }  // namespace graze

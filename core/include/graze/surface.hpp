@@ -21,7 +21,11 @@ struct Travel {
 };
 
 /// Which bounds of regions a refit makes.
-enum class RefitOf : std::uint8_t { vertices, faces };
+enum class RefitOf : std::uint8_t {
+  vertices,  ///< a box of the region's vertices
+  faces,     ///< a box of those and of all corners of the faces and edges that the region owns
+  radii,  ///< about the middle vertex (eq. 2), and of levels (eq. 3); AccuracyMode::paper alone asks for them
+};
 
 /// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago.
 /// One thread changes it at a time; while none does, any number may read.
@@ -32,9 +36,11 @@ class GRAZE_API Surface {
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   [[nodiscard]] const std::shared_ptr<const Mesh>& shared_mesh() const { return mesh_; }
-  /// One for each vertex; those of unused vertices mean nothing.
-  [[nodiscard]] std::span<const Eigen::Vector3d> positions() const { return positions_; }
-  [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t vertex) const { return positions_[vertex]; }
+  /// That of an unused vertex means nothing.
+  [[nodiscard]] Eigen::Vector3d position(std::uint32_t vertex) const {
+    if (in_double_.empty()) return in_float_[vertex].cast<double>();
+    return in_double_[vertex];
+  }
   /// The box of the used vertices, and so of the faces.
   [[nodiscard]] const Box& box() const { return box_; }
 
@@ -47,33 +53,45 @@ class GRAZE_API Surface {
     /// The first used vertex that is not finite or has a coordinate beyond 2^120; then nothing was taken.
     std::uint32_t bad_vertex = no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
-    /// How far the used vertex that moved furthest did.
+    /// How far the used vertex that moved furthest did; with Displacement::bound at least that.
     double displacement = 0;
+    /// Whether some used vertex has other bits than before.
+    bool changed = false;
 
     [[nodiscard]] bool taken() const { return bad_vertex == no_vertex; }
   };
+  /// How ReadResult::displacement is found: a bound of the sort takes one quick pass, and is at most √3 times
+  /// too large.
+  enum class Displacement : std::uint8_t { exact, bound };
   /// Takes all of `view`, which has one position for each vertex, or nothing. Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
   /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
-  /// What reading some of the vertices found.
-  struct PartRead {
-    /// The first, as in ReadResult; nothing after it was read.
+  /// What looking at some of the new positions found.
+  struct PartSeen {
+    /// The first, as in ReadResult; nothing after it was looked at.
     std::uint32_t bad_vertex = ReadResult::no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
     double furthest_squared = 0;
+    Eigen::Vector3d furthest = Eigen::Vector3d::Zero();  ///< along each axis, where only a bound was wanted
     bool changed = false;
+    bool in_double = true;  ///< as the positions are given
     Box box;
 
     /// Adds what was found in the vertices that come after.
-    void add(const PartRead& later);
+    void add(const PartSeen& later);
   };
-  /// The same in parts: reads the vertices from `begin` to `end` and puts them aside; then `take` takes them
-  /// all, for what their parts found together. Several threads may read parts that do not overlap at once.
-  PartRead read_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end);
-  PartRead read_pose(const std::array<double, 12>& rows, std::uint32_t begin, std::uint32_t end);
-  ReadResult take(const PartRead& all);
+  /// The same in parts. First look at the vertices from `begin` to `end`, then `take` what all parts found
+  /// together, then, where it says that something changed, write them; before that the surface's positions
+  /// are not to be asked for. Several threads may look or write at once, at parts that do not overlap.
+  [[nodiscard]] PartSeen look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
+                                           Displacement displacement = Displacement::exact) const;
+  [[nodiscard]] PartSeen look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
+                                      std::uint32_t end) const;
+  ReadResult take(const PartSeen& all);
+  void write_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end);
+  void write_pose(const std::array<double, 12>& rows, std::uint32_t begin, std::uint32_t end);
 
   /// Never another surface's in this process.
   [[nodiscard]] std::uint64_t serial() const { return serial_; }
@@ -89,12 +107,9 @@ class GRAZE_API Surface {
   [[nodiscard]] double leaf_size() const;
 
   /// Makes the bounds of all regions those of the present positions; free if they are already.
-  ///
-  /// Vertex bounds: a radius about the middle vertex (eq. 2) and a box, of the region's vertices. Surface
-  /// bounds: a box of the vertices and all corners of the faces and edges that the region owns.
+  void refit(RefitOf what);
   void refit_vertices() { refit(RefitOf::vertices); }
   void refit_faces() { refit(RefitOf::faces); }
-  void refit(RefitOf what);
   /// The same in parts: `begin_refit`, then ranges of regions that do not overlap and are all of them
   /// together, by several threads at once if need be, then `finish_refit`.
   void begin_refit(RefitOf what);
@@ -105,21 +120,22 @@ class GRAZE_API Surface {
   [[nodiscard]] double motion_since_vertex_refit() const { return motion_since_refit(RefitOf::vertices); }
   [[nodiscard]] double motion_since_face_refit() const { return motion_since_refit(RefitOf::faces); }
   [[nodiscard]] double motion_since_refit(RefitOf what) const;
-  /// The boxes of one region at the present positions, made from its vertices and faces.
+  /// The box of a region at the present positions, made from its vertices; of a leaf, from those and what is
+  /// on its border.
   [[nodiscard]] Box vertex_box_now(const Region& region) const;
-  [[nodiscard]] Box face_box_now(const Region& region) const;
+  [[nodiscard]] Box face_box_now(const Region& leaf) const;
 
-  /// Of the last refit_vertices: eq. 2, one for each region.
-  [[nodiscard]] std::span<const double> radii() const { return radii_; }
+  /// Of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
-  /// Of the last refit_vertices: eq. 3, one for each level.
-  [[nodiscard]] std::span<const double> level_radii() const { return level_radii_; }
-  /// Of the last refit_faces, one for each region.
   [[nodiscard]] std::span<const Box> face_boxes() const { return face_boxes_; }
-
-  [[nodiscard]] const Eigen::Vector3d& middle(const Region& region) const {
-    return positions_[region.middle];
+  [[nodiscard]] std::span<const Box> boxes(RefitOf what) const {
+    return what == RefitOf::vertices ? vertex_boxes_ : face_boxes_;
   }
+  [[nodiscard]] std::span<const double> radii() const { return radii_; }
+  /// One for each level.
+  [[nodiscard]] std::span<const double> level_radii() const { return level_radii_; }
+
+  [[nodiscard]] Eigen::Vector3d middle(const Region& region) const { return position(region.middle); }
 
   /// Bytes held; the mesh is not counted.
   [[nodiscard]] std::size_t byte_count() const;
@@ -132,17 +148,24 @@ class GRAZE_API Surface {
   };
 
   template <typename PositionOf>
-  PartRead read(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
-  void refit_vertices_of(std::uint32_t index);
-  void finish_vertex_refit();
-  void finish_face_refit();
+  [[nodiscard]] PartSeen look(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const;
+  template <typename PositionOf>
+  void write(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
+  [[nodiscard]] bool is_laid_out_like(const PositionView& view) const;
+  [[nodiscard]] std::vector<Box>& boxes_to_write(RefitOf what) {
+    return what == RefitOf::vertices ? vertex_boxes_ : face_boxes_;
+  }
+  [[nodiscard]] double radius_now(const Region& region) const;
+  void gather_level_radii();
+  void box_inner_regions(std::vector<Box>& boxes) const;
   void count_motion(double displacement, const Box& before);
   [[nodiscard]] double motion_since(const Refit& refit) const;
 
   std::shared_ptr<const Mesh> mesh_;
-  std::vector<Eigen::Vector3d> positions_;
-  std::vector<Eigen::Vector3d>
-      incoming_;  ///< where positions are read to before all of them are known to be good
+  bool all_used_;  ///< every vertex is
+  // Positions in the precision in which they came; the other is empty.
+  std::vector<Eigen::Vector3f> in_float_;
+  std::vector<Eigen::Vector3d> in_double_;
   Box box_;
   std::vector<double> radii_;
   std::vector<double> level_radii_;
@@ -152,8 +175,7 @@ class GRAZE_API Surface {
   std::uint64_t version_ = 0;
   Travel travel_;
   double displacement_ = 0;
-  Refit vertex_refit_;
-  Refit face_refit_;
+  std::array<Refit, 3> refits_;  ///< by RefitOf
 };
 
 }  // namespace graze

@@ -4,6 +4,7 @@
 #include <graze/instruction_set.hpp>
 
 #include "filter.hpp"
+#include "positions.hpp"
 
 namespace graze {
 namespace kernels {
@@ -11,17 +12,21 @@ namespace kernels {
 // Each is defined by filter_<set>.cpp.
 namespace scalar {
 extern const Filter table;
-}
+extern const PositionPasses position_passes;
+}  // namespace scalar
 namespace baseline {
 extern const Filter table;
-}
+extern const PositionPasses position_passes;
+}  // namespace baseline
 #ifdef GRAZE_X86_KERNELS
 namespace avx2 {
 extern const Filter table;
-}
+extern const PositionPasses position_passes;
+}  // namespace avx2
 namespace avx512 {
 extern const Filter table;
-}
+extern const PositionPasses position_passes;
+}  // namespace avx512
 #endif
 
 }  // namespace kernels
@@ -53,23 +58,31 @@ const Available& available() {
   return found;
 }
 
-const kernels::Filter& table_of(InstructionSet set) {
+/// All kernels of one instruction set.
+struct Kernels {
+  const kernels::Filter* filter;
+  const kernels::PositionPasses* position_passes;
+};
+constexpr Kernels plain_kernels{&kernels::scalar::table, &kernels::scalar::position_passes};
+constexpr Kernels baseline_kernels{&kernels::baseline::table, &kernels::baseline::position_passes};
+#ifdef GRAZE_X86_KERNELS
+constexpr Kernels avx2_kernels{&kernels::avx2::table, &kernels::avx2::position_passes};
+constexpr Kernels avx512_kernels{&kernels::avx512::table, &kernels::avx512::position_passes};
+#endif
+
+const Kernels& kernels_of(InstructionSet set) {
   switch (set) {
-    case InstructionSet::scalar:
-      return kernels::scalar::table;
     case InstructionSet::baseline:
-      return kernels::baseline::table;
+      return baseline_kernels;
 #ifdef GRAZE_X86_KERNELS
     case InstructionSet::avx2:
-      return kernels::avx2::table;
+      return avx2_kernels;
     case InstructionSet::avx512:
-      return kernels::avx512::table;
-#else
-    default:
-      break;
+      return avx512_kernels;
 #endif
+    default:
+      return plain_kernels;
   }
-  return kernels::scalar::table;
 }
 
 InstructionSet best() {
@@ -78,13 +91,21 @@ InstructionSet best() {
 
 // What runs before these are initialised finds zero, and with it plain code: the same answers.
 std::atomic<InstructionSet> set_in_use{best()};
-std::atomic<const kernels::Filter*> filter_in_use{&table_of(best())};
+std::atomic<const Kernels*> kernels_in_use{&kernels_of(best())};
+
+const Kernels& in_use() {
+  const Kernels* const kernels = kernels_in_use.load(std::memory_order_relaxed);
+  return kernels != nullptr ? *kernels : plain_kernels;
+}
 
 }  // namespace
 
 const kernels::Filter& kernels::filter() {
-  const Filter* const in_use = filter_in_use.load(std::memory_order_relaxed);
-  return in_use != nullptr ? *in_use : scalar::table;
+  return *in_use().filter;
+}
+
+const kernels::PositionPasses& kernels::position_passes() {
+  return *in_use().position_passes;
 }
 
 std::string_view to_string(InstructionSet set) {
@@ -104,7 +125,7 @@ void use_instruction_set(InstructionSet set) {
   for (const InstructionSet known : available_instruction_sets()) {
     if (known != set) continue;
     set_in_use.store(set, std::memory_order_relaxed);
-    filter_in_use.store(&table_of(set), std::memory_order_relaxed);
+    kernels_in_use.store(&kernels_of(set), std::memory_order_relaxed);
     return;
   }
   throw Error("this processor or this build has no kernels for instruction set " +

@@ -22,6 +22,7 @@ Surface surface_of(const oracle::Shape& shape) {
   }
   Surface surface(std::make_shared<const Mesh>(Mesh::from_polygons(shape.positions, corners, counts)));
   surface.refit_vertices();
+  surface.refit(RefitOf::radii);
   surface.refit_faces();
   return surface;
 }

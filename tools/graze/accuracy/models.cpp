@@ -36,6 +36,7 @@ std::vector<double> largest_epsilon(const std::vector<std::shared_ptr<const Mesh
   for (const auto& mesh : meshes) {
     Surface surface(mesh);
     surface.refit_vertices();
+    surface.refit(RefitOf::radii);
     const auto radii = surface.level_radii();
     largest.resize(std::max(largest.size(), radii.size()));
     for (std::size_t level = 0; level < radii.size(); ++level)
