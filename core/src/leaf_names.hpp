@@ -35,22 +35,26 @@ class LeafNames {
     const auto kernel = kernels::filter().near_triangles;
     filter_.near(of_a(a_.vertices), of_b(b_.triangles), kernel, [&](std::size_t i, std::size_t j) {
       const std::uint32_t vertex = a_.vertices.owner(i);
-      sink_(ContactName::of(vertex_piece(vertex), nearest_piece_of_face(pair_.a.position(vertex), pair_.b,
-                                                                        b_.triangles.owner(j), pair_.count)));
+      SquaredRange squared;
+      const FeaturePiece piece = nearest_piece_of_face(pair_.a.position(vertex), pair_.b,
+                                                       b_.triangles.owner(j), pair_.count, squared);
+      sink_(ContactName::of(vertex_piece(vertex), piece), squared);
     });
     filter_.near(of_b(b_.vertices), of_a(a_.triangles), kernel, [&](std::size_t i, std::size_t j) {
       const std::uint32_t vertex = b_.vertices.owner(i);
-      sink_(ContactName::of(
-          nearest_piece_of_face(pair_.b.position(vertex), pair_.a, a_.triangles.owner(j), pair_.count),
-          vertex_piece(vertex)));
+      SquaredRange squared;
+      const FeaturePiece piece = nearest_piece_of_face(pair_.b.position(vertex), pair_.a,
+                                                       a_.triangles.owner(j), pair_.count, squared);
+      sink_(ContactName::of(piece, vertex_piece(vertex)), squared);
     });
   }
 
   void edges() {
     near_segments(a_.edges, b_.edges, [&](std::size_t i, std::size_t j) {
-      const SegmentPairNames found = segment_names(edge_of(a_, i), edge_of(b_, j));
+      SquaredRange squared;
+      const SegmentPairNames found = segment_names(edge_of(a_, i), edge_of(b_, j), squared);
       for (std::uint32_t k = 0; k < found.size; ++k)
-        sink_(ContactName::of(found.names[k][0], found.names[k][1]));
+        sink_(ContactName::of(found.names[k][0], found.names[k][1]), squared);
     });
   }
 
@@ -102,22 +106,25 @@ class LeafNames {
   void near_segments(const SegmentBlock& a, const SegmentBlock& b, const Visit& visit) {
     filter_.near(of_a(a), of_b(b), kernels::filter().near_segments, visit);
   }
-  [[nodiscard]] SegmentPairNames segment_names(const FeaturePiece& a, const FeaturePiece& b) const {
-    return nearest_pieces_of_segments(pair_.a, a, pair_.b, b, pair_.count);
+  [[nodiscard]] SegmentPairNames segment_names(const FeaturePiece& a, const FeaturePiece& b,
+                                               SquaredRange& squared) const {
+    return nearest_pieces_of_segments(pair_.a, a, pair_.b, b, pair_.count, squared);
   }
   void offer_inner(const FeaturePiece& a, const FeaturePiece& b) {
-    const SegmentPairNames found = segment_names(a, b);
-    if (found.size == 1 && found.names[0][0] == a && found.names[0][1] == b) sink_(ContactName::of(a, b));
+    SquaredRange squared;
+    const SegmentPairNames found = segment_names(a, b, squared);
+    if (found.size == 1 && found.names[0][0] == a && found.names[0][1] == b)
+      sink_(ContactName::of(a, b), squared);
   }
   void offer_a_through_b(const FeaturePiece& segment, std::size_t triangle) {
     const std::uint32_t face = b_.triangles.owner(triangle);
     if (const auto piece = pierced_piece(pair_.a, segment, pair_.b, face, pair_.count))
-      sink_(ContactName::of(segment, *piece, Meeting::pierced));
+      sink_(ContactName::of(segment, *piece, Meeting::pierced), SquaredRange{});
   }
   void offer_b_through_a(std::size_t triangle, const FeaturePiece& segment) {
     const std::uint32_t face = a_.triangles.owner(triangle);
     if (const auto piece = pierced_piece(pair_.b, segment, pair_.a, face, pair_.count))
-      sink_(ContactName::of(*piece, segment, Meeting::pierced));
+      sink_(ContactName::of(*piece, segment, Meeting::pierced), SquaredRange{});
   }
 
   const SurfacePair& pair_;
@@ -127,10 +134,11 @@ class LeafNames {
   const Sink& sink_;
 };
 
-/// Gives `sink` the name of the closest points of every vertex-face and edge-edge pair between two leaves, of
-/// every edge that pierces a face, and of every fold's contacts with edges, folds and faces, leaving out what
-/// is certainly too far for `range` (see FloatFilter; a piercing never is). A pair of features is met in one
-/// pair of leaves only, since each has one owner; a name may be met several times.
+/// Gives `sink` the name, and what is known of the distance, of the closest points of every vertex-face and
+/// edge-edge pair between two leaves, of every edge that pierces a face, and of every fold's contacts with
+/// edges, folds and faces, leaving out what is certainly too far for `range` (see FloatFilter; a piercing
+/// never is). A pair of features is met in one pair of leaves only, since each has one owner; a name may be
+/// met several times.
 template <typename Range, typename Sink>
 void for_each_name(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch,
                    Range& range, const Sink& sink) {
