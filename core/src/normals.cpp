@@ -91,7 +91,10 @@ Eigen::Vector3d weighted_normal(const Surface& surface, const FeaturePiece& piec
 
 Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& gap,
              DecisionCount& count) {
-  const Eigen::Vector3d normal = weighted_normal(surface, piece, count);
+  return side_along(weighted_normal(surface, piece, count), gap);
+}
+
+Side side_along(const Eigen::Vector3d& normal, const Eigen::Vector3d& gap) {
   const Eigen::Vector3d direction = gap.stableNormalized();
   const double along = normal.dot(direction);
   // Unit normals and the direction are within 2^-44 of the true ones, angles nearly so; a vertex has at most

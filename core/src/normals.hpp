@@ -22,6 +22,9 @@ Eigen::Vector3d weighted_normal(const Surface& surface, const FeaturePiece& piec
 Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& gap,
              DecisionCount& count);
 
+/// The same for the feature's weighted normal.
+Side side_along(const Eigen::Vector3d& normal, const Eigen::Vector3d& gap);
+
 /// The normal of a contact whose points are one, from positions alone: a's face normal; else minus b's face
 /// normal; else for two edges their cross product, signed to agree with a's averaged vertex normal; else a's
 /// averaged normal, else minus b's, else +z.

@@ -6,6 +6,7 @@
 
 #include "feature_pairs.hpp"
 #include "measure.hpp"
+#include "measure_batch.hpp"
 #include "parallel.hpp"
 #include "validate.hpp"
 #include "vertex_pairs.hpp"
@@ -131,9 +132,9 @@ void PairSearch::run(Slice& slice, Worker& worker) {
     case Stage::contacts:
       return run_contacts(slice, worker);
     case Stage::measured:
-      for (std::size_t i = slice.begin; i < slice.end; ++i)
-        answer_->contacts[i] = measure(worker.pair, names_[i]);
-      return;
+      return measure(worker.pair, std::span(names_).subspan(slice.begin, slice.end - slice.begin),
+                     std::span(answer_->contacts).subspan(slice.begin, slice.end - slice.begin),
+                     worker.scratch.measure);
     case Stage::approach:
       return run_approach(slice, worker);
     case Stage::closest:

@@ -4,24 +4,29 @@
 #include <graze/instruction_set.hpp>
 
 #include "filter.hpp"
+#include "measure.hpp"
 
 namespace graze {
 namespace kernels {
 
-// Each is defined by filter_<set>.cpp.
+// Each is defined by filter_<set>.cpp and measure_<set>.cpp.
 namespace scalar {
 extern const Filter table;
-}
+extern const Measure measure_table;
+}  // namespace scalar
 namespace baseline {
 extern const Filter table;
-}
+extern const Measure measure_table;
+}  // namespace baseline
 #ifdef GRAZE_X86_KERNELS
 namespace avx2 {
 extern const Filter table;
-}
+extern const Measure measure_table;
+}  // namespace avx2
 namespace avx512 {
 extern const Filter table;
-}
+extern const Measure measure_table;
+}  // namespace avx512
 #endif
 
 }  // namespace kernels
@@ -53,23 +58,35 @@ const Available& available() {
   return found;
 }
 
-const kernels::Filter& table_of(InstructionSet set) {
+/// All kernels of one instruction set.
+struct Tables {
+  const kernels::Filter& filter;
+  const kernels::Measure& measure;
+};
+constexpr Tables scalar_tables{kernels::scalar::table, kernels::scalar::measure_table};
+constexpr Tables baseline_tables{kernels::baseline::table, kernels::baseline::measure_table};
+#ifdef GRAZE_X86_KERNELS
+constexpr Tables avx2_tables{kernels::avx2::table, kernels::avx2::measure_table};
+constexpr Tables avx512_tables{kernels::avx512::table, kernels::avx512::measure_table};
+#endif
+
+const Tables& tables_of(InstructionSet set) {
   switch (set) {
     case InstructionSet::scalar:
-      return kernels::scalar::table;
+      return scalar_tables;
     case InstructionSet::baseline:
-      return kernels::baseline::table;
+      return baseline_tables;
 #ifdef GRAZE_X86_KERNELS
     case InstructionSet::avx2:
-      return kernels::avx2::table;
+      return avx2_tables;
     case InstructionSet::avx512:
-      return kernels::avx512::table;
+      return avx512_tables;
 #else
     default:
       break;
 #endif
   }
-  return kernels::scalar::table;
+  return scalar_tables;
 }
 
 InstructionSet best() {
@@ -78,13 +95,20 @@ InstructionSet best() {
 
 // What runs before these are initialised finds zero, and with it plain code: the same answers.
 std::atomic<InstructionSet> set_in_use{best()};
-std::atomic<const kernels::Filter*> filter_in_use{&table_of(best())};
+std::atomic<const Tables*> tables_in_use{&tables_of(best())};
+
+const Tables& in_use() {
+  const Tables* const tables = tables_in_use.load(std::memory_order_relaxed);
+  return tables != nullptr ? *tables : scalar_tables;
+}
 
 }  // namespace
 
 const kernels::Filter& kernels::filter() {
-  const Filter* const in_use = filter_in_use.load(std::memory_order_relaxed);
-  return in_use != nullptr ? *in_use : scalar::table;
+  return in_use().filter;
+}
+const kernels::Measure& kernels::measure() {
+  return in_use().measure;
 }
 
 std::string_view to_string(InstructionSet set) {
@@ -104,7 +128,7 @@ void use_instruction_set(InstructionSet set) {
   for (const InstructionSet known : available_instruction_sets()) {
     if (known != set) continue;
     set_in_use.store(set, std::memory_order_relaxed);
-    filter_in_use.store(&table_of(set), std::memory_order_relaxed);
+    tables_in_use.store(&tables_of(set), std::memory_order_relaxed);
     return;
   }
   throw Error("this processor or this build has no kernels for instruction set " +
