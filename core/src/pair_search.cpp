@@ -52,7 +52,15 @@ class PairSearch::Worker {
       : scratch(given),
         pair{*search.a_, *search.b_, decisions_},
         meter(search.query_, counters),
-        leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {}
+        leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {
+    scratch.features.begin();
+  }
+  /// Before looking into some of the leaf pairs found: all slices see them in one frame.
+  void begin_leaves(const LeafPairList& found) {
+    if (found.leaves.empty()) return;
+    const RegionPair& first = found.leaves.front().pair;
+    scratch.features.begin(leaf_pairs.leaf_a(first), leaf_pairs.leaf_b(first));
+  }
   ~Worker() {
     meter.counters().discarded_in_float += decisions_.discarded_in_float;
     meter.counters().decided_in_double += decisions_.in_double;
@@ -316,6 +324,7 @@ void PairSearch::slice_leaves_in_contact() {
 }
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
+  worker.begin_leaves(found_);
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
     slice.complete = !from_front_ || worker.meter.spend();
@@ -464,6 +473,7 @@ void PairSearch::begin_closest(Worker& worker) {
 
 /// Looks into a range of the leaf pairs found; false when the budget ran out.
 bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const {
+  worker.begin_leaves(found_);
   ClosestRange range(worker.pair, query_, ties(), found);
   for (std::size_t i = begin; i < end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
