@@ -153,7 +153,14 @@ class LeafNames {
 
   template <typename Visit>
   void near_segments(const SegmentBlock& a, const SegmentBlock& b, const Visit& visit) {
-    filter_.near(of_a(a), of_b(b), kernels::filter().near_segments, visit);
+    const auto kernel = kernels::filter().near_segments;
+    const auto cost = [](const SegmentBlock& rows, const SegmentBlock& columns) {
+      return rows.count() * ((columns.count() + kernels::lanes - 1) / kernels::lanes);
+    };
+    if (cost(a, b) <= cost(b, a))
+      filter_.near(of_a(a), of_b(b), kernel, visit);
+    else
+      filter_.near(of_b(b), of_a(a), kernel, [&](std::size_t j, std::size_t i) { visit(i, j); });
   }
   [[nodiscard]] SegmentPairNames segment_names(const FeaturePiece& a, const FeaturePiece& b,
                                                SquaredRange& squared) const {

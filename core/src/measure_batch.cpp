@@ -4,11 +4,10 @@
 #include <array>
 
 #include "measure.hpp"
-#include "normals.hpp"
 
 namespace graze {
 
-void NormalCache::begin() {
+void Sides::begin() {
   entries_.resize(size);
   if (++generation_ == 0) {  // after 2^32 uses
     std::fill(entries_.begin(), entries_.end(), Entry{});
@@ -16,16 +15,17 @@ void NormalCache::begin() {
   }
 }
 
-const Eigen::Vector3d& NormalCache::of(const Surface& surface, const FeaturePiece& piece,
-                                       DecisionCount& count) {
+Side Sides::of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& direction,
+               DecisionCount& count) {
   const std::size_t place = piece.feature.index * 3 + static_cast<std::size_t>(piece.feature.kind);
   Entry& entry = entries_[place % size];
   if (entry.generation != generation_ || entry.piece != piece) {
     entry.piece = piece;
     entry.generation = generation_;
-    entry.normal = weighted_normal(surface, piece, count);
+    entry.normal = rough_normal(surface, piece);
   }
-  return entry.normal;
+  const auto side = certain_side(entry.normal, direction);
+  return side ? *side : side_of(surface, piece, direction, count);
 }
 
 namespace {
@@ -103,8 +103,8 @@ class Batch {
     contact.point_b = at(a_is_low ? batch.high_point : batch.low_point, lane);
     contact.distance = batch.distance[lane];
     contact.normal = a_is_low ? normal : Eigen::Vector3d(-normal);
-    contact.side_a = side_along(scratch_.normals_a.of(pair_.a, name.a, pair_.count), contact.normal);
-    contact.side_b = side_along(scratch_.normals_b.of(pair_.b, name.b, pair_.count), -contact.normal);
+    contact.side_a = scratch_.sides_a.of(pair_.a, name.a, contact.normal, pair_.count);
+    contact.side_b = scratch_.sides_b.of(pair_.b, name.b, -contact.normal, pair_.count);
   }
 
   const SurfacePair& pair_;
@@ -120,8 +120,8 @@ class Batch {
 
 void measure(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
              MeasureScratch& scratch) {
-  scratch.normals_a.begin();
-  scratch.normals_b.begin();
+  scratch.sides_a.begin();
+  scratch.sides_b.begin();
   Batch batch(pair, names, contacts, scratch);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto [low, high] = std::minmax({corner_count(names[i].a), corner_count(names[i].b)});

@@ -6,17 +6,19 @@
 
 #include "contact_name.hpp"
 #include "kernels/measure.hpp"
+#include "normals.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
 
-/// The weighted normals of features of one surface that were asked for last; neighbouring contacts ask for
-/// the same.
-class NormalCache {
+/// Says on which side of one surface points lie. Neighbouring contacts ask about the same features, so the
+/// normals of those that were asked about last are kept.
+class Sides {
  public:
   void begin();
-  /// `weighted_normal` of the piece.
-  const Eigen::Vector3d& of(const Surface& surface, const FeaturePiece& piece, DecisionCount& count);
+  /// `side_of` for a unit vector.
+  Side of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& direction,
+          DecisionCount& count);
 
   template <typename Self>
   static auto parts(Self& self) {
@@ -29,7 +31,7 @@ class NormalCache {
   struct Entry {
     FeaturePiece piece;
     std::uint32_t generation = 0;  ///< in which it was made
-    Eigen::Vector3d normal;
+    RoughNormal normal;
   };
 
   std::vector<Entry> entries_;
@@ -38,12 +40,12 @@ class NormalCache {
 
 struct MeasureScratch {
   kernels::ContactBatch batch{};
-  NormalCache normals_a;
-  NormalCache normals_b;
+  Sides sides_a;
+  Sides sides_b;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.normals_a, self.normals_b);
+    return std::tie(self.sides_a, self.sides_b);
   }
 };
 
