@@ -67,7 +67,10 @@ class ClosestRange {
     if (upper > 0 && upper < set_.upper()) set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
   }
   void offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
-    for_each_name(pair_, leaf_a, leaf_b, scratch, *this, [&](const ContactName& name) { set_.offer(name); });
+    for_each_name(pair_, leaf_a, leaf_b, scratch, *this,
+                  [&](const ContactName& name, const SquaredRange& squared) {
+                    if (!squared.is_beyond(set_.upper())) set_.offer(name);
+                  });
   }
   void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {

@@ -42,16 +42,25 @@ struct ContactName {
   friend bool operator==(const ContactName&, const ContactName&) = default;
   /// By (kind, feature a, feature b), the key of a contact; pieces after that.
   friend auto operator<=>(const ContactName& left, const ContactName& right) {
-    if (const auto order = left.kind <=> right.kind; order != 0) return order;
-    if (const auto order = left.a.feature <=> right.a.feature; order != 0) return order;
-    if (const auto order = left.b.feature <=> right.b.feature; order != 0) return order;
-    if (const auto order = left.meeting <=> right.meeting; order != 0) return order;
-    if (const auto order = left.a.piece <=> right.a.piece; order != 0) return order;
-    return left.b.piece <=> right.b.piece;
+    const std::uint64_t left_high = left.high_key();
+    const std::uint64_t right_high = right.high_key();
+    return left_high != right_high ? left_high <=> right_high : left.low_key() <=> right.low_key();
   }
   /// Whether both are the contact of the same two features.
   [[nodiscard]] bool same_features(const ContactName& other) const {
     return a.feature == other.a.feature && b.feature == other.b.feature;
+  }
+
+ private:
+  /// What names are ordered by, as two numbers.
+  [[nodiscard]] std::uint64_t high_key() const {
+    return std::uint64_t{static_cast<std::uint8_t>(kind)} << 40U |
+           std::uint64_t{static_cast<std::uint8_t>(a.feature.kind)} << 32U | a.feature.index;
+  }
+  [[nodiscard]] std::uint64_t low_key() const {
+    return std::uint64_t{static_cast<std::uint8_t>(b.feature.kind)} << 56U |
+           std::uint64_t{b.feature.index} << 24U | std::uint64_t{static_cast<std::uint8_t>(meeting)} << 16U |
+           std::uint64_t{static_cast<std::uint8_t>(a.piece)} << 8U | static_cast<std::uint8_t>(b.piece);
   }
 };
 

@@ -31,7 +31,9 @@ template <typename VectorOf>
 std::optional<Eigen::Vector3d> unit_direction(DecisionCount& count, const VectorOf& vector) {
   const Vector<Ball> ball = vector.template operator()<Ball>();
   const Eigen::Vector3d middle(ball.x.value, ball.y.value, ball.z.value);
-  const double size = middle.norm();
+  // The sum in the order of the kernels in kernels/measure_kernels.inc.
+  const double size =
+      std::sqrt((middle.x() * middle.x() + middle.y() * middle.y()) + middle.z() * middle.z());
   const double radius = ball.x.radius + ball.y.radius + ball.z.radius;
   if (size > 0x1p-450 && size < 0x1p450 && radius <= size * 0x1p-44) return middle / size;
   ++count.exact;

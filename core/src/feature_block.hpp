@@ -25,17 +25,16 @@ class FeatureBlock {
 
   /// Empties it, and makes room for `most` features.
   void begin(std::size_t most) {
-    stride_ = (most + kernels::lanes - 1) / kernels::lanes * kernels::lanes;
+    stride_ = stride_of(most);
     if (data_.size() < stride_ * Components) data_.resize(stride_ * Components);
     owners_.clear();
-    touches_.clear();
     owner_count_ = 0;
   }
 
-  /// Adds the feature that `owner` stands for, and whether it may touch anything of the other leaf.
-  /// Coordinates too large for the kernels are left out, and its size says so.
-  void add(std::uint32_t owner, const FilterFrame& frame, const std::array<Eigen::Vector3d, Corners>& corners,
-           bool touches) {
+  /// Adds the feature that `owner` stands for. Coordinates too large for the kernels are left out, and its
+  /// size says so.
+  void add(std::uint32_t owner, const FilterFrame& frame,
+           const std::array<Eigen::Vector3d, Corners>& corners) {
     double size = kernels::least_size;
     std::array<Eigen::Vector3d, Corners> local;
     for (std::size_t corner = 0; corner < Corners; ++corner) {
@@ -47,23 +46,41 @@ class FeatureBlock {
     for (const Eigen::Vector3d& point : local)
       for (int axis = 0; axis < 3; ++axis, at += stride_) *at = fits ? static_cast<float>(point[axis]) : 0.0F;
     *at = fits ? static_cast<float>(size) : std::numeric_limits<float>::infinity();
-    if (owners_.empty() || owners_.back() != owner) ++owner_count_;
-    owners_.push_back(owner);
-    touches_.push_back(touches ? 1 : 0);
+    add_owner(owner);
+  }
+
+  /// Finds those features of another block that are not certainly further than `limit` from `box`; how many,
+  /// and extends `found` by their box.
+  std::size_t clip(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::BoxInFrame& box,
+                   float limit, kernels::BoxInFrame& found) {
+    if (index_.size() < all.count()) index_.resize(all.count());
+    if (touches_.size() < all.count()) touches_.resize(all.count());
+    return kernel(all.block(), box, limit, {index_.data(), touches_.data(), &found});
+  }
+  /// Takes them.
+  void take(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::BoxInFrame& box,
+            float limit, kernels::BoxInFrame& found) {
+    begin(all.count());
+    const std::size_t count = clip(all, kernel, box, limit, found);
+    kernels::filter().gather(all.block(), Components, index_.data(), count, data_.data(), stride_);
+    for (std::size_t i = 0; i < count; ++i) add_owner(all.owners_[index_[i]]);
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.data_, self.owners_, self.touches_);
+    return std::tie(self.data_, self.owners_, self.index_, self.touches_);
   }
   void reserve_as(const FeatureBlock& other) {
     if (data_.size() < other.data_.size()) data_.resize(other.data_.size());
     graze::reserve_as(owners_, other.owners_);
+    graze::reserve_as(index_, other.index_);
     graze::reserve_as(touches_, other.touches_);
   }
+  /// What it holds stays.
   void reserve(std::size_t most) {
-    begin(most);
+    if (data_.size() < stride_of(most) * Components) data_.resize(stride_of(most) * Components);
     owners_.reserve(most);
+    index_.reserve(most);
     touches_.reserve(most);
   }
 
@@ -72,6 +89,7 @@ class FeatureBlock {
   /// Features of one owner, such as a quad's triangles, are added one after the other and count once here.
   [[nodiscard]] std::size_t owner_count() const { return owner_count_; }
   [[nodiscard]] std::uint32_t owner(std::size_t i) const { return owners_[i]; }
+  /// Of features taken: whether one may touch something in the box.
   [[nodiscard]] bool touches(std::size_t i) const { return touches_[i] != 0; }
   [[nodiscard]] float component(std::size_t k, std::size_t i) const { return data_[k * stride_ + i]; }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }
@@ -80,9 +98,18 @@ class FeatureBlock {
   [[nodiscard]] std::size_t stride() const { return stride_; }
 
  private:
+  static std::size_t stride_of(std::size_t most) {
+    return (most + kernels::lanes - 1) / kernels::lanes * kernels::lanes;
+  }
+  void add_owner(std::uint32_t owner) {
+    if (owners_.empty() || owners_.back() != owner) ++owner_count_;
+    owners_.push_back(owner);
+  }
+
   std::vector<float> data_;
   std::size_t stride_ = 0;
   std::vector<std::uint32_t> owners_;
+  std::vector<std::uint32_t> index_;  ///< of features taken, in the block they are from
   std::vector<std::uint8_t> touches_;
   std::size_t owner_count_ = 0;
   Part part_;

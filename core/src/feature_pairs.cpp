@@ -19,10 +19,15 @@ struct BelowThreshold {
 void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double threshold,
                         LeafScratch& scratch, std::vector<ContactName>& names) {
   BelowThreshold range{threshold};
-  for_each_name(pair, leaf_a, leaf_b, scratch, range, [&](const ContactName& name) {
-    const bool edge_pierces = name.meeting == Meeting::pierced && name.kind == ContactKind::EF;
-    if (edge_pierces || is_closer_than(pair, name, threshold)) names.push_back(name);
-  });
+  const auto is_contact = [&](const ContactName& name, const SquaredRange& squared) {
+    if (name.meeting == Meeting::pierced && name.kind == ContactKind::EF) return true;
+    if (squared.is_below(threshold)) return true;
+    return !squared.is_beyond(threshold) && is_closer_than(pair, name, threshold);
+  };
+  for_each_name(pair, leaf_a, leaf_b, scratch, range,
+                [&](const ContactName& name, const SquaredRange& squared) {
+                  if (is_contact(name, squared)) names.push_back(name);
+                });
 }
 
 void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names) {

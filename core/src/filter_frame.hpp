@@ -6,12 +6,16 @@
 #include <graze/box.hpp>
 #include <limits>
 
+#include "kernels/filter.hpp"
+
 namespace graze {
 
-/// The coordinates that the float kernels see for two leaves: about a corner of the smaller one and scaled by
-/// a power of two to its size, so that neither where a scene is nor how large it is makes a difference.
+/// The coordinates that the float kernels see: about a corner of the smaller of two leaves and scaled by a
+/// power of two to its size, so that neither where a scene is nor how large it is makes a difference.
 class FilterFrame {
  public:
+  /// That of nothing.
+  FilterFrame() = default;
   FilterFrame(const Box& a, const Box& b) {
     const Eigen::Vector3d extent_a = a.max - a.min;
     const Eigen::Vector3d extent_b = b.max - b.min;
@@ -21,11 +25,41 @@ class FilterFrame {
     if (extent == 0) extent = std::max(extent_a.maxCoeff(), extent_b.maxCoeff());
     if (extent == 0) extent = (b.min - a.min).cwiseAbs().maxCoeff();
     constexpr int most = 900;  // the scale and all local coordinates stay normal numbers
+    scale_ = 1;
     if (extent > 0) scale_ = std::ldexp(1.0, -std::clamp(std::ilogb(extent), -most, most));
   }
 
+  /// Whether it does for other leaves: their own frame is not much larger or smaller, nor so far away that
+  /// float would see too little of them.
+  [[nodiscard]] bool serves(const Box& a, const Box& b) const {
+    const FilterFrame own(a, b);
+    const double ratio = scale_ / own.scale_;
+    return ratio >= 0x1p-9 && ratio <= 0x1p9 &&
+           (own.origin_ - origin_).cwiseAbs().maxCoeff() * own.scale_ <= 0x1p9;
+  }
+  friend bool operator==(const FilterFrame&, const FilterFrame&) = default;
+
   [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
     return (point - origin_) * scale_;
+  }
+  /// A box as the kernels see it, no smaller where it is far larger than they can: within `largest_size`,
+  /// where all features are that they trust.
+  [[nodiscard]] kernels::BoxInFrame to_local(const Box& box) const {
+    kernels::BoxInFrame local{};
+    local.size = kernels::least_size;
+    const Eigen::Vector3d low = to_local(box.min);
+    const Eigen::Vector3d high = to_local(box.max);
+    const auto clamped = [&](double coordinate) {
+      constexpr double largest = kernels::largest_size;
+      const auto rounded = static_cast<float>(std::clamp(coordinate, -largest, largest));
+      local.size = std::max(local.size, std::abs(rounded));
+      return rounded;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      local.min[axis] = clamped(low[axis]);
+      local.max[axis] = clamped(high[axis]);
+    }
+    return local;
   }
   /// Local units for one of the scene.
   [[nodiscard]] double scale() const { return scale_; }
@@ -40,8 +74,8 @@ class FilterFrame {
   }
 
  private:
-  Eigen::Vector3d origin_;
-  double scale_ = 1;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double scale_ = 0;  ///< 0 for the frame of nothing
 };
 
 }  // namespace graze

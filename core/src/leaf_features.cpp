@@ -1,7 +1,6 @@
 #include "leaf_features.hpp"
 
 #include "naming.hpp"
-#include "near_box.hpp"
 
 namespace graze {
 Box box_of(const Surface& surface, Part part, std::uint32_t index) {
@@ -24,63 +23,90 @@ Box box_of(const Surface& surface, Part part, std::uint32_t index) {
   return box;
 }
 
-bool LeafFeatures::collect_vertices(const Surface& surface, const Region& leaf, const Box& other,
-                                    const FilterFrame& frame, double limit) {
-  const NearBox near(other, limit);
+void LeafFeatures::collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
   vertices.begin(leaf.vertex_count);
-  for (const std::uint32_t vertex : surface.mesh().regions().vertices(leaf)) {
-    const std::array point{surface.position(vertex)};
-    const double gap_squared = near.gap_squared(point);
-    if (near.is_near(gap_squared)) vertices.add(vertex, frame, point, gap_squared == 0);
-  }
-  return vertices.count() == leaf.vertex_count;
+  for (const std::uint32_t vertex : surface.mesh().regions().vertices(leaf))
+    vertices.add(vertex, frame, std::array{Eigen::Vector3d(surface.position(vertex))});
 }
 
-bool LeafFeatures::collect(const Surface& surface, const Region& leaf, const Box& other,
-                           const FilterFrame& frame, double limit) {
+void LeafFeatures::collect(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
   const Mesh& mesh = surface.mesh();
-  const NearBox near(other, limit);
-  bool all = collect_vertices(surface, leaf, other, frame, limit);
-  const auto add = [&](auto& block, std::uint32_t owner, const auto& corners) {
-    const double gap_squared = near.gap_squared(corners);
-    if (near.is_near(gap_squared))
-      block.add(owner, frame, corners, gap_squared == 0);
-    else
-      all = false;
-  };
-  const auto at = [&](std::uint32_t vertex) { return surface.position(vertex); };
+  const auto at = [&](std::uint32_t vertex) -> Eigen::Vector3d { return surface.position(vertex); };
+  collect_vertices(surface, leaf, frame);
   edges.begin(leaf.edge_count);
   for (const std::uint32_t edge : mesh.regions().edges(leaf)) {
     const auto end = mesh.edge(edge);
-    add(edges, edge, std::array{at(end[0]), at(end[1])});
+    edges.add(edge, frame, std::array{at(end[0]), at(end[1])});
   }
   triangles.begin(std::size_t{2} * leaf.face_count);
   folds.begin(leaf.face_count);
   for (const std::uint32_t face : mesh.regions().faces(leaf)) {
     const auto corner = mesh.face(face);
-    add(triangles, face, std::array{at(corner[0]), at(corner[1]), at(corner[2])});
+    triangles.add(face, frame, std::array{at(corner[0]), at(corner[1]), at(corner[2])});
     if (corner.size() == 3) continue;
-    add(triangles, face, std::array{at(corner[0]), at(corner[2]), at(corner[3])});
+    triangles.add(face, frame, std::array{at(corner[0]), at(corner[2]), at(corner[3])});
     if (diagonal_of(mesh, face).feature.kind == FeatureKind::face)
-      add(folds, face, std::array{at(corner[0]), at(corner[2])});
+      folds.add(face, frame, std::array{at(corner[0]), at(corner[2])});
   }
-  surface_ = &surface;
-  prepare();
-  return all;
-}
-
-void LeafFeatures::prepare() {
   const kernels::Filter& filter = kernels::filter();
   filter.prepare_segments(edges.data(), edges.stride(), edges.count());
   filter.prepare_segments(folds.data(), folds.stride(), folds.count());
   filter.prepare_triangles(triangles.data(), triangles.stride(), triangles.count());
-  folded_.assign(folds.count(), Folded::unknown);
 }
 
-bool LeafFeatures::is_fold(std::size_t fold, DecisionCount& count) {
-  Folded& folded = folded_[fold];
+namespace {
+
+/// Holds nothing, and is extended by what it is to hold.
+kernels::BoxInFrame empty_box() {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
+}
+
+}  // namespace
+
+kernels::BoxInFrame LeafFeatures::vertices_near_box(const LeafFeatures& all, const kernels::BoxInFrame& box,
+                                                    float limit) {
+  kernels::BoxInFrame found = empty_box();
+  vertices.clip(all.vertices, kernels::filter().clip_points, box, limit, found);
+  return found;
+}
+
+kernels::BoxInFrame LeafFeatures::near_box(const LeafFeatures& all, const kernels::BoxInFrame& box,
+                                           float limit) {
+  const kernels::Filter& filter = kernels::filter();
+  kernels::BoxInFrame found = vertices_near_box(all, box, limit);
+  edges.clip(all.edges, filter.clip_segments, box, limit, found);
+  triangles.clip(all.triangles, filter.clip_triangles, box, limit, found);
+  folds.clip(all.folds, filter.clip_segments, box, limit, found);
+  return found;
+}
+
+kernels::BoxInFrame LeafFeatures::take_vertices(const LeafFeatures& all, const kernels::BoxInFrame& box,
+                                                float limit) {
+  kernels::BoxInFrame found = empty_box();
+  vertices.take(all.vertices, kernels::filter().clip_points, box, limit, found);
+  return found;
+}
+
+kernels::BoxInFrame LeafFeatures::take(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit) {
+  const kernels::Filter& filter = kernels::filter();
+  kernels::BoxInFrame found = take_vertices(all, box, limit);
+  edges.take(all.edges, filter.clip_segments, box, limit, found);
+  triangles.take(all.triangles, filter.clip_triangles, box, limit, found);
+  folds.take(all.folds, filter.clip_segments, box, limit, found);
+  return found;
+}
+
+void FoldAnswers::begin(const Surface& surface, const SegmentBlock& diagonals) {
+  surface_ = &surface;
+  diagonals_ = &diagonals;
+  answers_.assign(diagonals.count(), Folded::unknown);
+}
+
+bool FoldAnswers::is_fold(std::size_t diagonal, DecisionCount& count) {
+  Folded& folded = answers_[diagonal];
   if (folded == Folded::unknown)
-    folded = is_folded(*surface_, folds.owner(fold), count) ? Folded::yes : Folded::no;
+    folded = is_folded(*surface_, diagonals_->owner(diagonal), count) ? Folded::yes : Folded::no;
   return folded == Folded::yes;
 }
 

@@ -17,7 +17,7 @@ struct LeafOf {
   const Box& box;
 };
 
-/// The features that a leaf owns and that may be near another leaf.
+/// Features that a leaf owns, in a frame.
 class LeafFeatures {
  public:
   PointBlock vertices{Part::vertex};
@@ -25,37 +25,52 @@ class LeafFeatures {
   TriangleBlock triangles{Part::face};  ///< a quad's two one after the other
   SegmentBlock folds{Part::fold};       ///< diagonals of quads that no edge joins, by the quad's number
 
-  /// Takes the features of `leaf` that are not certainly further than `limit` from `other`; whether there are
-  /// more.
-  bool collect(const Surface& surface, const Region& leaf, const Box& other, const FilterFrame& frame,
-               double limit);
-  /// The same for its vertices alone.
-  bool collect_vertices(const Surface& surface, const Region& leaf, const Box& other,
-                        const FilterFrame& frame, double limit);
+  /// All features of a leaf.
+  void collect(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  /// Its vertices alone.
+  void collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame);
 
-  /// Whether the diagonal `fold` of the block is a fold (see `is_folded`); asked of few, so decided when
-  /// asked.
-  bool is_fold(std::size_t fold, DecisionCount& count);
+  /// The box of those of `all` that are not certainly further than `limit`, in the frame, from `box`.
+  kernels::BoxInFrame near_box(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
+  kernels::BoxInFrame vertices_near_box(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
+  /// Takes them, and gives their box.
+  kernels::BoxInFrame take(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
+  kernels::BoxInFrame take_vertices(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
+
+  [[nodiscard]] std::size_t count() const {
+    return vertices.count() + edges.count() + triangles.count() + folds.count();
+  }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.vertices, self.edges, self.triangles, self.folds, self.folded_);
+    return std::tie(self.vertices, self.edges, self.triangles, self.folds);
   }
   void reserve(const PairRoom& room) {
     vertices.reserve(room.leaf_vertices);
     edges.reserve(room.leaf_edges);
     triangles.reserve(2 * room.leaf_faces);
     folds.reserve(room.leaf_faces);
-    folded_.reserve(room.leaf_faces);
   }
+};
+
+/// Whether diagonals of quads are folds (see `is_folded`); asked of few, so decided when asked.
+class FoldAnswers {
+ public:
+  void begin(const Surface& surface, const SegmentBlock& diagonals);
+  bool is_fold(std::size_t diagonal, DecisionCount& count);
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.answers_);
+  }
+  void reserve(const PairRoom& room) { answers_.reserve(room.leaf_faces); }
 
  private:
   enum class Folded : std::uint8_t { unknown, no, yes };
 
-  void prepare();
-
   const Surface* surface_ = nullptr;
-  std::vector<Folded> folded_;  ///< of each diagonal
+  const SegmentBlock* diagonals_ = nullptr;
+  std::vector<Folded> answers_;
 };
 
 }  // namespace graze

@@ -3,19 +3,64 @@
 #include <algorithm>
 
 #include "contact_name.hpp"
+#include "leaf_cache.hpp"
 #include "leaf_features.hpp"
 #include "piercing.hpp"
 
 namespace graze {
 
+/// What is known of the leaves of a pair of surfaces, and those of two leaves' features that are near.
 struct LeafScratch {
+  LeafCache all_a;
+  LeafCache all_b;
   LeafFeatures a;
   LeafFeatures b;
+  FoldAnswers folds_a;
+  FoldAnswers folds_b;
   FloatFilterScratch filter;
+  FilterFrame frame;
+
+  /// Before the first pair of leaves of a query or slice: the frame is then that of this pair, or of the
+  /// first that is met.
+  void begin() { frame = {}; }
+  void begin(const LeafOf& leaf_a, const LeafOf& leaf_b) { frame = FilterFrame(leaf_a.box, leaf_b.box); }
+
+  /// Takes what is near of two leaves; false where there is nothing of either.
+  template <typename Range>
+  bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
+    return take(pair, leaf_a, leaf_b, range, false, &LeafFeatures::near_box, &LeafFeatures::take);
+  }
+  template <typename Range>
+  bool take_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
+    return take(pair, leaf_a, leaf_b, range, true, &LeafFeatures::vertices_near_box,
+                &LeafFeatures::take_vertices);
+  }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.a, self.b, self.filter);
+    return std::tie(self.all_a, self.all_b, self.a, self.b, self.folds_a, self.folds_b, self.filter);
+  }
+
+ private:
+  template <typename Range, typename BoxOfNear, typename Take>
+  bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
+            bool vertices_only, const BoxOfNear& box_of_near, const Take& take_near) {
+    if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
+    all_a.begin(pair.a, frame, vertices_only);
+    all_b.begin(pair.b, frame, vertices_only);
+    const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region);
+    const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region);
+    const double limit = range.limit();
+    const float local_limit = frame.to_local_limit(limit);
+    // What of b is near those of a that are near b's leaf, and what of a is near that.
+    const kernels::BoxInFrame near_a = (a.*box_of_near)(of_a, frame.to_local(leaf_b.box), local_limit);
+    const kernels::BoxInFrame near_b = (b.*take_near)(of_b, near_a, local_limit);
+    (a.*take_near)(of_a, near_b, local_limit);
+    const auto of_all = [&](const LeafFeatures& features) {
+      return vertices_only ? features.vertices.count() : features.count();
+    };
+    if (of_all(a) < of_all(of_a) || of_all(b) < of_all(of_b)) range.left_out(limit);
+    return of_all(a) > 0 && of_all(b) > 0;
   }
 };
 
@@ -23,34 +68,42 @@ struct LeafScratch {
 template <typename Range, typename Sink>
 class LeafNames {
  public:
-  LeafNames(const SurfacePair& pair, const FilterFrame& frame, LeafScratch& scratch, Range& range,
-            const Sink& sink)
+  LeafNames(const SurfacePair& pair, LeafScratch& scratch, Range& range, const Sink& sink)
       : pair_(pair),
         a_(scratch.a),
         b_(scratch.b),
-        filter_(frame, range, scratch.filter, pair.count),
-        sink_(sink) {}
+        folds_a_(scratch.folds_a),
+        folds_b_(scratch.folds_b),
+        filter_(scratch.frame, range, scratch.filter, pair.count),
+        sink_(sink) {
+    folds_a_.begin(pair.a, a_.folds);
+    folds_b_.begin(pair.b, b_.folds);
+  }
 
   void vertices_and_faces() {
     const auto kernel = kernels::filter().near_triangles;
     filter_.near(of_a(a_.vertices), of_b(b_.triangles), kernel, [&](std::size_t i, std::size_t j) {
       const std::uint32_t vertex = a_.vertices.owner(i);
-      sink_(ContactName::of(vertex_piece(vertex), nearest_piece_of_face(pair_.a.position(vertex), pair_.b,
-                                                                        b_.triangles.owner(j), pair_.count)));
+      SquaredRange squared;
+      const FeaturePiece piece = nearest_piece_of_face(pair_.a.position(vertex), pair_.b,
+                                                       b_.triangles.owner(j), pair_.count, squared);
+      sink_(ContactName::of(vertex_piece(vertex), piece), squared);
     });
     filter_.near(of_b(b_.vertices), of_a(a_.triangles), kernel, [&](std::size_t i, std::size_t j) {
       const std::uint32_t vertex = b_.vertices.owner(i);
-      sink_(ContactName::of(
-          nearest_piece_of_face(pair_.b.position(vertex), pair_.a, a_.triangles.owner(j), pair_.count),
-          vertex_piece(vertex)));
+      SquaredRange squared;
+      const FeaturePiece piece = nearest_piece_of_face(pair_.b.position(vertex), pair_.a,
+                                                       a_.triangles.owner(j), pair_.count, squared);
+      sink_(ContactName::of(piece, vertex_piece(vertex)), squared);
     });
   }
 
   void edges() {
     near_segments(a_.edges, b_.edges, [&](std::size_t i, std::size_t j) {
-      const SegmentPairNames found = segment_names(edge_of(a_, i), edge_of(b_, j));
+      SquaredRange squared;
+      const SegmentPairNames found = segment_names(edge_of(a_, i), edge_of(b_, j), squared);
       for (std::uint32_t k = 0; k < found.size; ++k)
-        sink_(ContactName::of(found.names[k][0], found.names[k][1]));
+        sink_(ContactName::of(found.names[k][0], found.names[k][1]), squared);
     });
   }
 
@@ -58,13 +111,13 @@ class LeafNames {
   /// corners.
   void folds() {
     near_segments(a_.edges, b_.folds, [&](std::size_t i, std::size_t j) {
-      if (b_.is_fold(j, pair_.count)) offer_inner(edge_of(a_, i), fold_of(b_, j));
+      if (folds_b_.is_fold(j, pair_.count)) offer_inner(edge_of(a_, i), fold_of(b_, j));
     });
     near_segments(a_.folds, b_.edges, [&](std::size_t i, std::size_t j) {
-      if (a_.is_fold(i, pair_.count)) offer_inner(fold_of(a_, i), edge_of(b_, j));
+      if (folds_a_.is_fold(i, pair_.count)) offer_inner(fold_of(a_, i), edge_of(b_, j));
     });
     near_segments(a_.folds, b_.folds, [&](std::size_t i, std::size_t j) {
-      if (a_.is_fold(i, pair_.count) && b_.is_fold(j, pair_.count))
+      if (folds_a_.is_fold(i, pair_.count) && folds_b_.is_fold(j, pair_.count))
         offer_inner(fold_of(a_, i), fold_of(b_, j));
     });
   }
@@ -75,10 +128,10 @@ class LeafNames {
     filter_.touching(of_b(b_.edges), of_a(a_.triangles),
                      [&](std::size_t i, std::size_t j) { offer_b_through_a(j, edge_of(b_, i)); });
     filter_.touching(of_a(a_.folds), of_b(b_.triangles), [&](std::size_t i, std::size_t j) {
-      if (a_.is_fold(i, pair_.count)) offer_a_through_b(fold_of(a_, i), j);
+      if (folds_a_.is_fold(i, pair_.count)) offer_a_through_b(fold_of(a_, i), j);
     });
     filter_.touching(of_b(b_.folds), of_a(a_.triangles), [&](std::size_t i, std::size_t j) {
-      if (b_.is_fold(i, pair_.count)) offer_b_through_a(j, fold_of(b_, i));
+      if (folds_b_.is_fold(i, pair_.count)) offer_b_through_a(j, fold_of(b_, i));
     });
   }
 
@@ -100,46 +153,55 @@ class LeafNames {
 
   template <typename Visit>
   void near_segments(const SegmentBlock& a, const SegmentBlock& b, const Visit& visit) {
-    filter_.near(of_a(a), of_b(b), kernels::filter().near_segments, visit);
+    const auto kernel = kernels::filter().near_segments;
+    const auto cost = [](const SegmentBlock& rows, const SegmentBlock& columns) {
+      return rows.count() * ((columns.count() + kernels::lanes - 1) / kernels::lanes);
+    };
+    if (cost(a, b) <= cost(b, a))
+      filter_.near(of_a(a), of_b(b), kernel, visit);
+    else
+      filter_.near(of_b(b), of_a(a), kernel, [&](std::size_t j, std::size_t i) { visit(i, j); });
   }
-  [[nodiscard]] SegmentPairNames segment_names(const FeaturePiece& a, const FeaturePiece& b) const {
-    return nearest_pieces_of_segments(pair_.a, a, pair_.b, b, pair_.count);
+  [[nodiscard]] SegmentPairNames segment_names(const FeaturePiece& a, const FeaturePiece& b,
+                                               SquaredRange& squared) const {
+    return nearest_pieces_of_segments(pair_.a, a, pair_.b, b, pair_.count, squared);
   }
   void offer_inner(const FeaturePiece& a, const FeaturePiece& b) {
-    const SegmentPairNames found = segment_names(a, b);
-    if (found.size == 1 && found.names[0][0] == a && found.names[0][1] == b) sink_(ContactName::of(a, b));
+    SquaredRange squared;
+    const SegmentPairNames found = segment_names(a, b, squared);
+    if (found.size == 1 && found.names[0][0] == a && found.names[0][1] == b)
+      sink_(ContactName::of(a, b), squared);
   }
   void offer_a_through_b(const FeaturePiece& segment, std::size_t triangle) {
     const std::uint32_t face = b_.triangles.owner(triangle);
     if (const auto piece = pierced_piece(pair_.a, segment, pair_.b, face, pair_.count))
-      sink_(ContactName::of(segment, *piece, Meeting::pierced));
+      sink_(ContactName::of(segment, *piece, Meeting::pierced), SquaredRange{});
   }
   void offer_b_through_a(std::size_t triangle, const FeaturePiece& segment) {
     const std::uint32_t face = a_.triangles.owner(triangle);
     if (const auto piece = pierced_piece(pair_.b, segment, pair_.a, face, pair_.count))
-      sink_(ContactName::of(*piece, segment, Meeting::pierced));
+      sink_(ContactName::of(*piece, segment, Meeting::pierced), SquaredRange{});
   }
 
   const SurfacePair& pair_;
-  LeafFeatures& a_;
-  LeafFeatures& b_;
+  const LeafFeatures& a_;
+  const LeafFeatures& b_;
+  FoldAnswers& folds_a_;
+  FoldAnswers& folds_b_;
   FloatFilter<Range> filter_;
   const Sink& sink_;
 };
 
-/// Gives `sink` the name of the closest points of every vertex-face and edge-edge pair between two leaves, of
-/// every edge that pierces a face, and of every fold's contacts with edges, folds and faces, leaving out what
-/// is certainly too far for `range` (see FloatFilter; a piercing never is). A pair of features is met in one
-/// pair of leaves only, since each has one owner; a name may be met several times.
+/// Gives `sink` the name, and what is known of the distance, of the closest points of every vertex-face and
+/// edge-edge pair between two leaves, of every edge that pierces a face, and of every fold's contacts with
+/// edges, folds and faces, leaving out what is certainly too far for `range` (see FloatFilter; a piercing
+/// never is). A pair of features is met in one pair of leaves only, since each has one owner; a name may be
+/// met several times.
 template <typename Range, typename Sink>
 void for_each_name(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch,
                    Range& range, const Sink& sink) {
-  const FilterFrame frame(leaf_a.box, leaf_b.box);
-  const double limit = range.limit();
-  const bool all_of_a = scratch.a.collect(pair.a, leaf_a.region, leaf_b.box, frame, limit);
-  const bool all_of_b = scratch.b.collect(pair.b, leaf_b.region, leaf_a.box, frame, limit);
-  if (!all_of_a || !all_of_b) range.left_out(limit);
-  LeafNames<Range, Sink> names(pair, frame, scratch, range, sink);
+  if (!scratch.take(pair, leaf_a, leaf_b, range)) return;
+  LeafNames<Range, Sink> names(pair, scratch, range, sink);
   names.vertices_and_faces();
   names.edges();
   names.folds();
@@ -151,14 +213,10 @@ void for_each_name(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& 
 template <typename Range, typename Visit>
 void for_each_vertex_pair(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
                           LeafScratch& scratch, Range& range, const Visit& visit) {
-  const FilterFrame frame(leaf_a.box, leaf_b.box);
-  const double limit = range.limit();
-  const bool all_of_a = scratch.a.collect_vertices(pair.a, leaf_a.region, leaf_b.box, frame, limit);
-  const bool all_of_b = scratch.b.collect_vertices(pair.b, leaf_b.region, leaf_a.box, frame, limit);
-  if (!all_of_a || !all_of_b) range.left_out(limit);
+  if (!scratch.take_vertices(pair, leaf_a, leaf_b, range)) return;
   const PointBlock& a = scratch.a.vertices;
   const PointBlock& b = scratch.b.vertices;
-  FloatFilter<Range>(frame, range, scratch.filter, pair.count)
+  FloatFilter<Range>(scratch.frame, range, scratch.filter, pair.count)
       .near(FeaturesOf<PointBlock>{pair.a, a}, FeaturesOf<PointBlock>{pair.b, b},
             kernels::filter().near_points,
             [&](std::size_t i, std::size_t j) { visit(a.owner(i), b.owner(j)); });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <type_traits>
 
 #include "direction.hpp"
 #include "normals.hpp"
@@ -44,6 +46,29 @@ ClosestPoints<Number> closest_points(const Simplex& low, const Simplex& high) {
   return {u * dot(cross(to_high, v), normal), v * dot(cross(to_high, u), normal),
           normal * dot(normal, to_high), dot(normal, normal)};
 }
+
+/// The closest points in whichever arithmetic they are asked for, made once.
+class ClosestOf {
+ public:
+  ClosestOf(const Simplex& low, const Simplex& high)
+      : low_(low), high_(high), ball_(closest_points<Ball>(low, high)) {}
+
+  template <typename Number>
+  const ClosestPoints<Number>& in() {
+    if constexpr (std::is_same_v<Number, Ball>) {
+      return ball_;
+    } else {
+      if (!exact_) exact_.emplace(closest_points<Exact>(low_, high_));
+      return *exact_;
+    }
+  }
+
+ private:
+  const Simplex& low_;
+  const Simplex& high_;
+  ClosestPoints<Ball> ball_;
+  std::optional<ClosestPoints<Exact>> exact_;
+};
 
 /// The largest coordinate difference that the hulls are made of.
 double extent(const Simplex& low, const Simplex& high) {
@@ -112,13 +137,13 @@ double distance_of(const SurfacePair& pair, const ContactName& name, const Hulls
 }
 
 /// Fills in distance, normal and sides of a contact whose points are known.
-void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hulls, Contact& contact) {
+void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hulls, ClosestOf& closest,
+              Contact& contact) {
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   const Simplex& low = a_is_low ? hulls.a : hulls.b;
   const Simplex& high = a_is_low ? hulls.b : hulls.a;
   contact.distance = distance_of(pair, name, hulls, extent(low, high));
-  const auto normal =
-      unit_direction(pair.count, [&]<typename Number>() { return closest_points<Number>(low, high).gap; });
+  const auto normal = unit_direction(pair.count, [&]<typename Number>() { return closest.in<Number>().gap; });
   if (!normal) {
     contact.distance = 0;
     contact.normal = touching_normal(pair.a, name.a, pair.b, name.b, pair.count);
@@ -163,6 +188,7 @@ Contact measure(const SurfacePair& pair, const ContactName& name) {
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   const Simplex& low = a_is_low ? hulls.a : hulls.b;
   const Simplex& high = a_is_low ? hulls.b : hulls.a;
+  ClosestOf closest(low, high);
   PointRounder rounder(pair.count, extent(low, high) * allowed_error);
   Contact contact = named(name);
   Eigen::Vector3d& low_point = a_is_low ? contact.point_a : contact.point_b;
@@ -171,15 +197,13 @@ Contact measure(const SurfacePair& pair, const ContactName& name) {
   high_point = high.point[0];
   if (low.size > 1)
     low_point = rounder.round(low.point[0], [&]<typename Number>() -> Fraction<Number> {
-      auto closest = closest_points<Number>(low, high);
-      return {closest.low_offset, closest.denominator};
+      return {closest.in<Number>().low_offset, closest.in<Number>().denominator};
     });
   if (high.size > 1)
     high_point = rounder.round(high.point[0], [&]<typename Number>() -> Fraction<Number> {
-      auto closest = closest_points<Number>(low, high);
-      return {closest.high_offset, closest.denominator};
+      return {closest.in<Number>().high_offset, closest.in<Number>().denominator};
     });
-  complete(pair, name, hulls, contact);
+  complete(pair, name, hulls, closest, contact);
   return contact;
 }
 
@@ -188,7 +212,10 @@ Contact measure_parallel(const SurfacePair& pair, const ContactName& name, const
   Contact contact = named(name);
   contact.point_a = point_a;
   contact.point_b = point_b;
-  complete(pair, name, hulls_of(pair, name), contact);
+  const Hulls hulls = hulls_of(pair, name);
+  const bool a_is_low = hulls.a.size <= hulls.b.size;
+  ClosestOf closest(a_is_low ? hulls.a : hulls.b, a_is_low ? hulls.b : hulls.a);
+  complete(pair, name, hulls, closest, contact);
   return contact;
 }
 

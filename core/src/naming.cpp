@@ -1,14 +1,13 @@
 #include "naming.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "certain.hpp"
 #include "ratio.hpp"
 
 namespace graze {
 namespace {
-
-/// Where in a triangle (0, 1, 2) a closest point lies.
-enum class Place : std::uint8_t { vertex0, vertex1, vertex2, edge01, edge12, edge20, inside, no_area };
 
 /// The region of Voronoi of a triangle that holds the point; its borders belong to the lower dimension.
 template <typename Number>
@@ -109,11 +108,16 @@ FeaturePiece nearest_piece_of_sides(const Eigen::Vector3d& point, const Surface&
 }
 
 FeaturePiece nearest_piece_of_triangle(const Eigen::Vector3d& point, const Surface& surface,
-                                       std::uint32_t face, Piece which, DecisionCount& count) {
+                                       std::uint32_t face, Piece which, DecisionCount& count,
+                                       SquaredRange& squared) {
   const FaceTriangle triangle = triangle_of(surface, face, which);
-  const Place place = decide(count, [&]<typename Number>(bool& unsure) {
-    return place_in_triangle<Number>(point, triangle.corners.point, unsure);
-  });
+  Place place{};
+  if (certain_place(point, triangle.corners.point, place, squared))
+    ++count.in_double;
+  else
+    place = decide(count, [&]<typename Number>(bool& unsure) {
+      return place_in_triangle<Number>(point, triangle.corners.point, unsure);
+    });
   switch (place) {
     case Place::vertex0:
     case Place::vertex1:
@@ -146,6 +150,12 @@ bool coincide(const Surface& surface, std::uint32_t vertex, std::uint32_t other)
 std::uint32_t end_vertex(const Surface& surface, const Simplex& segment, std::size_t end) {
   if (!coincide(surface, segment.vertex[0], segment.vertex[1])) return segment.vertex[end];
   return std::min(segment.vertex[0], segment.vertex[1]);
+}
+
+/// The piece of a segment that a place on it is.
+FeaturePiece piece_along(const FeaturePiece& segment, const Simplex& ends, Along place) {
+  if (place == Along::inside) return segment;
+  return vertex_piece(ends.vertex[place == Along::first ? 0 : 1]);
 }
 
 /// How the closest points of two lines lie to the segments on them.
@@ -256,25 +266,42 @@ FeaturePiece nearest_piece_of_segment(const Eigen::Vector3d& point, const Surfac
 }
 
 FeaturePiece nearest_piece_of_face(const Eigen::Vector3d& point, const Surface& surface, std::uint32_t face,
-                                   DecisionCount& count) {
+                                   DecisionCount& count, SquaredRange& squared) {
   const Mesh& mesh = surface.mesh();
-  const FeaturePiece first = nearest_piece_of_triangle(point, surface, face, Piece::first, count);
+  const FeaturePiece first = nearest_piece_of_triangle(point, surface, face, Piece::first, count, squared);
   if (triangle_count(mesh, face) == 1) return first;
+  SquaredRange squared_second;
   // A point on the diagonal belongs to both triangles, so the triangle that names another one is at least as
   // near.
-  const FeaturePiece second = nearest_piece_of_triangle(point, surface, face, Piece::second, count);
+  const FeaturePiece second =
+      nearest_piece_of_triangle(point, surface, face, Piece::second, count, squared_second);
+  const SquaredRange squared_first = std::exchange(squared, SquaredRange{});
   if (is_on_diagonal(mesh, face, second) && is_on_diagonal(mesh, face, first))
     return nearer(point, surface, first, second, count);
-  if (is_on_diagonal(mesh, face, second)) return first;
-  if (is_on_diagonal(mesh, face, first)) return second;
+  if (is_on_diagonal(mesh, face, second)) {
+    squared = squared_first;
+    return first;
+  }
+  if (is_on_diagonal(mesh, face, first)) {
+    squared = squared_second;
+    return second;
+  }
   return nearer(point, surface, first, second, count);
 }
 
 SegmentPairNames nearest_pieces_of_segments(const Surface& surface_a, const FeaturePiece& segment_a,
                                             const Surface& surface_b, const FeaturePiece& segment_b,
-                                            DecisionCount& count) {
+                                            DecisionCount& count, SquaredRange& squared) {
   const Simplex a = simplex_of(surface_a, segment_a);
   const Simplex b = simplex_of(surface_b, segment_b);
+  std::array<Along, 2> places{};
+  if (certain_places({a.point[0], a.point[1]}, {b.point[0], b.point[1]}, places, squared)) {
+    ++count.in_double;
+    SegmentPairNames names;
+    names.size = 1;
+    names.names[0] = {piece_along(segment_a, a, places[0]), piece_along(segment_b, b, places[1])};
+    return names;
+  }
   const LinePair lines =
       decide(count, [&]<typename Number>(bool& unsure) { return classify_lines<Number>(a, b, unsure); });
   if (lines == LinePair::inside_both) {

@@ -6,6 +6,7 @@
 #include <graze/surface.hpp>
 
 #include "arithmetic.hpp"
+#include "certain.hpp"
 
 namespace graze {
 
@@ -49,20 +50,22 @@ FeaturePiece diagonal_of(const Mesh& mesh, std::uint32_t face);
 
 /// The piece of segment or face in whose relative interior the point closest to `point` lies; a point that
 /// several share is named by the lowest dimension, then the lowest index. `segment` is an edge or a fold.
+/// `squared` is narrowed where more is known of the distance.
 FeaturePiece nearest_piece_of_segment(const Eigen::Vector3d& point, const Surface& surface,
                                       const FeaturePiece& segment, DecisionCount& count);
 FeaturePiece nearest_piece_of_face(const Eigen::Vector3d& point, const Surface& surface, std::uint32_t face,
-                                   DecisionCount& count);
+                                   DecisionCount& count, SquaredRange& squared);
 
 /// The names of the closest points of two segments (edges or folds): one pair of pieces where the points are
 /// unique or lie in both interiors; for parallel segments the pair at each end of the common stretch.
+/// `squared` is narrowed as above.
 struct SegmentPairNames {
   std::uint32_t size = 0;
   std::array<std::array<FeaturePiece, 2>, 4> names;
 };
 SegmentPairNames nearest_pieces_of_segments(const Surface& surface_a, const FeaturePiece& segment_a,
                                             const Surface& surface_b, const FeaturePiece& segment_b,
-                                            DecisionCount& count);
+                                            DecisionCount& count, SquaredRange& squared);
 
 /// Whether a quad's diagonal is a fold: its corners do not lie in one plane, or do with both triangles on one
 /// side of the diagonal, so that they lie on each other and the diagonal is a border.

@@ -1,6 +1,7 @@
 #include "normals.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "direction.hpp"
@@ -97,6 +98,70 @@ Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vec
   // Unit normals and the direction are within 2^-44 of the true ones, angles nearly so; a vertex has at most
   // a few thousand triangles before the sum of its weights exceeds 2^-36 / 2^-44.
   if (!(std::abs(along) > 0x1p-36)) return Side::none;
+  return along > 0 ? Side::front : Side::back;
+}
+
+namespace {
+
+/// Adds triangles' normals in plain double; the weights are those of WeightedSum.
+class RoughSum {
+ public:
+  /// By the angle at a corner, or by `weight` where that is not 0.
+  void add(const Simplex& triangle, std::size_t corner, double weight) {
+    const Eigen::Vector3d& at = triangle.point[corner];
+    const auto u = difference<double>(triangle.point[(corner + 1) % 3], at);
+    const auto v = difference<double>(triangle.point[(corner + 2) % 3], at);
+    const auto across = cross(u, v);
+    const double squared = dot(across, across);
+    const double length = std::sqrt(squared);
+    is_known_ =
+        is_known_ && squared > 0x1p-40 * dot(u, u) * dot(v, v) && squared > 0x1p-400 && squared < 0x1p400;
+    const double part = weight != 0 ? weight : std::atan2(length, dot(u, v));
+    const double scale = part / length;
+    normal_.sum += Eigen::Vector3d(across.x * scale, across.y * scale, across.z * scale);
+    normal_.weights += part;
+  }
+  [[nodiscard]] RoughNormal normal() const { return is_known_ ? normal_ : RoughNormal{}; }
+
+ private:
+  RoughNormal normal_;
+  bool is_known_ = true;
+};
+
+/// Which corner of a triangle `vertex` is, if any.
+std::optional<std::size_t> corner_at(const Simplex& triangle, std::uint32_t vertex) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (triangle.vertex[i] == vertex) return i;
+  return std::nullopt;
+}
+
+}  // namespace
+
+RoughNormal rough_normal(const Surface& surface, const FeaturePiece& piece) {
+  const Mesh& mesh = surface.mesh();
+  const std::uint32_t index = piece.feature.index;
+  RoughSum sum;
+  if (piece.feature.kind == FeatureKind::face) {
+    if (piece.piece == Piece::fold) return {};
+    sum.add(simplex_of(surface, piece), 0, 1);
+    return sum.normal();
+  }
+  const bool is_vertex = piece.feature.kind == FeatureKind::vertex;
+  const auto ends = is_vertex ? std::array{index, index} : mesh.edge(index);
+  for (const std::uint32_t face : is_vertex ? mesh.vertex_faces(index) : mesh.edge_faces(index))
+    for (std::uint32_t i = 0; i < triangle_count(mesh, face); ++i) {
+      const Simplex triangle = simplex_of(surface, face_piece(face, i == 0 ? Piece::first : Piece::second));
+      const auto corner = corner_at(triangle, ends[0]);
+      if (!corner || !corner_at(triangle, ends[1])) continue;
+      sum.add(triangle, *corner, is_vertex ? 0 : pi);
+    }
+  return sum.normal();
+}
+
+std::optional<Side> certain_side(const RoughNormal& normal, const Eigen::Vector3d& direction) {
+  const double along = normal.sum.dot(direction);
+  if (!(std::abs(along) > std::max(normal.weights * 0x1p-20, 0x1p-34)) || normal.weights == 0)
+    return std::nullopt;
   return along > 0 ? Side::front : Side::back;
 }
 

@@ -6,6 +6,7 @@
 
 #include "feature_pairs.hpp"
 #include "measure.hpp"
+#include "measure_batch.hpp"
 #include "parallel.hpp"
 #include "validate.hpp"
 #include "vertex_pairs.hpp"
@@ -51,7 +52,15 @@ class PairSearch::Worker {
       : scratch(given),
         pair{*search.a_, *search.b_, decisions_},
         meter(search.query_, counters),
-        leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {}
+        leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {
+    scratch.features.begin();
+  }
+  /// Before looking into some of the leaf pairs found: all slices see them in one frame.
+  void begin_leaves(const LeafPairList& found) {
+    if (found.leaves.empty()) return;
+    const RegionPair& first = found.leaves.front().pair;
+    scratch.features.begin(leaf_pairs.leaf_a(first), leaf_pairs.leaf_b(first));
+  }
   ~Worker() {
     meter.counters().discarded_in_float += decisions_.discarded_in_float;
     meter.counters().decided_in_double += decisions_.in_double;
@@ -131,9 +140,9 @@ void PairSearch::run(Slice& slice, Worker& worker) {
     case Stage::contacts:
       return run_contacts(slice, worker);
     case Stage::measured:
-      for (std::size_t i = slice.begin; i < slice.end; ++i)
-        answer_->contacts[i] = measure(worker.pair, names_[i]);
-      return;
+      return measure(worker.pair, std::span(names_).subspan(slice.begin, slice.end - slice.begin),
+                     std::span(answer_->contacts).subspan(slice.begin, slice.end - slice.begin),
+                     worker.scratch.measure);
     case Stage::approach:
       return run_approach(slice, worker);
     case Stage::closest:
@@ -315,6 +324,7 @@ void PairSearch::slice_leaves_in_contact() {
 }
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
+  worker.begin_leaves(found_);
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
     slice.complete = !from_front_ || worker.meter.spend();
@@ -466,6 +476,7 @@ void PairSearch::begin_closest(Worker& worker) {
 /// Leaf pairs whose boxes overlap now are the same ones, in the same order, whatever was known of earlier
 /// steps, so a witness at distance 0 does not depend on those either.
 bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const {
+  worker.begin_leaves(found_);
   ClosestRange range(worker.pair, query_, ties(), found);
   for (std::size_t i = begin; i < end && !range.is_settled(); ++i) {
     const LeafPair& leaves = found_.leaves[i];

@@ -8,6 +8,7 @@
 #include "contact_name.hpp"
 #include "leaf_names.hpp"
 #include "leaf_pairs.hpp"
+#include "measure_batch.hpp"
 #include "paper.hpp"
 #include "parallel.hpp"
 
@@ -21,11 +22,12 @@ struct SearchScratch {
   PaperScratch paper;
   Closest lowest;
   ParallelScratch parallel;
+  MeasureScratch measure;
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.leaf_pairs, self.features, self.nearest_of_leaves, self.paper, self.lowest,
-                    self.parallel);
+                    self.parallel, self.measure);
   }
 };
 

@@ -54,8 +54,11 @@ void reserve(Memory& memory, const PairRoom& room) {
 /// The bytes held of the allocator's.
 template <HasParts Memory>
 std::size_t bytes_of(const Memory& memory) {
-  return std::apply([](const auto&... part) { return (std::size_t{0} + ... + bytes_of(part)); },
-                    Memory::parts(memory));
+  if constexpr (requires { memory.bytes_of(); })
+    return memory.bytes_of();
+  else
+    return std::apply([](const auto&... part) { return (std::size_t{0} + ... + bytes_of(part)); },
+                      Memory::parts(memory));
 }
 
 }  // namespace graze

@@ -12,7 +12,6 @@
 #include <string>
 
 #include "feature_block.hpp"
-#include "near_box.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
 #include "support/random_scenes.hpp"
@@ -180,7 +179,7 @@ FeatureBlock<Corners, Components> block_of(const std::vector<Corner<Corners>>& f
   FeatureBlock<Corners, Components> block(part);
   block.begin(features.size());
   for (std::size_t i = 0; i < features.size(); ++i)
-    block.add(static_cast<std::uint32_t>(i), frame, features[i], true);
+    block.add(static_cast<std::uint32_t>(i), frame, features[i]);
   return block;
 }
 
@@ -279,6 +278,21 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
       take(filter.near_segments(row_of(segments, i), other_segments.block(), limit, found.out()));
     }
     take(filter.maybe_pierced(row_of(segments, i), triangles.block(), found.out()));
+  }
+  const auto take_clipped = [&](const kernels::Block& block, kernels::Filter::Clip clip, float limit) {
+    std::vector<std::uint8_t> touches(block.count);
+    kernels::BoxInFrame box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
+    const std::size_t count =
+        clip(block, frame.to_local(a.box), limit, {found.index.data(), touches.data(), &box});
+    for (std::size_t k = 0; k < count; ++k) words.push_back(found.index[k] * 2 + touches[k]);
+    std::array<std::uint32_t, sizeof box / sizeof(std::uint32_t)> bits{};
+    std::memcpy(bits.data(), &box, sizeof box);
+    words.insert(words.end(), bits.begin(), bits.end());
+  };
+  for (const float limit : {infinity, 0.5F, 0.0F}) {
+    take_clipped(other_points.block(), filter.clip_points, limit);
+    take_clipped(other_segments.block(), filter.clip_segments, limit);
+    take_clipped(triangles.block(), filter.clip_triangles, limit);
   }
   return words;
 }
@@ -412,35 +426,105 @@ TEST_CASE("filter: a limit is never rounded down") {
   CHECK(FilterFrame(Box{}, Box{}).to_local_limit(std::numeric_limits<double>::infinity()) == infinity);
 }
 
-TEST_CASE("filter: the box test in double leaves out nothing that is within the limit, denormals included") {
-  Random random(5);
+namespace {
+
+/// What clipping kept, left out, and found to touch.
+struct ClipTally {
+  std::size_t kept = 0;
   std::size_t left_out = 0;
-  std::size_t within = 0;
-  for (int i = 0; i < 40'000; ++i) {
-    const double scale = std::ldexp(1.0, -static_cast<int>(random.below(60) + 500 * random.below(3)));
-    const auto point = [&] {
-      return Vector3d(random.below(9) * scale, random.below(9) * scale, random.below(9) * scale);
-    };
-    Box box;
-    box.add(point());
-    box.add(point());
-    const std::array corners{point(), point()};
-    const double limit = std::sqrt(random.below(12)) * scale;
-    oracle::Rational squared = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] = std::minmax(corners[0][axis], corners[1][axis]);
-      const double gap = std::max({low - box.max[axis], box.min[axis] - high, 0.0});
-      squared += oracle::Rational(gap) * oracle::Rational(gap);
-    }
-    const bool is_within = squared <= oracle::Rational(limit) * oracle::Rational(limit);
-    const NearBox near(box, limit);
-    const bool kept = near.is_near(near.gap_squared(corners));
-    if (is_within) REQUIRE(kept);
-    within += is_within ? 1U : 0U;
-    left_out += kept ? 0U : 1U;
+  std::size_t touching = 0;
+};
+
+/// The gap of two boxes.
+Real gap_of(const Box& a, const Box& b) {
+  Real squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real gap =
+        std::max<Real>({Real(a.min[axis]) - Real(b.max[axis]), Real(b.min[axis]) - Real(a.max[axis]), 0});
+    squared += gap * gap;
   }
-  CHECK(within > 5000);
-  CHECK(left_out > 5000);
+  return std::sqrt(squared);
+}
+
+/// Takes the features near a box, and compares what is left out, said not to touch, or outside the box that
+/// is found with the truth.
+template <std::size_t Corners, std::size_t Components>
+void check_clip(const FeatureBlock<Corners, Components>& block, const std::vector<Corner<Corners>>& features,
+                kernels::Filter::Clip clip, const FilterFrame& frame, const Box& box, float limit,
+                ClipTally& tally) {
+  kernels::BoxInFrame found{
+      {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
+  FeatureBlock<Corners, Components> taken(block.part());
+  taken.take(block, clip, frame.to_local(box), limit, found);
+  std::vector<bool> is_kept(features.size(), false);
+  for (std::size_t i = 0; i < taken.count(); ++i) {
+    const std::uint32_t feature = taken.owner(i);
+    is_kept[feature] = true;
+    for (std::size_t k = 0; k < 3 * Corners; ++k) {
+      REQUIRE(taken.component(k, i) == block.component(k, feature));
+      REQUIRE(taken.component(k, i) >= found.min[k % 3]);
+      REQUIRE(taken.component(k, i) <= found.max[k % 3]);
+    }
+    Box own;
+    for (const Vector3d& corner : features[feature]) own.add(corner);
+    const bool touches = gap_of(own, box) == 0;
+    if (touches) REQUIRE(taken.touches(i));
+    REQUIRE(found.size >= block.component(3 * Corners, feature));
+    tally.touching += touches ? 1U : 0U;
+  }
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    Box own;
+    for (const Vector3d& corner : features[i]) own.add(corner);
+    if (gap_of(own, box) * Real(frame.scale()) <= Real(limit)) REQUIRE(is_kept[i]);
+    ++(is_kept[i] ? tally.kept : tally.left_out);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("filter: clipping by a box leaves out nothing that is within the limit, and finds what touches") {
+  ClipTally tally;
+  for (std::size_t family = 0; family < family_count; ++family)
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Generator generator(static_cast<Family>(family), seed);
+      const Batch a = generator.batch(Vector3d::Zero(), 37);
+      Batch b = generator.batch(beside_of(seed), 4);
+      const FilterFrame frame(a.box, b.box);
+      const PointBlock points = block_of(a.points, frame);
+      const SegmentBlock segments = block_of(a.segments, frame);
+      const TriangleBlock triangles = block_of(a.triangles, frame);
+      const kernels::Filter& filter = kernels::filter();
+      for (const float limit : {0.0F, 0.01F, 0.3F, infinity})
+        for (const auto& corners : b.triangles) {
+          Box box;
+          for (const Vector3d& corner : corners) box.add(corner);
+          check_clip(points, a.points, filter.clip_points, frame, box, limit, tally);
+          check_clip(segments, a.segments, filter.clip_segments, frame, box, limit, tally);
+          check_clip(triangles, a.triangles, filter.clip_triangles, frame, box, limit, tally);
+        }
+    }
+  CHECK(tally.kept > 20'000);
+  CHECK(tally.left_out > 20'000);
+  CHECK(tally.touching > 2'000);
+  std::cout << "clipped " << tally.kept + tally.left_out << " features: " << tally.kept << " kept, "
+            << tally.left_out << " left out, " << tally.touching << " touch\n";
+}
+
+TEST_CASE("filter: a frame serves leaves of about its size near it, and no others") {
+  const auto box_at = [](const Vector3d& corner, double size) {
+    Box box;
+    box.add(corner);
+    box.add(corner + Vector3d::Constant(size));
+    return box;
+  };
+  const Box leaf = box_at({3, 4, 5}, 1);
+  const FilterFrame frame(leaf, box_at({4, 4, 5}, 1));
+  CHECK(frame.serves(leaf, leaf));
+  CHECK(frame.serves(box_at({100, -90, 80}, 1.5), box_at({100, -90, 80}, 1e6)));
+  CHECK_FALSE(frame.serves(box_at({600, 0, 0}, 1), box_at({600, 0, 0}, 1)));
+  CHECK_FALSE(frame.serves(box_at({3, 4, 5}, 0x1p-10), leaf));
+  CHECK_FALSE(frame.serves(box_at({3, 4, 5}, 0x1p10), box_at({3, 4, 5}, 0x1p10)));
+  CHECK_FALSE(FilterFrame().serves(leaf, leaf));
 }
 
 }  // namespace graze::tests

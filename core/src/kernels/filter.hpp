@@ -61,9 +61,24 @@ struct Survivors {
   float* bound = nullptr;
 };
 
+/// A box by itself; `size` as of a feature.
+struct BoxInFrame {
+  float min[3], max[3];
+  float size;
+};
+
+/// Features that `clip_…` keep: numbers into the block, ascending, whether each may touch something in the
+/// box, and the box of all of them. Room for a whole block each.
+struct Clipped {
+  std::uint32_t* index = nullptr;
+  std::uint8_t* touches = nullptr;
+  BoxInFrame* box = nullptr;
+};
+
 /// The kernels of one instruction set. `prepare_…` computes what stands behind the sizes. `near_…` discards
 /// what is certainly further than `limit`, `maybe_pierced` the triangles that the segment certainly does not
-/// touch; both return how many are left.
+/// touch, `clip_…` what is certainly further than `limit` from a box; all return how many are left. `clip_…`
+/// extend the box that they are given. `gather` copies the features of a block that are listed.
 struct Filter {
   void (*prepare_segments)(float* data, std::size_t stride, std::size_t count);
   void (*prepare_triangles)(float* data, std::size_t stride, std::size_t count);
@@ -73,6 +88,12 @@ struct Filter {
   std::size_t (*near_triangles)(const Point& point, const Block& triangles, float limit,
                                 const Survivors& out);
   std::size_t (*maybe_pierced)(const Segment& segment, const Block& triangles, const Survivors& out);
+  using Clip = std::size_t (*)(const Block& features, const BoxInFrame& box, float limit, const Clipped& out);
+  Clip clip_points;
+  Clip clip_segments;
+  Clip clip_triangles;
+  void (*gather)(const Block& from, std::size_t components, const std::uint32_t* index, std::size_t count,
+                 float* to, std::size_t to_stride);
 };
 
 /// The kernels in use, chosen once; see graze/instruction_set.hpp.

@@ -4,27 +4,32 @@
 #include <graze/instruction_set.hpp>
 
 #include "filter.hpp"
+#include "measure.hpp"
 #include "positions.hpp"
 
 namespace graze {
 namespace kernels {
 
-// Each is defined by filter_<set>.cpp.
+// Each is defined by filter_<set>.cpp and measure_<set>.cpp.
 namespace scalar {
 extern const Filter table;
+extern const Measure measure_table;
 extern const PositionPasses position_passes;
 }  // namespace scalar
 namespace baseline {
 extern const Filter table;
+extern const Measure measure_table;
 extern const PositionPasses position_passes;
 }  // namespace baseline
 #ifdef GRAZE_X86_KERNELS
 namespace avx2 {
 extern const Filter table;
+extern const Measure measure_table;
 extern const PositionPasses position_passes;
 }  // namespace avx2
 namespace avx512 {
 extern const Filter table;
+extern const Measure measure_table;
 extern const PositionPasses position_passes;
 }  // namespace avx512
 #endif
@@ -59,30 +64,39 @@ const Available& available() {
 }
 
 /// All kernels of one instruction set.
-struct Kernels {
-  const kernels::Filter* filter;
-  const kernels::PositionPasses* position_passes;
+struct Tables {
+  const kernels::Filter& filter;
+  const kernels::Measure& measure;
+  const kernels::PositionPasses& position_passes;
 };
-constexpr Kernels plain_kernels{&kernels::scalar::table, &kernels::scalar::position_passes};
-constexpr Kernels baseline_kernels{&kernels::baseline::table, &kernels::baseline::position_passes};
+constexpr Tables scalar_tables{kernels::scalar::table, kernels::scalar::measure_table,
+                               kernels::scalar::position_passes};
+constexpr Tables baseline_tables{kernels::baseline::table, kernels::baseline::measure_table,
+                                 kernels::baseline::position_passes};
 #ifdef GRAZE_X86_KERNELS
-constexpr Kernels avx2_kernels{&kernels::avx2::table, &kernels::avx2::position_passes};
-constexpr Kernels avx512_kernels{&kernels::avx512::table, &kernels::avx512::position_passes};
+constexpr Tables avx2_tables{kernels::avx2::table, kernels::avx2::measure_table,
+                             kernels::avx2::position_passes};
+constexpr Tables avx512_tables{kernels::avx512::table, kernels::avx512::measure_table,
+                               kernels::avx512::position_passes};
 #endif
 
-const Kernels& kernels_of(InstructionSet set) {
+const Tables& tables_of(InstructionSet set) {
   switch (set) {
+    case InstructionSet::scalar:
+      return scalar_tables;
     case InstructionSet::baseline:
-      return baseline_kernels;
+      return baseline_tables;
 #ifdef GRAZE_X86_KERNELS
     case InstructionSet::avx2:
-      return avx2_kernels;
+      return avx2_tables;
     case InstructionSet::avx512:
-      return avx512_kernels;
-#endif
+      return avx512_tables;
+#else
     default:
-      return plain_kernels;
+      break;
+#endif
   }
+  return scalar_tables;
 }
 
 InstructionSet best() {
@@ -91,21 +105,23 @@ InstructionSet best() {
 
 // What runs before these are initialised finds zero, and with it plain code: the same answers.
 std::atomic<InstructionSet> set_in_use{best()};
-std::atomic<const Kernels*> kernels_in_use{&kernels_of(best())};
+std::atomic<const Tables*> tables_in_use{&tables_of(best())};
 
-const Kernels& in_use() {
-  const Kernels* const kernels = kernels_in_use.load(std::memory_order_relaxed);
-  return kernels != nullptr ? *kernels : plain_kernels;
+const Tables& in_use() {
+  const Tables* const tables = tables_in_use.load(std::memory_order_relaxed);
+  return tables != nullptr ? *tables : scalar_tables;
 }
 
 }  // namespace
 
 const kernels::Filter& kernels::filter() {
-  return *in_use().filter;
+  return in_use().filter;
 }
-
+const kernels::Measure& kernels::measure() {
+  return in_use().measure;
+}
 const kernels::PositionPasses& kernels::position_passes() {
-  return *in_use().position_passes;
+  return in_use().position_passes;
 }
 
 std::string_view to_string(InstructionSet set) {
@@ -125,7 +141,7 @@ void use_instruction_set(InstructionSet set) {
   for (const InstructionSet known : available_instruction_sets()) {
     if (known != set) continue;
     set_in_use.store(set, std::memory_order_relaxed);
-    kernels_in_use.store(&kernels_of(set), std::memory_order_relaxed);
+    tables_in_use.store(&tables_of(set), std::memory_order_relaxed);
     return;
   }
   throw Error("this processor or this build has no kernels for instruction set " +

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace graze {
+
+// What plain double is certain of about closest points, by error bounds that come from the features' sizes
+// alone (docs/numerics.md). What it is not certain of is asked of Ball and Exact, which would have answered
+// the same; most pairs of features need neither.
+
+/// The truth of a squared distance lies between these.
+struct SquaredRange {
+  double low = 0;
+  double high = std::numeric_limits<double>::infinity();
+
+  /// Whether the distance is certainly below a limit, or certainly not.
+  [[nodiscard]] bool is_below(double limit) const { return high < limit * limit * (1 - 0x1p-50); }
+  [[nodiscard]] bool is_beyond(double limit) const { return low > limit * limit * (1 + 0x1p-50) + 0x1p-1000; }
+};
+
+/// Where in a triangle (0, 1, 2) a closest point lies.
+enum class Place : std::uint8_t { vertex0, vertex1, vertex2, edge01, edge12, edge20, inside, no_area };
+
+/// Where the point of the triangle nearest to `point` lies; false where that is not certain.
+bool certain_place(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner, Place& place,
+                   SquaredRange& squared);
+
+/// Where on a segment a closest point lies.
+enum class Along : std::uint8_t { first, second, inside };
+
+/// Where the closest points of two segments lie, which are then one pair of points and inside neither a
+/// common stretch; false where that is not certain.
+bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
+                    std::array<Along, 2>& places, SquaredRange& squared);
+
+}  // namespace graze

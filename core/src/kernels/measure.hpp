@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+
+/// Kernels that measure several contacts at once. They are compiled once for each instruction set, so this
+/// header has no inline function that another translation unit might share with them. They do what
+/// measure.cpp does in Ball arithmetic, operation by operation, so that their results are the same bits.
+namespace graze::kernels {
+
+inline constexpr std::size_t contact_lanes = 8;
+
+/// Coordinate k of the points of several contacts: [k][contact].
+using Points = double[3][contact_lanes];
+
+/// Pairs of simplices of the same sizes, `low` with at most as many corners as `high`, and their closest
+/// points, which are inside both.
+struct ContactBatch {
+  Points low[2];
+  Points high[3];
+  // What the kernels fill in.
+  Points low_point;
+  Points high_point;
+  Points normal;  ///< from low to high
+  double distance[contact_lanes];
+  double certain[contact_lanes];  ///< 1, or 0 where double is not good enough, and the rest means nothing
+};
+
+/// The kernels of one instruction set. All lanes are worked on, whatever is in them.
+struct Measure {
+  using Kernel = void (*)(ContactBatch& batch);
+  Kernel points;
+  Kernel point_and_line;
+  Kernel point_and_plane;
+  Kernel lines;
+};
+
+/// The kernels in use, chosen once; see graze/instruction_set.hpp.
+const Measure& measure();
+
+}  // namespace graze::kernels

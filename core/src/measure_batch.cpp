@@ -1,0 +1,136 @@
+#include "measure_batch.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "measure.hpp"
+
+namespace graze {
+
+void Sides::begin() {
+  entries_.resize(size);
+  if (++generation_ == 0) {  // after 2^32 uses
+    std::fill(entries_.begin(), entries_.end(), Entry{});
+    generation_ = 1;
+  }
+}
+
+Side Sides::of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& direction,
+               DecisionCount& count) {
+  const std::size_t place = piece.feature.index * 3 + static_cast<std::size_t>(piece.feature.kind);
+  Entry& entry = entries_[place % size];
+  if (entry.generation != generation_ || entry.piece != piece) {
+    entry.piece = piece;
+    entry.generation = generation_;
+    entry.normal = rough_normal(surface, piece);
+  }
+  const auto side = certain_side(entry.normal, direction);
+  return side ? *side : side_of(surface, piece, direction, count);
+}
+
+namespace {
+
+std::uint32_t corner_count(const FeaturePiece& piece) {
+  if (piece.feature.kind == FeatureKind::face) return piece.piece == Piece::fold ? 2 : 3;
+  return piece.feature.kind == FeatureKind::vertex ? 1 : 2;
+}
+
+/// How many corners the simplices of a contact have, the lower number first.
+struct Shape {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+
+  friend bool operator==(const Shape&, const Shape&) = default;
+};
+
+/// Measures contacts of one shape, as many at once as the kernels take.
+class Batch {
+ public:
+  Batch(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
+        MeasureScratch& scratch)
+      : pair_(pair), names_(names), contacts_(contacts), scratch_(scratch) {}
+
+  void add(std::size_t contact, const Shape& shape) {
+    if (shape != shape_ || count_ == kernels::contact_lanes) finish();
+    shape_ = shape;
+    const ContactName& name = names_[contact];
+    const bool a_is_low = is_a_low(name);
+    put(a_is_low ? pair_.a : pair_.b, a_is_low ? name.a : name.b, shape.low, scratch_.batch.low);
+    put(a_is_low ? pair_.b : pair_.a, a_is_low ? name.b : name.a, shape.high, scratch_.batch.high);
+    contact_[count_++] = contact;
+  }
+  void finish() {
+    if (count_ == 0) return;
+    kernel()(scratch_.batch);
+    for (std::size_t lane = 0; lane < count_; ++lane) take(lane);
+    count_ = 0;
+  }
+
+ private:
+  static bool is_a_low(const ContactName& name) { return corner_count(name.a) <= corner_count(name.b); }
+
+  void put(const Surface& surface, const FeaturePiece& piece, std::uint32_t corners,
+           kernels::Points* points) {
+    const Simplex simplex = simplex_of(surface, piece);
+    for (std::uint32_t corner = 0; corner < corners; ++corner)
+      for (int axis = 0; axis < 3; ++axis) points[corner][axis][count_] = simplex.point[corner][axis];
+  }
+  [[nodiscard]] kernels::Measure::Kernel kernel() const {
+    const kernels::Measure& measure = kernels::measure();
+    if (shape_.high == 1) return measure.points;
+    if (shape_.high == 3) return measure.point_and_plane;
+    return shape_.low == 1 ? measure.point_and_line : measure.lines;
+  }
+  static Eigen::Vector3d at(const kernels::Points& points, std::size_t lane) {
+    return {points[0][lane], points[1][lane], points[2][lane]};
+  }
+
+  void take(std::size_t lane) {
+    const ContactName& name = names_[contact_[lane]];
+    Contact& contact = contacts_[contact_[lane]];
+    const kernels::ContactBatch& batch = scratch_.batch;
+    if (batch.certain[lane] == 0) {
+      contact = measure(pair_, name);
+      return;
+    }
+    const bool a_is_low = is_a_low(name);
+    const Eigen::Vector3d normal = at(batch.normal, lane);
+    contact = {};
+    contact.kind = name.kind;
+    contact.feature_a = name.a.feature;
+    contact.feature_b = name.b.feature;
+    contact.point_a = at(a_is_low ? batch.low_point : batch.high_point, lane);
+    contact.point_b = at(a_is_low ? batch.high_point : batch.low_point, lane);
+    contact.distance = batch.distance[lane];
+    contact.normal = a_is_low ? normal : Eigen::Vector3d(-normal);
+    contact.side_a = scratch_.sides_a.of(pair_.a, name.a, contact.normal, pair_.count);
+    contact.side_b = scratch_.sides_b.of(pair_.b, name.b, -contact.normal, pair_.count);
+  }
+
+  const SurfacePair& pair_;
+  std::span<const ContactName> names_;
+  std::span<Contact> contacts_;
+  MeasureScratch& scratch_;
+  Shape shape_;
+  std::size_t count_ = 0;
+  std::array<std::size_t, kernels::contact_lanes> contact_{};
+};
+
+}  // namespace
+
+void measure(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
+             MeasureScratch& scratch) {
+  scratch.sides_a.begin();
+  scratch.sides_b.begin();
+  Batch batch(pair, names, contacts, scratch);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto [low, high] = std::minmax({corner_count(names[i].a), corner_count(names[i].b)});
+    if (names[i].meeting != Meeting::closest || low + high > 4)
+      contacts[i] = measure(pair, names[i]);
+    else
+      batch.add(i, {low, high});
+  }
+  batch.finish();
+}
+
+}  // namespace graze
