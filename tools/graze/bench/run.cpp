@@ -4,11 +4,13 @@
 #include <chrono>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "bench/graze_contender.hpp"
 #include "bench/verification.hpp"
 #include "progress.hpp"
+#include "scenes/random.hpp"
 #include "stress/clocks.hpp"
 #include "stress/distribution.hpp"
 #include "text_format.hpp"
@@ -164,6 +166,9 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
   run.distance = scene.distance;
   const std::size_t verified_every = run.vertices > large ? 4 : 1;
   Eviction eviction(options.evict);
+  scenes::Random random(1);
+  std::vector<std::size_t> order(entrants.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   tools::Progress progress(tools::format("%s, task %c, %u threads: frame", scene.name.c_str(),
                                          static_cast<char>(options.task), options.threads),
                            warm_up + run.frames);
@@ -175,9 +180,11 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
       verification.update();
       ++run.frames_verified;
     }
-    // The first finds other things in the caches than the last, so they take turns at it.
-    for (std::size_t turn = 0; turn < entrants.size(); ++turn) {
-      Entrant& entrant = entrants[(turn + frame) % entrants.size()];
+    // What the one before left in the caches matters, so that the order is another one in every frame.
+    for (std::size_t left = order.size(); left > 1; --left)
+      std::swap(order[left - 1], order[random.below(left)]);
+    for (const std::size_t number : order) {
+      Entrant& entrant = entrants[number];
       if (entrant.is_out()) continue;
       eviction.touch();
       entrant.take_turn(frame >= warm_up);
