@@ -40,7 +40,7 @@ BenchScene pile() {
                           mesh_of(models::sphere(40, 25))};
   for (std::size_t i = 0; i < 100; ++i) {
     const Eigen::Matrix3d turn = random.turn();
-    const Eigen::Vector3d centre = 1.35 * cell_of(i, 5, 5) + random.vector(-0.2, 0.2);
+    const Eigen::Vector3d centre = 1.5 * cell_of(i, 5, 5) + random.vector(-0.2, 0.2);
     const Eigen::Vector3d reach = random.vector(0.02, 0.06);
     const Eigen::Vector3d speed = random.vector(0.05, 0.2);
     scene.bodies.push_back(wobbling(meshes[i % 5 < 4 ? 0 : 1 + i % 2],
@@ -60,7 +60,7 @@ BenchScene lattice() {
     Eigen::Vector3d centre = spacing * cell_of(i, 10, 10);
     const bool is_mover = i % 40 == 5;
     const bool is_met = i % 40 == 6;
-    if (is_mover) centre.x() += spacing - 2.0;
+    if (is_mover) centre.x() += spacing - 1.97;
     const Eigen::Matrix3d turn = random.turn();
     const double phase = random.between(0, 6);
     scene.bodies.push_back(wobbling(is_mover || is_met || i % 2 == 0 ? ball : ring,
@@ -84,7 +84,7 @@ BenchScene spheres() {
 
 BenchScene crowd() {
   BenchScene scene{"S5", "10,000 surfaces of 258 vertices on a jittered lattice", 0.04, 8, {}};
-  constexpr double jitter = 0.3;
+  constexpr double jitter = 0.328;
   Random random(5);
   const auto mesh = mesh_of(models::sphere(16, 16));
   for (std::size_t i = 0; i < 10'000; ++i) {
