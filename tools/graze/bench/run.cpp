@@ -18,11 +18,26 @@
 namespace graze::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// Time since it was made. With one thread that is the lesser of wall clock and the thread's processor time,
+/// so that what other processes take does not count; the wall clock is the finer one for short times.
+class Stopwatch {
+ public:
+  explicit Stopwatch(unsigned threads)
+      : threads_(threads),
+        cpu_ns_(tools::cpu_ns(CLOCK_THREAD_CPUTIME_ID)),
+        start_(std::chrono::steady_clock::now()) {}
 
-double ms_since(Clock::time_point start) {
-  return tools::ns_between(start, Clock::now()) / 1e6;
-}
+  [[nodiscard]] double ms() const {
+    const double wall = tools::ns_between(start_, std::chrono::steady_clock::now());
+    if (threads_ > 1) return wall / 1e6;
+    return std::min(wall, tools::cpu_ns(CLOCK_THREAD_CPUTIME_ID) - cpu_ns_) / 1e6;
+  }
+
+ private:
+  unsigned threads_;
+  double cpu_ns_;
+  std::chrono::steady_clock::time_point start_;
+};
 
 /// Other memory, touched so that caches hold it.
 class Eviction {
@@ -45,8 +60,11 @@ class Entrant {
  public:
   using Make = std::function<std::unique_ptr<Contender>()>;
 
-  Entrant(std::string_view name, double precision, bool is_limit, Make make)
-      : precision_(precision), is_limit_(is_limit), make_(std::move(make)) {
+  Entrant(std::string_view name, const PeerEntry* entry, unsigned threads, Make make)
+      : precision_(entry != nullptr ? entry->precision : 0),
+        is_limit_(entry != nullptr && (entry->name == read_limit || entry->name == box_limit)),
+        threads_(threads),
+        make_(std::move(make)) {
     timing_.name = name;
   }
 
@@ -54,11 +72,11 @@ class Entrant {
 
   /// The first turn makes it, too.
   void take_turn(bool is_timed) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch(threads_);
     const bool is_first = contender_ == nullptr;
     if (is_first) contender_ = make_();
     contender_->frame();
-    const double ms = ms_since(start);
+    const double ms = watch.ms();
     if (is_first) timing_.first = ms;
     if (is_timed) times_.push_back(ms);
     if (auto* const graze = dynamic_cast<GrazeContender*>(contender_.get())) note(*graze, is_timed);
@@ -97,6 +115,7 @@ class Entrant {
 
   double precision_;
   bool is_limit_;
+  unsigned threads_;
   Make make_;
   std::unique_ptr<Contender> contender_;
   Timing timing_;
@@ -108,7 +127,7 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
                                  const PeerModule& module) {
   std::vector<Entrant> entrants;
   const auto add_graze = [&](std::string_view name, Telling telling) {
-    entrants.emplace_back(name, 0, false, [&moving, &options, telling] {
+    entrants.emplace_back(name, nullptr, options.threads, [&moving, &options, telling] {
       return std::make_unique<GrazeContender>(moving.scene(), moving.world(), options.task, options.threads,
                                               telling);
     });
@@ -116,8 +135,7 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
   add_graze(graze_name, moving.scene().is_told ? Telling::motion : Telling::nothing);
   if (moving.scene().tries_telling) add_graze(told_name, Telling::motion);
   const auto add_peer = [&](const PeerEntry& entry) {
-    const bool is_limit = entry.name == read_limit || entry.name == box_limit;
-    entrants.emplace_back(entry.name, entry.precision, is_limit, [&moving, &options, make = entry.make] {
+    entrants.emplace_back(entry.name, &entry, options.threads, [&moving, &options, make = entry.make] {
       return make(moving.world(), options.task, options.threads);
     });
   };

@@ -39,9 +39,11 @@ Surroundings surroundings(const PeerModule& module) {
 }
 
 std::string heading(const Surroundings& s) {
-  return format("%s; %s; graze: %s, kernels for %s; its peers' code: %s. Times of a frame in ms.\n",
-                s.processor.c_str(), s.compiler.c_str(), s.flags.c_str(), s.instruction_set.c_str(),
-                s.peer_flags.c_str());
+  return format(
+      "%s; %s; graze: %s, kernels for %s; its peers' code: %s.\n"
+      "Times of a frame in ms, with one thread without what other processes took meanwhile.\n",
+      s.processor.c_str(), s.compiler.c_str(), s.flags.c_str(), s.instruction_set.c_str(),
+      s.peer_flags.c_str());
 }
 
 std::string table_of(const Run& run) {

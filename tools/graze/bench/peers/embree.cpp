@@ -25,6 +25,8 @@ class EmbreeTree {
     rtcSetGeometryBoundsFunction(geometry_, write_bounds, nullptr);
     rtcCommitGeometry(geometry_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(scene_,
+                            RTC_BUILD_QUALITY_LOW);  // a tree for each geometry: the kind that is refitted
     rtcAttachGeometry(scene_, geometry_);
     rtcCommitScene(scene_);
   }
