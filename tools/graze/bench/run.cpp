@@ -182,7 +182,7 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
   run.objects = world.objects.size();
   run.vertices = world.positions.size() / 3;
   run.distance = scene.distance;
-  const std::size_t verified_every = run.vertices > large ? 4 : 1;
+  const std::size_t verified_every = run.vertices > large ? std::max<std::size_t>(4, run.frames / 8) : 1;
   Eviction eviction(options.evict);
   scenes::Random random(1);
   std::vector<std::size_t> order(entrants.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/scene_parts.hpp"
 #include "bench/shapes.hpp"
 #include "scenes/random.hpp"
 
@@ -52,6 +53,7 @@ BenchScene pile() {
 /// Far from each other but for every fortieth, which is moved to its neighbour.
 BenchScene lattice() {
   BenchScene scene{"S3", "1,000 surfaces of about 1,000 vertices, 25 pairs touch", 0.04, 16, {}};
+  scene.tries_telling = true;
   constexpr double spacing = 3.2;
   Random random(4);
   const auto ball = mesh_of(models::sphere(40, 25));
@@ -99,15 +101,30 @@ BenchScene crowd() {
 }  // namespace
 
 std::vector<std::string_view> scene_names() {
-  return {"S1", "S2", "S3", "S4", "S5"};
+  return {"S1",  "S2",  "S3",  "S4",  "S5",  "S6a", "S6b",  "S6c",
+          "S7a", "S7b", "S7c", "S8a", "S8b", "S9",  "S10a", "S10b"};
 }
 
-BenchScene make_scene(std::string_view name, const std::string&) {
+BenchScene make_scene(std::string_view name, const std::string& data) {
   if (name == "S1") return paths();
   if (name == "S2") return pile();
   if (name == "S3") return lattice();
   if (name == "S4") return spheres();
-  return crowd();
+  if (name == "S5") return crowd();
+  if (name == "S6a") return linked_tori();
+  if (name == "S6b") return nested_shells();
+  if (name == "S6c") return draped_cloth();
+  if (name == "S7a")
+    return real_mesh("S7a", "a body and its intestines", data + "/organs/body_large_small_intestine.obj");
+  if (name == "S7b")
+    return real_mesh("S7b", "an armadillo between rollers",
+                     data + "/sequences/armadillo-rollers/frames/326.ply");
+  if (name == "S7c")
+    return real_mesh("S7c", "a cloth in a funnel", data + "/sequences/cloth-funnel/frames/227.ply");
+  if (name == "S8a") return heap(false);
+  if (name == "S8b") return heap(true);
+  if (name == "S9") return sleepers();
+  return landscape(name == "S10b");
 }
 
 }  // namespace graze::bench
