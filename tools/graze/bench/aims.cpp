@@ -26,9 +26,7 @@ bool is_one_of(const std::string& scene, std::initializer_list<std::string_view>
 const Timing* fastest_peer(const Run& run) {
   const Timing* fastest = nullptr;
   for (const Timing& timing : run.timings) {
-    if (!timing.complaint.empty() || timing.name.starts_with(graze_name) || timing.name == read_limit ||
-        timing.name == box_limit)
-      continue;
+    if (!timing.complaint.empty() || timing.name.starts_with(graze_name) || is_limit(timing.name)) continue;
     if (fastest == nullptr || timing.median < fastest->median) fastest = &timing;
   }
   return fastest;
@@ -77,6 +75,24 @@ void add_of_one_run(const Run& run, std::vector<Aim>& aims) {
     aims.push_back({"first frame / median", where(run), graze->first / graze->median, 20});
 }
 
+/// What rests costs nothing.
+void add_of_rest(const Run& run, std::vector<Aim>& aims) {
+  const double graze = run.median(graze_name);
+  if (std::isnan(graze)) return;
+  const std::string task(1, static_cast<char>(run.task));
+  if (run.scene == "S8a") aims.push_back({task + ": ms at rest", where(run), graze, 0.05});
+  if (run.scene == "S8b") aims.push_back({task + " / read", where(run), graze / run.median(read_limit), 3});
+  if (run.scene == "S9")
+    aims.push_back({task + " / read movers", where(run), graze / run.median(movers_limit), 2});
+}
+
+/// A fixed landscape against what lies under the props.
+void add_of_cropping(const Run& whole, const Run& part, std::vector<Aim>& aims) {
+  const double ratio = whole.median(graze_name) / part.median(graze_name);
+  const std::string task(1, static_cast<char>(whole.task));
+  if (!std::isnan(ratio)) aims.push_back({task + " / cropped", where(whole), ratio, 1.3});
+}
+
 /// Two threads against one, in the same scene and task.
 void add_of_threads(const Run& one, const Run& two, std::vector<Aim>& aims) {
   const double gain = one.median(graze_name) / two.median(graze_name);
@@ -92,7 +108,15 @@ void add_of_threads(const Run& one, const Run& two, std::vector<Aim>& aims) {
 
 std::vector<Aim> aims_of(const std::vector<Run>& runs) {
   std::vector<Aim> aims;
-  for (const Run& run : runs) add_of_one_run(run, aims);
+  for (const Run& run : runs) {
+    add_of_one_run(run, aims);
+    add_of_rest(run, aims);
+  }
+  for (const Run& whole : runs)
+    for (const Run& part : runs)
+      if (whole.scene == "S10a" && part.scene == "S10b" && whole.task == part.task &&
+          whole.threads == part.threads)
+        add_of_cropping(whole, part, aims);
   for (const Run& one : runs)
     for (const Run& two : runs)
       if (one.threads == 1 && two.threads == 2 && one.scene == two.scene && one.task == two.task)

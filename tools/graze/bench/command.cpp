@@ -44,7 +44,7 @@ std::vector<std::string_view> peers_of(const BenchOptions& options, const bench:
   if (options.peers == std::vector<std::string>{"none"}) return names;
   if (options.peers == std::vector<std::string>{"all"}) {
     for (const bench::PeerEntry& entry : module.entries())
-      if (entry.name != bench::read_limit && entry.name != bench::box_limit) names.push_back(entry.name);
+      if (!bench::is_limit(entry.name)) names.push_back(entry.name);
     return names;
   }
   for (const std::string& name : options.peers) names.push_back(module.entry(name).name);

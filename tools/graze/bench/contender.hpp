@@ -82,9 +82,15 @@ struct PeerEntry {
   double precision = 0;
 };
 
-/// The limits that no answer can beat: their tasks are all, and they find nothing.
+/// The limits that no answer can beat: they find nothing.
 inline constexpr std::string_view read_limit = "read";
 inline constexpr std::string_view box_limit = "box";
+/// Reads what moves and what is near it; only in scenes where most rests.
+inline constexpr std::string_view movers_limit = "read movers";
+
+constexpr bool is_limit(std::string_view name) {
+  return name == read_limit || name == box_limit || name == movers_limit;
+}
 
 /// What the module of peers exports under the name `graze_bench_peers`.
 using PeerList = std::span<const PeerEntry>;

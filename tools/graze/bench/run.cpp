@@ -62,7 +62,7 @@ class Entrant {
 
   Entrant(std::string_view name, const PeerEntry* entry, unsigned threads, Make make)
       : precision_(entry != nullptr ? entry->precision : 0),
-        is_limit_(entry != nullptr && (entry->name == read_limit || entry->name == box_limit)),
+        is_limit_(is_limit(name)),
         threads_(threads),
         make_(std::move(make)) {
     timing_.name = name;
@@ -141,6 +141,7 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
   };
   add_peer(module.entry(read_limit));
   add_peer(module.entry(box_limit));
+  if (moving.scene().has_sleepers) add_peer(module.entry(movers_limit));
   for (const std::string_view name : options.peers) {
     const PeerEntry& entry = module.entry(name);
     if (entry.tasks.find(static_cast<char>(options.task)) != std::string_view::npos) add_peer(entry);

@@ -35,6 +35,8 @@ struct BenchScene {
   bool is_told = false;
   /// Graze takes part a second time, told of what moves how far.
   bool tries_telling = false;
+  /// Some bodies move in every frame and the others never.
+  bool has_sleepers = false;
   std::string missing = {};  ///< why there is none, where it needs data that is not there
 };
 

@@ -151,7 +151,7 @@ BenchScene heap(bool is_noisy) {
 
 BenchScene sleepers() {
   BenchScene scene{"S9", "10,000 bodies of 258 vertices, 100 of them move", 0.04, 300, {}};
-  scene.is_told = true;
+  scene.is_told = scene.has_sleepers = true;
   Random random(9);
   const auto mesh = mesh_of(models::sphere(16, 16));
   for (std::size_t i = 0; i < 10'000; ++i) {

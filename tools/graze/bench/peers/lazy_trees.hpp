@@ -77,9 +77,8 @@ class Parts {
   [[nodiscard]] FloatBox box(std::uint32_t part) const {
     const float* positions = world_->positions_of(object_);
     if (task_ != Task::A) return triangle_box(positions, world_->objects[object_].triangles[part]);
-    FloatBox box;
-    box.add(positions + 3 * std::size_t{part});
-    return box;
+    const float* p = positions + 3 * std::size_t{part};
+    return {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
   }
   /// The same, grown by so much that boxes of parts that are near each other meet.
   [[nodiscard]] FloatBox grown_box(std::uint32_t part) const {

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "bench/peers/near_objects.hpp"
 #include "bench/peers/peers.hpp"
 #include "bench/peers/simd.hpp"
 #include "bench/peers/workers.hpp"
@@ -46,7 +49,44 @@ class BoxLimit final : public Contender {
   std::vector<FloatBox> boxes_;
 };
 
+class MoversLimit final : public Contender {
+ public:
+  MoversLimit(const World& world, unsigned threads)
+      : world_(world), workers_(threads), sums_(world.objects.size()) {}
+
+  void frame() override {
+    if (objects_.empty()) find_movers();
+    workers_.each(objects_.size(), [&](std::size_t i, std::size_t) {
+      const std::uint32_t object = objects_[i];
+      sums_[i] = sum_of(world_.positions_of(object), 3 * std::size_t{world_.objects[object].vertex_count});
+    });
+  }
+  void collect(Found&) const override {}
+
+ private:
+  void find_movers() {
+    NearObjects near(world_, workers_);
+    near.update();
+    const auto moves = [&](std::size_t object) { return world_.versions[object] > 1; };
+    std::vector<char> is_read(world_.objects.size());
+    for (std::size_t i = 0; i < is_read.size(); ++i) is_read[i] = moves(i) ? 1 : 0;
+    for (const ObjectPair& pair : near.pairs())
+      if (moves(pair.a) || moves(pair.b)) is_read[pair.a] = is_read[pair.b] = 1;
+    for (std::uint32_t i = 0; i < is_read.size(); ++i)
+      if (is_read[i] != 0) objects_.push_back(i);
+  }
+
+  const World& world_;
+  Workers workers_;
+  std::vector<std::uint32_t> objects_;  ///< what is read: found in the first frame in which anything moved
+  std::vector<float> sums_;
+};
+
 }  // namespace
+
+std::unique_ptr<Contender> make_movers_limit(const World& world, Task, unsigned threads) {
+  return std::make_unique<MoversLimit>(world, threads);
+}
 
 std::unique_ptr<Contender> make_read_limit(const World& world, Task, unsigned threads) {
   return std::make_unique<ReadLimit>(world, threads);

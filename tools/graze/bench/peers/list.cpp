@@ -10,6 +10,7 @@ constexpr double as_double = 0;
 const PeerEntry entries[] = {
     {read_limit, "ABD", make_read_limit, as_double},
     {box_limit, "ABD", make_box_limit, as_double},
+    {movers_limit, "ABD", make_movers_limit, as_double},
     {"clipping", "AB", make_clipping, as_double},
     {"row grid", "A", make_row_grid, as_double},
 #if GRAZE_BENCH_EMBREE

@@ -11,17 +11,6 @@
 
 namespace graze::bench {
 
-FloatBox grown(const FloatBox& box, double by) {
-  constexpr float rounding = 0x1p-21F;  // more than the three operations lose
-  const float more = static_cast<float>(by) * (1 + rounding);
-  FloatBox result;
-  for (int axis = 0; axis < 3; ++axis) {
-    result.min[axis] = box.min[axis] - (more + rounding * std::abs(box.min[axis]));
-    result.max[axis] = box.max[axis] + (more + rounding * std::abs(box.max[axis]));
-  }
-  return result;
-}
-
 FloatBox common(const FloatBox& a, const FloatBox& b) {
   FloatBox result;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -35,7 +36,16 @@ struct FloatBox {
 };
 
 /// The box grown by at least `by` on every side.
-FloatBox grown(const FloatBox& box, double by);
+inline FloatBox grown(const FloatBox& box, double by) {
+  constexpr float rounding = 0x1p-21F;  // more than the three operations lose
+  const float more = static_cast<float>(by) * (1 + rounding);
+  FloatBox result;
+  for (int axis = 0; axis < 3; ++axis) {
+    result.min[axis] = box.min[axis] - (more + rounding * std::abs(box.min[axis]));
+    result.max[axis] = box.max[axis] + (more + rounding * std::abs(box.max[axis]));
+  }
+  return result;
+}
 
 /// What is in both boxes.
 FloatBox common(const FloatBox& a, const FloatBox& b);
