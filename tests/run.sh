@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-tools/install_packages.sh
+tools/install_packages.sh peers
 results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 status=0

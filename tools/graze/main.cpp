@@ -7,6 +7,7 @@
 #if GRAZE_HAS_ORACLES
 #include "accuracy/command.hpp"
 #endif
+#include "bench/command.hpp"
 #include "check_failed.hpp"
 #include "inspect_command.hpp"
 #include "run_command.hpp"
@@ -31,6 +32,7 @@ int run_program(int argument_count, char** arguments) {
   graze::tools::add_run_command(app);
   graze::tools::add_inspect_command(app);
   graze::tools::add_stress_command(app);
+  graze::tools::add_bench_command(app);
 #if GRAZE_HAS_ORACLES
   graze::tools::add_accuracy_command(app);
 #endif

@@ -1,0 +1,116 @@
+// `graze bench` as a user runs it: a short run with everything that is built in, and bad arguments.
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "tools/program.hpp"
+#include "tools/temporary_folder.hpp"
+
+using namespace graze::tests;  // NOLINT: the vocabulary of these tests
+
+namespace {
+
+/// What one run of a scene says of a contender.
+const nlohmann::json& contender(const nlohmann::json& run, const std::string& name) {
+  const auto& all = run.at("contenders");
+  const auto place =
+      std::find_if(all.begin(), all.end(), [&](const auto& row) { return row.at("name") == name; });
+  REQUIRE(place != all.end());
+  return *place;
+}
+
+void check_times(const nlohmann::json& row) {
+  INFO(row.dump());
+  REQUIRE_FALSE(row.contains("wrong"));
+  CHECK(row.at("median_ms") > 0.0);
+  CHECK(row.at("median_ms") <= row.at("p99_ms"));
+  CHECK(row.at("p99_ms") <= row.at("worst_ms"));
+  CHECK(row.at("first_ms") > 0.0);
+}
+
+bool is_limit(const nlohmann::json& row) {
+  return row.at("name") == "read" || row.at("name") == "box";
+}
+
+}  // namespace
+
+TEST_CASE("bench: every contender answers right, and all have times") {
+  const TemporaryFolder folder;
+  const std::string json = (folder / "figures.json").string();
+  const std::string csv = (folder / "figures.csv").string();
+  const ProgramResult result = run_graze({"bench", "--scenes", "S1", "--frames", "3", "--threads", "1,2",
+                                          "--peers", "all", "--json", json, "--csv", csv});
+  INFO(result.out);
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.err.empty());
+
+  const nlohmann::json figures = nlohmann::json::parse(read_file(json));
+  REQUIRE(figures.at("runs").size() == 6);  // three tasks with one thread and with two
+  std::size_t rows = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const nlohmann::json& run = figures.at("runs")[i];
+    CHECK(run.at("objects") == 10);
+    CHECK(run.at("vertices") == 5 * (768 + 610));
+    CHECK(run.at("frames") == 3);
+    CHECK(run.at("frames_verified") == 6);  // those before the first that is timed, too
+    CHECK(contender(run, "graze").at("found") > 0);
+    for (const nlohmann::json& row : run.at("contenders")) {
+      check_times(row);
+      if (is_limit(row)) CHECK(row.at("found") == 0);
+      // Graze finds features, the others triangles.
+      else if (run.at("task") != "B" || row.at("name") == "graze")
+        CHECK(row.at("found") == contender(run, "graze").at("found"));
+      else
+        CHECK(row.at("found") == contender(run, "clipping").at("found"));
+      ++rows;
+    }
+    // The same bits from one thread and from two, which come right after.
+    if (i % 2 == 1) CHECK(run.at("hash") == figures.at("runs")[i - 1].at("hash"));
+  }
+  const std::string lines = read_file(csv);
+  CHECK(static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')) == rows + 1);
+
+  std::set<std::string> aims;
+  for (const nlohmann::json& aim : figures.at("aims")) {
+    aims.insert(aim.at("what").get<std::string>());
+    const double measured = aim.at("measured");
+    const double wanted = aim.at("wanted");
+    CHECK(aim.at("is_reached") == (aim.at("is_at_least") == true ? measured >= wanted : measured <= wanted));
+  }
+  for (const char* what : {"A: worst / median", "B: ns a contact", "memory, bytes a vertex"})
+    CHECK(aims.count(what) == 1);
+}
+
+TEST_CASE("bench: caches are evicted") {
+  const TemporaryFolder folder;
+  const std::string json = (folder / "figures.json").string();
+  const ProgramResult result = run_graze({"bench", "--scenes", "S6c", "--tasks", "A", "--frames", "1",
+                                          "--peers", "clipping", "--evict", "--json", json});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const nlohmann::json figures = nlohmann::json::parse(read_file(json));
+  const nlohmann::json& run = figures.at("runs").at(0);
+  CHECK(run.at("evict") == true);
+  CHECK(run.at("vertices") == 200 * 200 + 125 * 80 + 2);
+  CHECK(contender(run, "clipping").at("found") == contender(run, "graze").at("found"));
+  CHECK(run.at("contenders").size() == 4);
+}
+
+TEST_CASE("bench: bad arguments are one line") {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"bench", "--scenes", "S11"},
+        {"bench", "--tasks", "C"},
+        {"bench", "--scenes", "S1", "--peers", "nobody"},
+        {"bench", "--instruction-set", "abacus"},
+        {"bench", "--scenes", "S1", "--json", "/no/such/folder/file.json"}}) {
+    const ProgramResult result = run_graze(arguments);
+    INFO(result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(is_one_line(result.err));
+  }
+}

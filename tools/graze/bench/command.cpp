@@ -1,0 +1,168 @@
+#include "bench/command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <graze/instruction_set.hpp>
+#include <graze/io/error.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/aims.hpp"
+#include "bench/run.hpp"
+#include "bench/tables.hpp"
+#include "check_failed.hpp"
+
+namespace graze::tools {
+namespace {
+
+struct BenchOptions {
+  std::vector<std::string> scenes = {"S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"};
+  std::vector<std::string> tasks = {"A", "B", "D"};
+  std::vector<unsigned> threads = {1};
+  std::size_t frames = 0;
+  std::vector<std::string> peers = {"all"};
+  bool evict = false;
+  std::string instruction_set;
+  std::string data = GRAZE_SHARED_DATA;
+  std::filesystem::path csv, json;
+};
+
+/// Parts of a scene have its name and a letter.
+bool is_asked_for(std::string_view scene, const std::vector<std::string>& wanted) {
+  return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
+    return scene == name || (scene.starts_with(name) && scene.size() == name.size() + 1 &&
+                             scene.back() >= 'a' && scene.back() <= 'z');
+  });
+}
+
+std::vector<std::string_view> peers_of(const BenchOptions& options, const bench::PeerModule& module) {
+  std::vector<std::string_view> names;
+  if (options.peers == std::vector<std::string>{"none"}) return names;
+  if (options.peers == std::vector<std::string>{"all"}) {
+    for (const bench::PeerEntry& entry : module.entries())
+      if (!bench::is_limit(entry.name)) names.push_back(entry.name);
+    return names;
+  }
+  for (const std::string& name : options.peers) names.push_back(module.entry(name).name);
+  return names;
+}
+
+void choose_instruction_set(const std::string& name) {
+  if (name.empty()) return;
+  std::string known;
+  for (const InstructionSet set : available_instruction_sets()) {
+    if (to_string(set) == name) return use_instruction_set(set);
+    known += (known.empty() ? "" : ", ") + std::string(to_string(set));
+  }
+  throw io::InputError("no instruction set \"" + name + "\" here; there are " + known);
+}
+
+void check_scenes(const std::vector<std::string>& wanted) {
+  const auto names = bench::scene_names();
+  for (const std::string& name : wanted)
+    if (std::none_of(names.begin(), names.end(),
+                     [&](std::string_view scene) { return is_asked_for(scene, {name}); }))
+      throw io::InputError("no scene \"" + name + "\"; there are S1 to S10");
+}
+
+void check_writable(const std::filesystem::path& file) {
+  if (!file.empty() && !std::ofstream(file, std::ios::app))
+    throw io::InputError(file.string() + ": cannot be written; name a file in a folder that exists");
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  if (file.empty()) return;
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  if (!stream.flush()) throw io::InputError(file.string() + ": could not be written to its end");
+}
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+std::vector<bench::Run> run_all(const BenchOptions& options, const bench::PeerModule& module) {
+  std::vector<bench::Run> runs;
+  for (const std::string_view name : bench::scene_names()) {
+    if (!is_asked_for(name, options.scenes)) continue;
+    const bench::BenchScene scene = bench::make_scene(name, options.data);
+    if (!scene.missing.empty()) {
+      print("\nskipped: " + scene.name + ", " + scene.missing + "\n");
+      continue;
+    }
+    for (const std::string& task : options.tasks)
+      for (const unsigned threads : options.threads) {
+        bench::RunOptions run;
+        run.task = static_cast<bench::Task>(task.front());
+        run.threads = threads;
+        run.frames = options.frames;
+        run.evict = options.evict;
+        run.peers = peers_of(options, module);
+        runs.push_back(bench::run_scene(scene, run, module));
+        print(bench::table_of(runs.back()));
+      }
+  }
+  return runs;
+}
+
+void check_answers(const std::vector<bench::Run>& runs) {
+  for (const bench::Run& run : runs)
+    for (const bench::Timing& timing : run.timings)
+      if (timing.name.starts_with(bench::graze_name) && !timing.complaint.empty())
+        throw CheckFailed(run.scene + ", task " + static_cast<char>(run.task) + ": " + timing.complaint);
+}
+
+void run(const BenchOptions& options) {
+  check_scenes(options.scenes);
+  check_writable(options.csv);
+  check_writable(options.json);
+  choose_instruction_set(options.instruction_set);
+  const bench::PeerModule module;
+  const bench::Surroundings surroundings = bench::surroundings(module);
+  print(bench::heading(surroundings));
+  const std::vector<bench::Run> runs = run_all(options, module);
+  const std::vector<bench::Aim> aims = bench::aims_of(runs);
+  print(bench::table_of(aims));
+  write(options.csv, bench::csv_of(runs));
+  nlohmann::ordered_json figures = bench::figures_of(surroundings);
+  figures["runs"] = nlohmann::ordered_json::array();
+  for (const bench::Run& run : runs) figures["runs"].push_back(bench::figures_of(run));
+  figures["aims"] = bench::figures_of(aims);
+  write(options.json, figures.dump(2) + "\n");
+  check_answers(runs);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "bench", "Measures graze, what it competes with and the limits on the same positions in one run.");
+  const auto options = std::make_shared<BenchOptions>();
+  command->add_option("--scenes", options->scenes, "Which of S1 to S10; all by default")->delimiter(',');
+  command->add_option("--tasks", options->tasks, "A: vertex pairs, B: contacts, D: distances of objects")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"A", "B", "D"}))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "One run for each number of threads")
+      ->delimiter(',')
+      ->check(CLI::Range(1U, 256U))
+      ->capture_default_str();
+  command->add_option("--frames", options->frames, "How many are timed; by default each scene's own number")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--peers", options->peers, "all, none, or some by name")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
+  command->add_option("--instruction-set", options->instruction_set, "What graze's kernels use");
+  command->add_option("--data", options->data, "The folder of real meshes, for S7")->capture_default_str();
+  command->add_option("--csv", options->csv, "Write a line for each contender of each run into this file");
+  command->add_option("--json", options->json, "Write all figures into this file");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace graze::tools

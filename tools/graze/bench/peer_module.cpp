@@ -1,0 +1,30 @@
+#include "bench/peer_module.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <graze/io/error.hpp>
+
+namespace graze::bench {
+
+PeerModule::PeerModule() {
+  const std::filesystem::path file =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / GRAZE_BENCH_MODULE;
+  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (module == nullptr)
+    throw io::InputError(std::string(dlerror()) +
+                         "; graze bench runs from the folder it is built in, beside that file");
+  const auto list = reinterpret_cast<ListPeers>(dlsym(module, "graze_bench_peers"));
+  if (list == nullptr) throw io::InputError(file.string() + ": is not what graze bench was built with");
+  list(entries_, compiled_for_);
+}
+
+const PeerEntry& PeerModule::entry(std::string_view name) const {
+  for (const PeerEntry& entry : entries_)
+    if (entry.name == name) return entry;
+  std::string known;
+  for (const PeerEntry& entry : entries_) known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  throw io::InputError("no peer \"" + std::string(name) + "\"; there are " + known);
+}
+
+}  // namespace graze::bench

@@ -1,0 +1,218 @@
+#include "bench/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "bench/graze_contender.hpp"
+#include "bench/verification.hpp"
+#include "progress.hpp"
+#include "scenes/random.hpp"
+#include "stress/clocks.hpp"
+#include "stress/distribution.hpp"
+#include "text_format.hpp"
+
+namespace graze::bench {
+namespace {
+
+/// Time since it was made. With one thread that is the lesser of wall clock and the thread's processor time,
+/// so that what other processes take does not count; the wall clock is the finer one for short times.
+class Stopwatch {
+ public:
+  explicit Stopwatch(unsigned threads)
+      : threads_(threads),
+        cpu_ns_(tools::cpu_ns(CLOCK_THREAD_CPUTIME_ID)),
+        start_(std::chrono::steady_clock::now()) {}
+
+  [[nodiscard]] double ms() const {
+    const double wall = tools::ns_between(start_, std::chrono::steady_clock::now());
+    if (threads_ > 1) return wall / 1e6;
+    return std::min(wall, tools::cpu_ns(CLOCK_THREAD_CPUTIME_ID) - cpu_ns_) / 1e6;
+  }
+
+ private:
+  unsigned threads_;
+  double cpu_ns_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// Other memory, touched so that caches hold it.
+class Eviction {
+ public:
+  explicit Eviction(bool is_wanted) : memory_(is_wanted ? bytes : 0) {}
+  void touch() {
+    constexpr std::size_t line = 64;
+    for (std::size_t i = 0; i < memory_.size(); i += line)
+      sum_ = memory_[i] = static_cast<unsigned char>(sum_ + 1);
+  }
+
+ private:
+  static constexpr std::size_t bytes = std::size_t{64} << 20U;
+  std::vector<unsigned char> memory_;
+  volatile unsigned char sum_ = 0;  ///< so that nobody finds the touching needless
+};
+
+/// One contender on its way through a run.
+class Entrant {
+ public:
+  using Make = std::function<std::unique_ptr<Contender>()>;
+
+  Entrant(std::string_view name, const PeerEntry* entry, unsigned threads, Make make)
+      : precision_(entry != nullptr ? entry->precision : 0),
+        is_limit_(is_limit(name)),
+        threads_(threads),
+        make_(std::move(make)) {
+    timing_.name = name;
+  }
+
+  [[nodiscard]] bool is_out() const { return !timing_.complaint.empty(); }
+
+  /// The first turn makes it, too.
+  void take_turn(bool is_timed) {
+    const Stopwatch watch(threads_);
+    const bool is_first = contender_ == nullptr;
+    if (is_first) contender_ = make_();
+    contender_->frame();
+    const double ms = watch.ms();
+    if (is_first) timing_.first = ms;
+    if (is_timed) times_.push_back(ms);
+    if (auto* const graze = dynamic_cast<GrazeContender*>(contender_.get())) note(*graze, is_timed);
+  }
+
+  void verify(const Verification& verification) {
+    if (is_limit_) return;
+    Found found;
+    contender_->collect(found);
+    timing_.found = found.vertex_pairs.size() + found.triangle_pairs.size() + found.feature_pairs.size() +
+                    found.distances.size();
+    timing_.complaint = verification.complaint(found, precision_);
+  }
+
+  [[nodiscard]] Timing timing() const {
+    const tools::Distribution times(times_);
+    Timing timing = timing_;
+    timing.median = times.median();
+    timing.p99 = times.quantile(0.99);
+    timing.worst = times.quantile(1);
+    return timing;
+  }
+  [[nodiscard]] GrazeFigures figures() const {
+    GrazeFigures figures = figures_;
+    figures.contacts_per_frame /= static_cast<double>(std::max<std::size_t>(times_.size(), 1));
+    return figures;
+  }
+
+ private:
+  void note(GrazeContender& graze, bool is_timed) {
+    graze.note();
+    figures_.hash = graze.hash();
+    figures_.object_bytes = static_cast<double>(graze.statistics().object_bytes);
+    if (is_timed) figures_.contacts_per_frame += static_cast<double>(graze.statistics().contacts);
+  }
+
+  double precision_;
+  bool is_limit_;
+  unsigned threads_;
+  Make make_;
+  std::unique_ptr<Contender> contender_;
+  Timing timing_;
+  std::vector<double> times_;
+  GrazeFigures figures_;
+};
+
+std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& options,
+                                 const PeerModule& module) {
+  std::vector<Entrant> entrants;
+  const auto add_graze = [&](std::string_view name, Telling telling) {
+    entrants.emplace_back(name, nullptr, options.threads, [&moving, &options, telling] {
+      return std::make_unique<GrazeContender>(moving.scene(), moving.world(), options.task, options.threads,
+                                              telling);
+    });
+  };
+  add_graze(graze_name, moving.scene().is_told ? Telling::motion : Telling::nothing);
+  if (moving.scene().tries_telling) add_graze(told_name, Telling::motion);
+  const auto add_peer = [&](const PeerEntry& entry) {
+    entrants.emplace_back(entry.name, &entry, options.threads, [&moving, &options, make = entry.make] {
+      return make(moving.world(), options.task, options.threads);
+    });
+  };
+  add_peer(module.entry(read_limit));
+  add_peer(module.entry(box_limit));
+  if (moving.scene().has_sleepers) add_peer(module.entry(movers_limit));
+  for (const std::string_view name : options.peers) {
+    const PeerEntry& entry = module.entry(name);
+    if (entry.tasks.find(static_cast<char>(options.task)) != std::string_view::npos) add_peer(entry);
+  }
+  return entrants;
+}
+
+}  // namespace
+
+const Timing* Run::timing(std::string_view name) const {
+  for (const Timing& timing : timings)
+    if (timing.name == name) return &timing;
+  return nullptr;
+}
+
+double Run::median(std::string_view name) const {
+  const Timing* const found = timing(name);
+  return found != nullptr && found->complaint.empty() ? found->median
+                                                      : std::numeric_limits<double>::quiet_NaN();
+}
+
+Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModule& module) {
+  constexpr std::size_t warm_up = 3;  // memory grows
+  constexpr std::size_t large = 500'000;
+  MovingWorld moving(scene);
+  const World& world = moving.world();
+  const char* const oracle = options.task == Task::A ? "row grid" : "clipping";
+  Verification verification(scene, options.task,
+                            module.entry(oracle).make(world, options.task == Task::A ? Task::A : Task::B, 1));
+  std::vector<Entrant> entrants = entrants_of(moving, options, module);
+
+  Run run;
+  run.scene = scene.name;
+  run.what = scene.what;
+  run.task = options.task;
+  run.threads = options.threads;
+  run.evict = options.evict;
+  run.frames = options.frames > 0 ? options.frames : scene.frames;
+  run.objects = world.objects.size();
+  run.vertices = world.positions.size() / 3;
+  run.distance = scene.distance;
+  const std::size_t verified_every = run.vertices > large ? std::max<std::size_t>(4, run.frames / 8) : 1;
+  Eviction eviction(options.evict);
+  scenes::Random random(1);
+  std::vector<std::size_t> order(entrants.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  tools::Progress progress(tools::format("%s, task %c, %u threads: frame", scene.name.c_str(),
+                                         static_cast<char>(options.task), options.threads),
+                           warm_up + run.frames);
+  for (std::size_t frame = 0; frame < warm_up + run.frames; ++frame) {
+    progress.at(frame);
+    if (frame > 0) moving.place(frame);
+    const bool is_verified = frame % verified_every == 0 || frame + 1 == warm_up + run.frames;
+    if (is_verified) {
+      verification.update();
+      ++run.frames_verified;
+    }
+    // What the one before left in the caches matters, so that the order is another one in every frame.
+    for (std::size_t left = order.size(); left > 1; --left)
+      std::swap(order[left - 1], order[random.below(left)]);
+    for (const std::size_t number : order) {
+      Entrant& entrant = entrants[number];
+      if (entrant.is_out()) continue;
+      eviction.touch();
+      entrant.take_turn(frame >= warm_up);
+      if (is_verified) entrant.verify(verification);
+    }
+  }
+  for (const Entrant& entrant : entrants) run.timings.push_back(entrant.timing());
+  run.graze = entrants.front().figures();
+  return run;
+}
+
+}  // namespace graze::bench
