@@ -11,6 +11,10 @@ namespace {
 /// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
 constexpr double stale_leaf_sizes = 0.25;
 
+/// A small object that as many jobs look at is refitted whenever it moved: otherwise each of them makes boxes
+/// of its leaves for itself.
+constexpr std::size_t jobs_worth_a_refit = 3;
+
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
 constexpr std::size_t work_each = 8192;
 
@@ -41,7 +45,7 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
   }
   // A task writes the bounds of its own object, or of its own regions of one.
   tasks_.run(parts_.size() + small_.size(), [&](unsigned, std::size_t item) {
-    if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()], what);
+    if (item >= parts_.size()) return refit_small(small_[item - parts_.size()], what);
     const Part& part = parts_[item];
     const AccessScope access({AccessRight::write(part.object), {}});
     part.object->surface_to_write().refit_regions(what, part.begin, part.end);
@@ -59,26 +63,32 @@ void RegionRefit::make_ready(Surface& surface) const {
 
 /// Each once, however many jobs look at it.
 void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
+  objects_.clear();
+  for (const PairJob& job : jobs)
+    if (job.is_looked_at()) objects_.insert(objects_.end(), {job.a, job.b});
+  std::sort(objects_.begin(), objects_.end(),
+            [](const Object* left, const Object* right) { return left->serial < right->serial; });
   small_.clear();
   large_.clear();
-  for (const PairJob& job : jobs)
-    if (job.is_looked_at())
-      for (Object* const object : {job.a, job.b}) (object->in_parts ? large_ : small_).push_back(object);
-  for (std::vector<Object*>* const list : {&small_, &large_}) {
-    std::sort(list->begin(), list->end(),
-              [](const Object* left, const Object* right) { return left->serial < right->serial; });
-    list->erase(std::unique(list->begin(), list->end()), list->end());
+  for (auto object = objects_.begin(); object != objects_.end();) {
+    const auto next =
+        std::find_if(object, objects_.end(), [&](const Object* other) { return other != *object; });
+    if (!(*object)->in_parts)
+      small_.push_back({*object, static_cast<std::size_t>(next - object)});
+    else if (is_stale((*object)->surface(), what))
+      large_.push_back(*object);
+    object = next;
   }
-  std::erase_if(large_, [&](const Object* object) { return !is_stale(object->surface(), what); });
 }
 
 void RegionRefit::reserve(std::size_t jobs) {
+  objects_.reserve(2 * jobs);
   small_.reserve(2 * jobs);
   large_.reserve(2 * jobs);
 }
 
 std::size_t RegionRefit::byte_count() const {
-  return bytes_of(small_) + bytes_of(large_) + bytes_of(parts_);
+  return bytes_of(objects_) + bytes_of(small_) + bytes_of(large_) + bytes_of(parts_);
 }
 
 bool RegionRefit::is_stale(const Surface& surface, RefitOf what) const {
@@ -95,9 +105,10 @@ void RegionRefit::list_parts(Object& object, RefitOf what) {
       });
 }
 
-void RegionRefit::refit_small(Object& object, RefitOf what) const {
-  const AccessScope access({AccessRight::write(&object), {}});
-  if (is_stale(object.surface(), what)) object.surface_to_write().refit(what);
+void RegionRefit::refit_small(const Small& small, RefitOf what) const {
+  const AccessScope access({AccessRight::write(small.object), {}});
+  const bool is_asked_often = what != RefitOf::radii && small.jobs >= jobs_worth_a_refit;
+  if (is_asked_often || is_stale(small.object->surface(), what)) small.object->surface_to_write().refit(what);
 }
 
 }  // namespace graze

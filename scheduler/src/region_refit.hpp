@@ -32,17 +32,23 @@ class RegionRefit {
     std::uint32_t end;
   };
 
+  struct Small {
+    Object* object;
+    std::size_t jobs;  ///< that look at it
+  };
+
   void refit(std::span<const PairJob> jobs, RefitOf what);
   [[nodiscard]] bool with_radii() const { return to_the_letter_ && boxes_ == RefitOf::vertices; }
   void list_objects(std::span<const PairJob> jobs, RefitOf what);
   [[nodiscard]] bool is_stale(const Surface& surface, RefitOf what) const;
   void list_parts(Object& object, RefitOf what);
-  void refit_small(Object& object, RefitOf what) const;
+  void refit_small(const Small& small, RefitOf what) const;
 
   TaskPool& tasks_;
   RefitOf boxes_;
-  bool to_the_letter_;          ///< bounds are told of or compared as they are in the paper
-  std::vector<Object*> small_;  ///< that the jobs look at
+  bool to_the_letter_;            ///< bounds are told of or compared as they are in the paper
+  std::vector<Object*> objects_;  ///< of the jobs, each as often as jobs look at it
+  std::vector<Small> small_;
   std::vector<Object*> large_;  ///< that are refitted
   std::vector<Part> parts_;     ///< of `large_`
 };
