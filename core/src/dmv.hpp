@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <graze/leaf_front.hpp>
@@ -67,11 +68,12 @@ struct Expansion {
 /// DMV (paper, figure 3): walks the pairs of regions of two trees breadth first, from those in
 /// `scratch.front`; leaves the rest there where a level has more than `most`.
 /// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf; neither
-/// ends it there. A leaf stays what it is. `leaves(pair, a, b)` takes each pair of leaves that is reached.
+/// ends it there. A leaf stays what it is. Where both make way, a child that `may_meet` finds to be far from
+/// the whole of the other region is left out. `leaves(pair, a, b)` takes each pair of leaves that is reached.
 /// False when the budget ran out on the way.
-template <typename Expand, typename Leaves>
+template <typename Expand, typename MayMeet, typename Leaves>
 bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch, WorkMeter& meter,
-         const Expand& expand, const Leaves& leaves,
+         const Expand& expand, const MayMeet& may_meet, const Leaves& leaves,
          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   const auto push_children = [&](const RegionPair& pair, const Region& a, const Region& b,
                                  const Expansion& expansion) {
@@ -81,8 +83,19 @@ bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch
     const std::uint32_t first_b = b_stays ? pair.b : b.first_child;
     const std::uint32_t count_a = a_stays ? 1 : a.child_count;
     const std::uint32_t count_b = b_stays ? 1 : b.child_count;
-    for (std::uint32_t i = 0; i < count_a; ++i)
-      for (std::uint32_t j = 0; j < count_b; ++j) scratch.next.push_back({first_a + i, first_b + j});
+    if (count_a == 1 || count_b == 1) {
+      for (std::uint32_t i = 0; i < count_a; ++i)
+        for (std::uint32_t j = 0; j < count_b; ++j) scratch.next.push_back({first_a + i, first_b + j});
+      return;
+    }
+    std::array<std::uint32_t, 8> near_b;
+    std::size_t near_count = 0;
+    for (std::uint32_t j = 0; j < count_b; ++j)
+      if (may_meet({pair.a, first_b + j})) near_b[near_count++] = first_b + j;
+    for (std::uint32_t i = 0; i < count_a && near_count > 0; ++i) {
+      if (!may_meet({first_a + i, pair.b})) continue;
+      for (std::size_t j = 0; j < near_count; ++j) scratch.next.push_back({first_a + i, near_b[j]});
+    }
   };
   while (!scratch.front.empty() && scratch.front.size() <= most) {
     scratch.next.clear();

@@ -81,6 +81,7 @@ class LeafPairs {
           meet(regions);
           return keeps(bounds_.lower(regions)) ? expansion_of(regions, a, b) : Expansion{};
         },
+        [&](const RegionPair& regions) { return keeps(bounds_.lower(regions)); },
         [&](const RegionPair& leaves, const Region&, const Region&) {
           meet(leaves);
           const double lower = bounds_.lower(leaves);

@@ -40,6 +40,7 @@ class Paper {
           const bool both = expand(regions, a, b);
           return Expansion{both, both};
         },
+        [](const RegionPair&) { return true; },
         [&](const RegionPair& leaves, const Region& a, const Region& b) {
           dv({a, pair_.a.vertex_boxes()[leaves.a]}, {b, pair_.b.vertex_boxes()[leaves.b]});
         });

@@ -49,9 +49,10 @@ inline Box grown(const Box& box, double by) {
 inline double lower_distance(const Box& a, const Box& b) {
   double squared = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double gap = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
+    const double gap = std::max(0.0, std::max(a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]));
     squared += gap * gap;
   }
+  if (squared == 0) return 0;
   return std::max(0.0, std::sqrt(squared) - lost_to_underflow) * round_down;
 }
 
