@@ -5,9 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
+#include "bench/peers/lanes.hpp"
 
 namespace graze::bench {
 
@@ -34,21 +32,6 @@ void PointList::make_room(std::size_t more) {
 
 #if defined(__AVX2__)
 namespace {
-
-/// For each of eight bits, which lanes come first when those of its set bits are moved to the front.
-const std::array<std::array<std::uint32_t, 8>, 256> front_lanes = [] {
-  std::array<std::array<std::uint32_t, 8>, 256> table{};
-  for (std::uint32_t mask = 0; mask < 256; ++mask) {
-    std::size_t next = 0;
-    for (std::uint32_t lane = 0; lane < 8; ++lane)
-      if ((mask >> lane & 1U) != 0) table[mask][next++] = lane;
-  }
-  return table;
-}();
-
-__m256i lanes_of(std::uint32_t mask) {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(front_lanes[mask].data()));
-}
 
 /// Eight points' coordinates, from x0 y0 z0 x1 ….
 struct Eight {
