@@ -14,8 +14,10 @@ namespace {
 using scenes::Random;
 
 Eigen::Vector3d cell_of(std::size_t index, std::size_t columns, std::size_t rows) {
-  return {static_cast<double>(index % columns), static_cast<double>(index / columns % rows),
-          static_cast<double>(index / columns / rows)};
+  const std::size_t column = index % columns;
+  const std::size_t row = index / columns % rows;
+  const std::size_t layer = index / columns / rows;
+  return {static_cast<double>(column), static_cast<double>(row), static_cast<double>(layer)};
 }
 
 /// The paper's first experiment: paths cross so that pairs come and go.

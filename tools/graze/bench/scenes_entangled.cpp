@@ -63,7 +63,7 @@ BenchScene draped_cloth() {
   scene.bodies.push_back(wobbling(scaled_sphere(125, 80, 1), {.wobble = 0.003}));
   const auto cloth = mesh_of(models::sheet(cells, cells, width, width, models::Faces::triangles));
   const auto place = [cloth](std::size_t frame, std::span<float> out) {
-    const double time = static_cast<double>(frame);
+    const auto time = static_cast<double>(frame);
     std::size_t next = 0;
     for (const Vector& rest : cloth->rest()) {
       const double above = 0.012 * (1 + std::sin(0.2 * time + 3 * rest.x() + 2 * rest.y()));

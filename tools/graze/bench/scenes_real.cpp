@@ -54,6 +54,7 @@ std::vector<std::shared_ptr<const Mesh>> connected_parts(const Mesh& mesh) {
       pieces[parts.of(face[0])].add(mesh, {face[0], face[last - 1], face[last]});
   }
   std::vector<std::shared_ptr<const Mesh>> meshes;
+  meshes.reserve(pieces.size());
   for (const auto& [vertex, piece] : pieces) meshes.push_back(mesh_of(piece.data));
   return meshes;
 }

@@ -54,7 +54,8 @@ double height(double x, double y) {
 
 Vector prop_place(std::size_t index) {
   const double x = prop_spacing * (static_cast<double>(index % prop_columns) + 0.5);
-  const double y = prop_spacing * (static_cast<double>(index / prop_columns) + 0.5);
+  const std::size_t row = index / prop_columns;
+  const double y = prop_spacing * (static_cast<double>(row) + 0.5);
   return {x, y, 0};
 }
 
@@ -111,7 +112,7 @@ Body standing(const models::MeshData& data) {
 /// A prop that wobbles, and slides over the hills.
 Body prop(const std::shared_ptr<const Mesh>& mesh, const Vector& at, double phase) {
   const auto place = [mesh, at, phase](std::size_t frame, std::span<float> out) {
-    const double time = static_cast<double>(frame);
+    const auto time = static_cast<double>(frame);
     const double x = at.x() + 0.3 * std::sin(0.1 * time + phase);
     const double y = at.y() + 0.3 * std::cos(0.1 * time + phase);
     const Vector centre(x, y, height(x, y) + 1.01);

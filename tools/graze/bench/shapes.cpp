@@ -12,7 +12,7 @@ std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
 
 Body wobbling(std::shared_ptr<const Mesh> mesh, const Path& path) {
   const auto place = [mesh, path](std::size_t frame, std::span<float> out) {
-    const double time = static_cast<double>(frame);
+    const auto time = static_cast<double>(frame);
     Eigen::Vector3d centre = path.centre;
     for (int axis = 0; axis < 3; ++axis)
       centre[axis] += path.reach[axis] * std::sin(path.speed[axis] * time + path.phase + axis);

@@ -5,9 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
+#include "bench/peers/lanes.hpp"
 
 namespace graze::bench {
 
@@ -34,21 +32,6 @@ void PointList::make_room(std::size_t more) {
 
 #if defined(__AVX2__)
 namespace {
-
-/// For each of eight bits, which lanes come first when those of its set bits are moved to the front.
-const std::array<std::array<std::uint32_t, 8>, 256> front_lanes = [] {
-  std::array<std::array<std::uint32_t, 8>, 256> table{};
-  for (std::uint32_t mask = 0; mask < 256; ++mask) {
-    std::size_t next = 0;
-    for (std::uint32_t lane = 0; lane < 8; ++lane)
-      if ((mask >> lane & 1U) != 0) table[mask][next++] = lane;
-  }
-  return table;
-}();
-
-__m256i lanes_of(std::uint32_t mask) {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(front_lanes[mask].data()));
-}
 
 /// Eight points' coordinates, from x0 y0 z0 x1 ….
 struct Eight {
@@ -133,7 +116,7 @@ FloatBox box_of(const float* points, std::size_t count) {
       high[i] = _mm256_max_ps(high[i], values);
     }
   alignas(32) float lows[row], highs[row];
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     _mm256_store_ps(lows + 8 * i, _mm256_min_ps(low[i], low[i + 3]));
     _mm256_store_ps(highs + 8 * i, _mm256_max_ps(high[i], high[i + 3]));
   }
@@ -228,8 +211,7 @@ std::uint32_t* add_near(const PointList& list, std::size_t begin, std::size_t en
     const __m256 dy = _mm256_sub_ps(_mm256_loadu_ps(list.y.data() + at), py);
     const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(list.z.data() + at), pz);
     const __m256 squared = _mm256_fmadd_ps(dx, dx, _mm256_fmadd_ps(dy, dy, _mm256_mul_ps(dz, dz)));
-    std::uint32_t mask =
-        static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(squared, most, _CMP_LE_OQ)));
+    auto mask = static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(squared, most, _CMP_LE_OQ)));
     if (mask == 0) continue;
     mask &= first_bits(end - at);
     for (; mask != 0; mask &= mask - 1)

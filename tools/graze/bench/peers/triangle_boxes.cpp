@@ -1,15 +1,11 @@
 #include "bench/peers/triangle_boxes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
 #include "bench/peers/exact_distance.hpp"
-
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
+#include "bench/peers/lanes.hpp"
 
 namespace graze::bench {
 namespace {
@@ -79,17 +75,6 @@ void make_boxes(const World& world, std::size_t object, BoxList& list) {
 #if defined(__AVX2__)
 namespace {
 
-/// For each of eight bits, which lanes come first when those of its set bits are moved to the front.
-const std::array<std::array<std::uint32_t, 8>, 256> front_lanes = [] {
-  std::array<std::array<std::uint32_t, 8>, 256> table{};
-  for (std::uint32_t mask = 0; mask < 256; ++mask) {
-    std::size_t next = 0;
-    for (std::uint32_t lane = 0; lane < 8; ++lane)
-      if ((mask >> lane & 1U) != 0) table[mask][next++] = lane;
-  }
-  return table;
-}();
-
 /// Moves those boxes from one list to another, or forward in one, that meet `box`.
 void move_meeting(const BoxList& from, std::size_t count, const FloatBox& box, BoxList& to) {
   __m256 low[3], high[3];
@@ -108,7 +93,7 @@ void move_meeting(const BoxList& from, std::size_t count, const FloatBox& box, B
     auto mask = static_cast<std::uint32_t>(_mm256_movemask_ps(is_met));
     if (count - at < 8) mask &= (1U << (count - at)) - 1;
     if (mask == 0) continue;
-    const __m256i lanes = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(front_lanes[mask].data()));
+    const __m256i lanes = lanes_of(mask);
     const __m256i index = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from.index.data() + at));
     for (int i = 0; i < 6; ++i)
       _mm256_storeu_ps(to.bounds[i].data() + to.count, _mm256_permutevar8x32_ps(values[i], lanes));
