@@ -1,6 +1,7 @@
 #include "exact.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -18,10 +19,11 @@ int floor_div(int value, int divisor) {
 Exact::Exact(double value) {
   if (value == 0) return;
   assert(std::isfinite(value));
-  int exponent = 0;
-  const double fraction = std::frexp(std::abs(value), &exponent);
-  auto mantissa = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
-  exponent -= 53;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto biased_exponent = static_cast<int>(bits >> 52U & 0x7ffU);
+  std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52U) - 1);
+  if (biased_exponent > 0) mantissa |= std::uint64_t{1} << 52U;
+  const int exponent = std::max(biased_exponent, 1) - 1075;  // value = mantissa · 2^exponent
   sign_ = value > 0 ? 1 : -1;
   exponent_ = floor_div(exponent, limb_bits);
   const int shift = exponent - exponent_ * limb_bits;  // 0 to 31: the mantissa spans at most three limbs

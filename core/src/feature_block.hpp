@@ -49,32 +49,38 @@ class FeatureBlock {
     add_owner(owner);
   }
 
-  /// Finds those features of another block that are not certainly further than `limit` from `box`; how many,
-  /// and extends `found` by their box.
-  std::size_t clip(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::BoxInFrame& box,
-                   float limit, kernels::BoxInFrame& found) {
+  /// Finds those features of another block that `by` keeps; how many, and extends `found` by their box.
+  std::size_t clip(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::ClipBy& by,
+                   kernels::BoxInFrame& found) {
     if (index_.size() < all.count()) index_.resize(all.count());
     if (touches_.size() < all.count()) touches_.resize(all.count());
-    return kernel(all.block(), box, limit, {index_.data(), touches_.data(), &found});
+    return kernel(all.block(), by, {index_.data(), touches_.data(), &found});
   }
-  /// Takes them.
-  void take(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::BoxInFrame& box,
-            float limit, kernels::BoxInFrame& found) {
+  /// Takes them, those first that may touch.
+  void take(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::ClipBy& by,
+            kernels::BoxInFrame& found) {
     begin(all.count());
-    const std::size_t count = clip(all, kernel, box, limit, found);
-    kernels::filter().gather(all.block(), Components, index_.data(), count, data_.data(), stride_);
-    for (std::size_t i = 0; i < count; ++i) add_owner(all.owners_[index_[i]]);
+    const std::size_t count = clip(all, kernel, by, found);
+    order_.clear();
+    for (std::size_t i = 0; i < count; ++i)
+      if (touches_[i] != 0) order_.push_back(index_[i]);
+    touching_ = order_.size();
+    for (std::size_t i = 0; i < count; ++i)
+      if (touches_[i] == 0) order_.push_back(index_[i]);
+    kernels::filter().gather(all.block(), Components, order_.data(), count, data_.data(), stride_);
+    for (const std::uint32_t place : order_) add_owner(all.owners_[place]);
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.data_, self.owners_, self.index_, self.touches_);
+    return std::tie(self.data_, self.owners_, self.index_, self.touches_, self.order_);
   }
   void reserve_as(const FeatureBlock& other) {
     if (data_.size() < other.data_.size()) data_.resize(other.data_.size());
     graze::reserve_as(owners_, other.owners_);
     graze::reserve_as(index_, other.index_);
     graze::reserve_as(touches_, other.touches_);
+    graze::reserve_as(order_, other.order_);
   }
   /// What it holds stays.
   void reserve(std::size_t most) {
@@ -82,6 +88,7 @@ class FeatureBlock {
     owners_.reserve(most);
     index_.reserve(most);
     touches_.reserve(most);
+    order_.reserve(most);
   }
 
   [[nodiscard]] Part part() const { return part_; }
@@ -89,10 +96,11 @@ class FeatureBlock {
   /// Features of one owner, such as a quad's triangles, are added one after the other and count once here.
   [[nodiscard]] std::size_t owner_count() const { return owner_count_; }
   [[nodiscard]] std::uint32_t owner(std::size_t i) const { return owners_[i]; }
-  /// Of features taken: whether one may touch something in the box.
-  [[nodiscard]] bool touches(std::size_t i) const { return touches_[i] != 0; }
+  /// Of features taken: how many of them, the first, may touch.
+  [[nodiscard]] std::size_t touching() const { return touching_; }
   [[nodiscard]] float component(std::size_t k, std::size_t i) const { return data_[k * stride_ + i]; }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }
+  [[nodiscard]] kernels::Block touching_block() const { return {data_.data(), stride_, touching_}; }
   /// For what the kernels prepare.
   [[nodiscard]] float* data() { return data_.data(); }
   [[nodiscard]] std::size_t stride() const { return stride_; }
@@ -111,6 +119,8 @@ class FeatureBlock {
   std::vector<std::uint32_t> owners_;
   std::vector<std::uint32_t> index_;  ///< of features taken, in the block they are from
   std::vector<std::uint8_t> touches_;
+  std::vector<std::uint32_t> order_;
+  std::size_t touching_ = 0;
   std::size_t owner_count_ = 0;
   Part part_;
 };

@@ -78,4 +78,15 @@ class FilterFrame {
   double scale_ = 0;  ///< 0 for the frame of nothing
 };
 
+/// Where two boxes overlap; nothing, as least above greatest, where they do not.
+inline kernels::BoxInFrame overlap_of(const kernels::BoxInFrame& a, const kernels::BoxInFrame& b) {
+  kernels::BoxInFrame overlap{};
+  for (int axis = 0; axis < 3; ++axis) {
+    overlap.min[axis] = std::max(a.min[axis], b.min[axis]);
+    overlap.max[axis] = std::min(a.max[axis], b.max[axis]);
+  }
+  overlap.size = std::max(a.size, b.size);
+  return overlap;
+}
+
 }  // namespace graze

@@ -79,12 +79,12 @@ class FloatFilter {
     const auto keep = [](float bound, const auto& lower_in_double) {
       return bound != untrusted || lower_in_double() == 0;
     };
-    const kernels::Survivors survivors = room_for(columns.features.count());
-    if (columns.features.count() == 0) return;
+    const kernels::Block block = columns.features.touching_block();
+    const kernels::Survivors survivors = room_for(block.count);
+    if (block.count == 0) return;
     const auto kernel = kernels::filter().maybe_pierced;
-    for (std::size_t row = 0; row < rows.features.count(); ++row) {
-      if (!rows.features.touches(row)) continue;
-      const std::size_t found = kernel(row_of(rows.features, row), columns.features.block(), survivors);
+    for (std::size_t row = 0; row < rows.features.touching(); ++row) {
+      const std::size_t found = kernel(row_of(rows.features, row), block, survivors);
       hand_on(rows, columns, row, found, keep, visit);
     }
   }

@@ -64,36 +64,33 @@ kernels::BoxInFrame empty_box() {
 
 }  // namespace
 
-kernels::BoxInFrame LeafFeatures::vertices_near_box(const LeafFeatures& all, const kernels::BoxInFrame& box,
-                                                    float limit) {
+kernels::BoxInFrame LeafFeatures::vertices_near_box(const LeafFeatures& all, const kernels::ClipBy& by) {
   kernels::BoxInFrame found = empty_box();
-  vertices.clip(all.vertices, kernels::filter().clip_points, box, limit, found);
+  vertices.clip(all.vertices, kernels::filter().clip_points, by, found);
   return found;
 }
 
-kernels::BoxInFrame LeafFeatures::near_box(const LeafFeatures& all, const kernels::BoxInFrame& box,
-                                           float limit) {
+kernels::BoxInFrame LeafFeatures::near_box(const LeafFeatures& all, const kernels::ClipBy& by) {
   const kernels::Filter& filter = kernels::filter();
-  kernels::BoxInFrame found = vertices_near_box(all, box, limit);
-  edges.clip(all.edges, filter.clip_segments, box, limit, found);
-  triangles.clip(all.triangles, filter.clip_triangles, box, limit, found);
-  folds.clip(all.folds, filter.clip_segments, box, limit, found);
+  kernels::BoxInFrame found = vertices_near_box(all, by);
+  edges.clip(all.edges, filter.clip_segments, by, found);
+  triangles.clip(all.triangles, filter.clip_triangles, by, found);
+  folds.clip(all.folds, filter.clip_segments, by, found);
   return found;
 }
 
-kernels::BoxInFrame LeafFeatures::take_vertices(const LeafFeatures& all, const kernels::BoxInFrame& box,
-                                                float limit) {
+kernels::BoxInFrame LeafFeatures::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by) {
   kernels::BoxInFrame found = empty_box();
-  vertices.take(all.vertices, kernels::filter().clip_points, box, limit, found);
+  vertices.take(all.vertices, kernels::filter().clip_points, by, found);
   return found;
 }
 
-kernels::BoxInFrame LeafFeatures::take(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit) {
+kernels::BoxInFrame LeafFeatures::take(const LeafFeatures& all, const kernels::ClipBy& by) {
   const kernels::Filter& filter = kernels::filter();
-  kernels::BoxInFrame found = take_vertices(all, box, limit);
-  edges.take(all.edges, filter.clip_segments, box, limit, found);
-  triangles.take(all.triangles, filter.clip_triangles, box, limit, found);
-  folds.take(all.folds, filter.clip_segments, box, limit, found);
+  kernels::BoxInFrame found = take_vertices(all, by);
+  edges.take(all.edges, filter.clip_segments, by, found);
+  triangles.take(all.triangles, filter.clip_triangles, by, found);
+  folds.take(all.folds, filter.clip_segments, by, found);
   return found;
 }
 

@@ -30,12 +30,12 @@ class LeafFeatures {
   /// Its vertices alone.
   void collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame);
 
-  /// The box of those of `all` that are not certainly further than `limit`, in the frame, from `box`.
-  kernels::BoxInFrame near_box(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
-  kernels::BoxInFrame vertices_near_box(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
+  /// The box of those of `all` that `by` keeps.
+  kernels::BoxInFrame near_box(const LeafFeatures& all, const kernels::ClipBy& by);
+  kernels::BoxInFrame vertices_near_box(const LeafFeatures& all, const kernels::ClipBy& by);
   /// Takes them, and gives their box.
-  kernels::BoxInFrame take(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
-  kernels::BoxInFrame take_vertices(const LeafFeatures& all, const kernels::BoxInFrame& box, float limit);
+  kernels::BoxInFrame take(const LeafFeatures& all, const kernels::ClipBy& by);
+  kernels::BoxInFrame take_vertices(const LeafFeatures& all, const kernels::ClipBy& by);
 
   [[nodiscard]] std::size_t count() const {
     return vertices.count() + edges.count() + triangles.count() + folds.count();

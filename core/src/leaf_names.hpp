@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "contact_name.hpp"
 #include "leaf_cache.hpp"
@@ -52,10 +53,12 @@ struct LeafScratch {
     const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region);
     const double limit = range.limit();
     const float local_limit = frame.to_local_limit(limit);
-    // What of b is near those of a that are near b's leaf, and what of a is near that.
-    const kernels::BoxInFrame near_a = (a.*box_of_near)(of_a, frame.to_local(leaf_b.box), local_limit);
-    const kernels::BoxInFrame near_b = (b.*take_near)(of_b, near_a, local_limit);
-    (a.*take_near)(of_a, near_b, local_limit);
+    // What of b is near those of a that are near b's leaf, and what of a is near that. Two features can only
+    // touch where both sides' boxes overlap.
+    const kernels::BoxInFrame box_b = frame.to_local(leaf_b.box);
+    const kernels::BoxInFrame near_a = (a.*box_of_near)(of_a, {box_b, box_b, local_limit});
+    const kernels::BoxInFrame near_b = (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), local_limit});
+    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), local_limit});
     const auto of_all = [&](const LeafFeatures& features) {
       return vertices_only ? features.vertices.count() : features.count();
     };
@@ -85,15 +88,15 @@ class LeafNames {
     filter_.near(of_a(a_.vertices), of_b(b_.triangles), kernel, [&](std::size_t i, std::size_t j) {
       const std::uint32_t vertex = a_.vertices.owner(i);
       SquaredRange squared;
-      const FeaturePiece piece = nearest_piece_of_face(pair_.a.position(vertex), pair_.b,
-                                                       b_.triangles.owner(j), pair_.count, squared);
+      const FeaturePiece piece =
+          piece_of_face(pair_.a.position(vertex), pair_.b, b_.triangles.owner(j), squared);
       sink_(ContactName::of(vertex_piece(vertex), piece), squared);
     });
     filter_.near(of_b(b_.vertices), of_a(a_.triangles), kernel, [&](std::size_t i, std::size_t j) {
       const std::uint32_t vertex = b_.vertices.owner(i);
       SquaredRange squared;
-      const FeaturePiece piece = nearest_piece_of_face(pair_.b.position(vertex), pair_.a,
-                                                       a_.triangles.owner(j), pair_.count, squared);
+      const FeaturePiece piece =
+          piece_of_face(pair_.b.position(vertex), pair_.a, a_.triangles.owner(j), squared);
       sink_(ContactName::of(piece, vertex_piece(vertex)), squared);
     });
   }
@@ -101,6 +104,8 @@ class LeafNames {
   void edges() {
     near_segments(a_.edges, b_.edges, [&](std::size_t i, std::size_t j) {
       SquaredRange squared;
+      if (const auto name = certain_name(a_.edges.owner(i), b_.edges.owner(j), squared))
+        return sink_(*name, squared);
       const SegmentPairNames found = segment_names(edge_of(a_, i), edge_of(b_, j), squared);
       for (std::uint32_t k = 0; k < found.size; ++k)
         sink_(ContactName::of(found.names[k][0], found.names[k][1]), squared);
@@ -149,6 +154,37 @@ class LeafNames {
   }
   static FeaturePiece fold_of(const LeafFeatures& features, std::size_t i) {
     return face_piece(features.folds.owner(i), Piece::fold);
+  }
+
+  /// `nearest_piece_of_face`, without detours where plain double is certain of a triangle.
+  [[nodiscard]] FeaturePiece piece_of_face(const Eigen::Vector3d& point, const Surface& surface,
+                                           std::uint32_t face, SquaredRange& squared) const {
+    const auto corner = surface.mesh().face(face);
+    Place place{};
+    if (corner.size() != 3 ||
+        !certain_place(
+            point, {surface.position(corner[0]), surface.position(corner[1]), surface.position(corner[2])},
+            place, squared))
+      return nearest_piece_of_face(point, surface, face, pair_.count, squared);
+    ++pair_.count.in_double;
+    if (place == Place::inside) return face_piece(face, Piece::first);
+    if (place < Place::edge01) return vertex_piece(corner[static_cast<std::size_t>(place)]);
+    return edge_piece(surface.mesh().face_edges(face)[static_cast<std::size_t>(place) - 3]);
+  }
+  /// The name of the closest points of two edges where plain double is certain of it.
+  [[nodiscard]] std::optional<ContactName> certain_name(std::uint32_t edge_a, std::uint32_t edge_b,
+                                                        SquaredRange& squared) const {
+    const auto a = pair_.a.mesh().edge(edge_a);
+    const auto b = pair_.b.mesh().edge(edge_b);
+    std::array<Along, 2> places{};
+    if (!certain_places({pair_.a.position(a[0]), pair_.a.position(a[1])},
+                        {pair_.b.position(b[0]), pair_.b.position(b[1])}, places, squared))
+      return std::nullopt;
+    ++pair_.count.in_double;
+    const auto piece = [](std::uint32_t edge, const std::array<std::uint32_t, 2>& end, Along place) {
+      return place == Along::inside ? edge_piece(edge) : vertex_piece(end[place == Along::first ? 0 : 1]);
+    };
+    return ContactName::of(piece(edge_a, a, places[0]), piece(edge_b, b, places[1]));
   }
 
   template <typename Visit>

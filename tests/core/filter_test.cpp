@@ -282,8 +282,8 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
   const auto take_clipped = [&](const kernels::Block& block, kernels::Filter::Clip clip, float limit) {
     std::vector<std::uint8_t> touches(block.count);
     kernels::BoxInFrame box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
-    const std::size_t count =
-        clip(block, frame.to_local(a.box), limit, {found.index.data(), touches.data(), &box});
+    const std::size_t count = clip(block, {frame.to_local(a.box), frame.to_local(b.box), limit},
+                                   {found.index.data(), touches.data(), &box});
     for (std::size_t k = 0; k < count; ++k) words.push_back(found.index[k] * 2 + touches[k]);
     std::array<std::uint32_t, sizeof box / sizeof(std::uint32_t)> bits{};
     std::memcpy(bits.data(), &box, sizeof box);
@@ -455,7 +455,8 @@ void check_clip(const FeatureBlock<Corners, Components>& block, const std::vecto
   kernels::BoxInFrame found{
       {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
   FeatureBlock<Corners, Components> taken(block.part());
-  taken.take(block, clip, frame.to_local(box), limit, found);
+  const kernels::BoxInFrame local = frame.to_local(box);
+  taken.take(block, clip, {local, local, limit}, found);
   std::vector<bool> is_kept(features.size(), false);
   for (std::size_t i = 0; i < taken.count(); ++i) {
     const std::uint32_t feature = taken.owner(i);
@@ -468,7 +469,7 @@ void check_clip(const FeatureBlock<Corners, Components>& block, const std::vecto
     Box own;
     for (const Vector3d& corner : features[feature]) own.add(corner);
     const bool touches = gap_of(own, box) == 0;
-    if (touches) REQUIRE(taken.touches(i));
+    if (touches) REQUIRE(i < taken.touching());
     REQUIRE(found.size >= block.component(3 * Corners, feature));
     tally.touching += touches ? 1U : 0U;
   }

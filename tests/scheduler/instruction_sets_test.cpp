@@ -89,7 +89,7 @@ TEST_CASE("a moving scene's reports are the same bit for bit with every instruct
       SceneSettings settings = settings_of(0.05, 0.25, detail);
       settings.accuracy = accuracy;
       settings.threads = 2;
-      CHECK(compare_instruction_sets([&] { return moving.play(settings, 12); }) > 4'000);
+      CHECK(compare_instruction_sets([&] { return moving.play(settings, 12); }) > 3'000);
       ++runs;
     }
   std::cout << "compared " << available_instruction_sets().size() << " instruction sets in " << runs

@@ -67,8 +67,16 @@ struct BoxInFrame {
   float size;
 };
 
-/// Features that `clip_…` keep: numbers into the block, ascending, whether each may touch something in the
-/// box, and the box of all of them. Room for a whole block each.
+/// Which features `clip_…` keep: those not certainly further than `limit` from `box`. Of these it says which
+/// may touch something in `touched`.
+struct ClipBy {
+  BoxInFrame box;
+  BoxInFrame touched;
+  float limit;
+};
+
+/// What is kept: numbers into the block, ascending, whether each may touch, and the box of all of them. Room
+/// for a whole block each.
 struct Clipped {
   std::uint32_t* index = nullptr;
   std::uint8_t* touches = nullptr;
@@ -77,7 +85,7 @@ struct Clipped {
 
 /// The kernels of one instruction set. `prepare_…` computes what stands behind the sizes. `near_…` discards
 /// what is certainly further than `limit`, `maybe_pierced` the triangles that the segment certainly does not
-/// touch, `clip_…` what is certainly further than `limit` from a box; all return how many are left. `clip_…`
+/// touch; both, and `clip_…`, return how many are left. `clip_…`
 /// extend the box that they are given. `gather` copies the features of a block that are listed.
 struct Filter {
   void (*prepare_segments)(float* data, std::size_t stride, std::size_t count);
@@ -88,7 +96,7 @@ struct Filter {
   std::size_t (*near_triangles)(const Point& point, const Block& triangles, float limit,
                                 const Survivors& out);
   std::size_t (*maybe_pierced)(const Segment& segment, const Block& triangles, const Survivors& out);
-  using Clip = std::size_t (*)(const Block& features, const BoxInFrame& box, float limit, const Clipped& out);
+  using Clip = std::size_t (*)(const Block& features, const ClipBy& by, const Clipped& out);
   Clip clip_points;
   Clip clip_segments;
   Clip clip_triangles;

@@ -1,0 +1,226 @@
+// What plain double is certain of is what exact arithmetic says: every answer of certain.hpp is compared with
+// rational arithmetic, on features that are parallel, degenerate, at right angles, far away, minute and huge.
+
+#include "certain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <utility>
+
+#include "support/catch.hpp"
+#include "support/exact.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+namespace {
+
+using Eigen::Vector3d;
+using oracle::Point;
+using oracle::Random;
+using oracle::Rational;
+using oracle::squared_length;
+
+/// Corners of features that are hard in one way or another.
+class Generator {
+ public:
+  enum Family : std::uint64_t { plain, grid, nearly_grid, needles, far, minute, huge, family_count };
+
+  Generator(Family family, std::uint64_t seed) : family_(family), random_(seed) {}
+
+  Vector3d point() {
+    Vector3d point(random_.between(-1, 1), random_.between(-1, 1), random_.between(-1, 1));
+    if (family_ == grid || family_ == nearly_grid)
+      for (int axis = 0; axis < 3; ++axis) point[axis] = static_cast<double>(random_.below(4));
+    if (family_ == nearly_grid)
+      for (int axis = 0; axis < 3; ++axis) point[axis] += std::ldexp(random_.between(-1, 1), -50);
+    if (family_ == needles) point = Vector3d(point.x(), point.y() * 0x1p-24, point.z() * 0x1p-26);
+    if (family_ == far) point += Vector3d(0x1p30, -0x1p33, 0x1p20);
+    if (family_ == minute) point *= 0x1p-90;
+    if (family_ == huge) point *= 0x1p90;
+    return point;
+  }
+
+ private:
+  Family family_;
+  Random random_;
+};
+
+/// Where the point of segment (p, q) nearest to x is: 0 to 1.
+Rational nearest_on_segment(const Point& x, const Point& p, const Point& q) {
+  const Rational length_squared = squared_length(q - p);
+  if (length_squared == 0) return 0;
+  return std::clamp<Rational>(dot(q - p, x - p) / length_squared, 0, 1);
+}
+
+Point on_segment(const Point& p, const Point& q, const Rational& t) {
+  return p + t * (q - p);
+}
+
+/// The nearest point of a triangle as its place and squared distance: that of the inside where the foot of
+/// the perpendicular is strictly inside, otherwise that of the nearest side.
+std::pair<Place, Rational> nearest_on_triangle(const Point& x, const std::array<Point, 3>& c) {
+  const Point normal = cross(c[1] - c[0], c[2] - c[0]);
+  if (squared_length(normal) != 0) {
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i)
+      inside = inside && dot(normal, cross(c[(i + 1) % 3] - c[i], x - c[i])) > 0;
+    const Rational height = dot(normal, x - c[0]);
+    if (inside) return {Place::inside, height * height / squared_length(normal)};
+  }
+  std::optional<std::pair<Place, Rational>> best;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational t = nearest_on_segment(x, c[i], c[(i + 1) % 3]);
+    const Rational distance = squared_length(x - on_segment(c[i], c[(i + 1) % 3], t));
+    auto place = static_cast<Place>(static_cast<std::size_t>(Place::edge01) + i);
+    if (t == 0) place = static_cast<Place>(i);
+    if (t == 1) place = static_cast<Place>((i + 1) % 3);
+    if (!best || distance < best->second || (distance == best->second && place < best->first))
+      best = {place, distance};
+  }
+  return *best;
+}
+
+Along along_of(const Rational& t) {
+  if (t == 0) return Along::first;
+  return t == 1 ? Along::second : Along::inside;
+}
+
+/// The closest points of two segments, where they are one pair: places and squared distance.
+using SegmentPair = std::pair<std::array<Along, 2>, Rational>;
+std::optional<SegmentPair> nearest_on_segments(const std::array<Point, 2>& a, const std::array<Point, 2>& b) {
+  const Point u = a[1] - a[0];
+  const Point v = b[1] - b[0];
+  const Point w = b[0] - a[0];
+  const Point normal = cross(u, v);
+  const Rational determinant = squared_length(normal);
+  if (determinant != 0) {
+    const Rational s = dot(cross(w, v), normal) / determinant;
+    const Rational t = dot(cross(w, u), normal) / determinant;
+    if (s > 0 && s < 1 && t > 0 && t < 1) {
+      const Rational height = dot(normal, w);
+      return SegmentPair{{Along::inside, Along::inside}, height * height / determinant};
+    }
+  }
+  std::optional<SegmentPair> best;
+  bool unique = true;
+  const auto offer = [&](const SegmentPair& pair) {
+    if (best && pair.second > best->second) return;
+    if (best && pair.second == best->second) {
+      unique = unique && pair.first == best->first;
+      return;
+    }
+    best = pair;
+    unique = true;
+  };
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Rational t = nearest_on_segment(a[end], b[0], b[1]);
+    offer({{end == 0 ? Along::first : Along::second, along_of(t)},
+           squared_length(a[end] - on_segment(b[0], b[1], t))});
+    const Rational s = nearest_on_segment(b[end], a[0], a[1]);
+    offer({{along_of(s), end == 0 ? Along::first : Along::second},
+           squared_length(b[end] - on_segment(a[0], a[1], s))});
+  }
+  if (!unique) return std::nullopt;
+  return best;
+}
+
+struct Tally {
+  std::size_t compared = 0;
+  std::size_t certain = 0;
+  std::array<std::size_t, 9> places{};
+};
+
+/// On a grid many questions have the answer zero, and of needles plain double knows little; elsewhere it is
+/// certain of nearly all.
+std::size_t least_percent(std::uint64_t family) {
+  if (family == Generator::grid || family == Generator::nearly_grid) return 10;
+  return family == Generator::needles ? 50 : 75;
+}
+
+void check_range(const SquaredRange& range, const Rational& truth) {
+  REQUIRE(Rational(range.low) <= truth);
+  REQUIRE(std::isfinite(range.high));
+  REQUIRE(truth <= Rational(range.high));
+}
+
+}  // namespace
+
+TEST_CASE("certain: the place of a point's nearest point in a triangle") {
+  Tally all;
+  for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
+    Generator generator(static_cast<Generator::Family>(family), family + 1);
+    Tally tally;
+    for (int i = 0; i < 1500; ++i) {
+      const Vector3d point = generator.point();
+      const std::array corner{generator.point(), generator.point(), generator.point()};
+      ++tally.compared;
+      Place place{};
+      SquaredRange range;
+      if (!certain_place(point, corner, place, range)) continue;
+      ++tally.certain;
+      const auto [expected, distance] =
+          nearest_on_triangle(oracle::exact(point),
+                              {oracle::exact(corner[0]), oracle::exact(corner[1]), oracle::exact(corner[2])});
+      INFO("family " << family << ", case " << i);
+      REQUIRE(place == expected);
+      check_range(range, distance);
+      ++all.places[static_cast<std::size_t>(place)];
+    }
+    INFO("family " << family << ": " << tally.certain << " of " << tally.compared);
+    CHECK(tally.certain * 100 >= tally.compared * least_percent(family));
+    all.compared += tally.compared;
+    all.certain += tally.certain;
+  }
+  for (std::size_t place = 0; place <= static_cast<std::size_t>(Place::inside); ++place)
+    CHECK(all.places[place] > 100);
+  std::cout << "compared " << all.certain << " certain places in triangles of " << all.compared << "\n";
+}
+
+TEST_CASE("certain: the places of two segments' closest points") {
+  Tally all;
+  for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
+    Generator generator(static_cast<Generator::Family>(family), family + 20);
+    Tally tally;
+    for (int i = 0; i < 1500; ++i) {
+      const std::array a{generator.point(), generator.point()};
+      std::array b{generator.point(), generator.point()};
+      if (i % 5 == 0) b[1] = b[0] + (a[1] - a[0]) * (i % 2 == 0 ? 1.0 : -0.5);  // parallel, but for rounding
+      ++tally.compared;
+      std::array<Along, 2> places{};
+      SquaredRange range;
+      if (!certain_places(a, b, places, range)) continue;
+      ++tally.certain;
+      const auto expected = nearest_on_segments({oracle::exact(a[0]), oracle::exact(a[1])},
+                                                {oracle::exact(b[0]), oracle::exact(b[1])});
+      INFO("family " << family << ", case " << i);
+      REQUIRE(expected.has_value());
+      REQUIRE(places == expected->first);
+      check_range(range, expected->second);
+      ++all.places[static_cast<std::size_t>(places[0]) * 3 + static_cast<std::size_t>(places[1])];
+    }
+    INFO("family " << family << ": " << tally.certain << " of " << tally.compared);
+    CHECK(tally.certain * 100 >= tally.compared * least_percent(family));
+    all.compared += tally.compared;
+    all.certain += tally.certain;
+  }
+  for (const std::size_t count : all.places) CHECK(count > 100);
+  std::cout << "compared " << all.certain << " certain places of segments of " << all.compared << "\n";
+}
+
+TEST_CASE("certain: a range of squared distances is below or beyond a limit, or neither") {
+  const SquaredRange range{4, 9};
+  CHECK(range.is_below(3.1));
+  CHECK_FALSE(range.is_below(3));
+  CHECK(range.is_beyond(1.9));
+  CHECK_FALSE(range.is_beyond(2));
+  CHECK_FALSE(range.is_below(2.5));
+  CHECK_FALSE(range.is_beyond(2.5));
+  CHECK_FALSE(SquaredRange{}.is_below(1e300));
+  CHECK_FALSE(SquaredRange{}.is_beyond(0));
+  CHECK_FALSE(SquaredRange{0x1p-1060, 1}.is_beyond(0x1p-540));  // the square of the limit is a denormal
+}
+
+}  // namespace graze::tests
