@@ -44,10 +44,14 @@ class LeafCache {
   void reserve_as(const LeafCache& other) {
     if (!other.slots_.empty()) reserve(other.room_);
   }
+  /// In every place for the largest leaf so far: which leaf goes where is a matter of chance.
   void reserve(const PairRoom& room) {
-    room_.leaf_vertices = std::max(room_.leaf_vertices, room.leaf_vertices);
-    room_.leaf_edges = std::max(room_.leaf_edges, room.leaf_edges);
-    room_.leaf_faces = std::max(room_.leaf_faces, room.leaf_faces);
+    const auto make = [](std::size_t& have, std::size_t count) {
+      have = std::max(have, std::min(count, most_everywhere));
+    };
+    make(room_.leaf_vertices, room.leaf_vertices);
+    make(room_.leaf_edges, room.leaf_edges);
+    make(room_.leaf_faces, room.leaf_faces);
     slots_.resize(slot_count);
     for (Slot& slot : slots_) slot.features.reserve(room_);
   }
@@ -58,21 +62,25 @@ class LeafCache {
   }
 
  private:
-  /// In every place for the largest leaf so far: which leaf goes where is a matter of chance.
   void make_room(const Region& leaf) {
-    const bool enough =
-        leaf.vertex_count <= room_.leaf_vertices &&
-        (vertices_only_ || (leaf.edge_count <= room_.leaf_edges && leaf.face_count <= room_.leaf_faces));
+    const auto fits = [](std::size_t room, std::uint32_t count) {
+      return room >= std::min<std::size_t>(count, most_everywhere);
+    };
+    const bool enough = fits(room_.leaf_vertices, leaf.vertex_count) &&
+                        (vertices_only_ || (fits(room_.leaf_edges, leaf.edge_count) &&
+                                            fits(room_.leaf_faces, leaf.face_count)));
     if (enough && !slots_.empty()) return;
-    PairRoom room = room_;
-    room.leaf_vertices = std::max<std::size_t>(room.leaf_vertices, leaf.vertex_count);
+    PairRoom room;
+    room.leaf_vertices = leaf.vertex_count;
     if (!vertices_only_) {
-      room.leaf_edges = std::max<std::size_t>(room.leaf_edges, leaf.edge_count);
-      room.leaf_faces = std::max<std::size_t>(room.leaf_faces, leaf.face_count);
+      room.leaf_edges = leaf.edge_count;
+      room.leaf_faces = leaf.face_count;
     }
     reserve(room);
   }
 
+  /// A leaf of more features of a kind, as coincident vertices make, takes room in its own place alone.
+  static constexpr std::size_t most_everywhere = 512;
   /// A leaf has one place only. Leaves beside each other have numbers beside each other.
   static constexpr std::size_t slot_count = 64;
   struct Slot {
