@@ -17,7 +17,8 @@ void Sides::begin() {
 
 Side Sides::of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& direction,
                DecisionCount& count) {
-  const std::size_t place = piece.feature.index * 3 + static_cast<std::size_t>(piece.feature.kind);
+  const std::size_t place =
+      std::size_t{piece.feature.index} * 3 + static_cast<std::size_t>(piece.feature.kind);
   Entry& entry = entries_[place % size];
   if (entry.generation != generation_ || entry.piece != piece) {
     entry.piece = piece;
@@ -70,7 +71,7 @@ class Batch {
   static bool is_a_low(const ContactName& name) { return corner_count(name.a) <= corner_count(name.b); }
 
   void put(const Surface& surface, const FeaturePiece& piece, std::uint32_t corners,
-           kernels::Points* points) {
+           kernels::Points* points) const {
     const Simplex simplex = simplex_of(surface, piece);
     for (std::uint32_t corner = 0; corner < corners; ++corner)
       for (int axis = 0; axis < 3; ++axis) points[corner][axis][count_] = simplex.point[corner][axis];

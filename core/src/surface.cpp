@@ -144,13 +144,13 @@ double Surface::leaf_size() const {
 }
 
 Surface::ReadResult Surface::set_positions(const PositionView& view) {
-  const ReadResult result = take(look_at_positions(view, 0, mesh_->vertex_count()));
+  ReadResult result = take(look_at_positions(view, 0, mesh_->vertex_count()));
   if (result.changed) write_positions(view, 0, mesh_->vertex_count());
   return result;
 }
 
 Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
-  const ReadResult result = take(look_at_pose(rows, 0, mesh_->vertex_count()));
+  ReadResult result = take(look_at_pose(rows, 0, mesh_->vertex_count()));
   if (result.changed) write_pose(rows, 0, mesh_->vertex_count());
   return result;
 }

@@ -8,7 +8,7 @@ namespace graze {
 /// Bytes of the allocator's that a vector holds; not what its elements hold themselves.
 template <typename Element>
 std::size_t bytes_of(const std::vector<Element>& elements) {
-  return elements.capacity() * sizeof(Element);
+  return elements.capacity() * sizeof(Element);  // NOLINT(bugprone-sizeof-expression): of pointers too
 }
 
 }  // namespace graze
