@@ -1,28 +1,26 @@
-# Installs graze (core and scheduler) into a prefix of its own, and builds and runs the contract's program against it:
-# by its CMake package for several instruction sets, by pkg-config, and with graze as a subproject.
+# Installs graze into a prefix of its own, and builds and runs the contract's program against it: by its CMake package for
+# several instruction sets, and by pkg-config. `static` is the build under test, as users build it, and once more graze as
+# a subproject; `shared` is core and scheduler alone, of which it is asked only that they work.
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-if(KIND STREQUAL "shared")
-  set(shared ON)
-else()
-  set(shared OFF)
-endif()
-# What users run is built once, as static libraries; of the others it is asked only that they work.
 set(quick "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG")
-set(optimised "")
-if(shared)
-  set(optimised ${quick})
-endif()
 set(prefix ${WORK}/prefix)
 file(REMOVE_RECURSE ${prefix})
-run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${WORK}/graze -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
-  -DBUILD_SHARED_LIBS=${shared} -DGRAZE_IO=OFF -DGRAZE_BUILD_TOOLS=OFF -DGRAZE_BUILD_TESTS=OFF
-  -DCMAKE_INSTALL_PREFIX=${prefix} -DCMAKE_INSTALL_LIBDIR=lib ${optimised})
-run(${CMAKE_COMMAND} --build ${WORK}/graze)
-run(${CMAKE_COMMAND} --install ${WORK}/graze)
+if(KIND STREQUAL "static")
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+else()
+  run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${WORK}/graze -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
+    -DBUILD_SHARED_LIBS=ON -DGRAZE_IO=OFF -DGRAZE_BUILD_TOOLS=OFF -DGRAZE_BUILD_TESTS=OFF
+    -DCMAKE_INSTALL_PREFIX=${prefix} ${quick})
+  run(${CMAKE_COMMAND} --build ${WORK}/graze)
+  run(${CMAKE_COMMAND} --install ${WORK}/graze)
+endif()
+file(GLOB_RECURSE pkg_config_file ${prefix}/*/graze.pc)
+cmake_path(GET pkg_config_file PARENT_PATH pkg_config_folder)
+cmake_path(GET pkg_config_folder PARENT_PATH library_folder)
 
 set(flag_sets plain native)
 set(flags_plain "")
@@ -42,16 +40,18 @@ foreach(flags ${flag_sets})
   run(${build}/consumer)
 endforeach()
 
-set(ENV{PKG_CONFIG_PATH} ${prefix}/lib/pkgconfig)
+set(ENV{PKG_CONFIG_PATH} ${pkg_config_folder})
 execute_process(COMMAND pkg-config --cflags --libs graze OUTPUT_VARIABLE pkg_flags OUTPUT_STRIP_TRAILING_WHITESPACE
   COMMAND_ERROR_IS_FATAL ANY)
 separate_arguments(pkg_flags)
 run(${CXX} -std=c++20 -O1 ${PROGRAM}/consumer.cpp -o ${WORK}/consumer_by_pkg_config ${pkg_flags} -pthread)
-set(ENV{LD_LIBRARY_PATH} ${prefix}/lib)
+set(ENV{LD_LIBRARY_PATH} ${library_folder})
 run(${WORK}/consumer_by_pkg_config)
 unset(ENV{LD_LIBRARY_PATH})
 
-run(${CMAKE_COMMAND} -G Ninja -S ${SUBPROJECT} -B ${WORK}/subproject -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
-  -DGRAZE=${SOURCE} -DPROGRAM=${PROGRAM} -DBUILD_SHARED_LIBS=${shared} -DGRAZE_IO=OFF ${quick})
-run(${CMAKE_COMMAND} --build ${WORK}/subproject)
-run(${WORK}/subproject/embedded)
+if(KIND STREQUAL "static")
+  run(${CMAKE_COMMAND} -G Ninja -S ${SUBPROJECT} -B ${WORK}/subproject -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${CXX} -DGRAZE=${SOURCE} -DPROGRAM=${PROGRAM} -DGRAZE_IO=OFF ${quick})
+  run(${CMAKE_COMMAND} --build ${WORK}/subproject)
+  run(${WORK}/subproject/embedded)
+endif()
