@@ -3,6 +3,7 @@
 #include "naming.hpp"
 
 namespace graze {
+
 Box box_of(const Surface& surface, Part part, std::uint32_t index) {
   const Mesh& mesh = surface.mesh();
   Box box;
@@ -62,36 +63,44 @@ kernels::BoxInFrame empty_box() {
   return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
 }
 
+/// The box of what `look(block, block of all, kernel, box)` finds, which extends the box.
+template <typename Look>
+kernels::BoxInFrame box_of_vertices(LeafFeatures& own, const LeafFeatures& all, const Look& look) {
+  kernels::BoxInFrame found = empty_box();
+  look(own.vertices, all.vertices, kernels::filter().clip_points, found);
+  return found;
+}
+
+template <typename Look>
+kernels::BoxInFrame box_of_all(LeafFeatures& own, const LeafFeatures& all, const Look& look) {
+  const kernels::Filter& filter = kernels::filter();
+  kernels::BoxInFrame found = box_of_vertices(own, all, look);
+  look(own.edges, all.edges, filter.clip_segments, found);
+  look(own.triangles, all.triangles, filter.clip_triangles, found);
+  look(own.folds, all.folds, filter.clip_segments, found);
+  return found;
+}
+
+auto clipping(const kernels::ClipBy& by) {
+  return [&by](auto& own, const auto& all, auto kernel, auto& found) { own.clip(all, kernel, by, found); };
+}
+auto taking(const kernels::ClipBy& by) {
+  return [&by](auto& own, const auto& all, auto kernel, auto& found) { own.take(all, kernel, by, found); };
+}
+
 }  // namespace
 
 kernels::BoxInFrame LeafFeatures::vertices_near_box(const LeafFeatures& all, const kernels::ClipBy& by) {
-  kernels::BoxInFrame found = empty_box();
-  vertices.clip(all.vertices, kernels::filter().clip_points, by, found);
-  return found;
+  return box_of_vertices(*this, all, clipping(by));
 }
-
 kernels::BoxInFrame LeafFeatures::near_box(const LeafFeatures& all, const kernels::ClipBy& by) {
-  const kernels::Filter& filter = kernels::filter();
-  kernels::BoxInFrame found = vertices_near_box(all, by);
-  edges.clip(all.edges, filter.clip_segments, by, found);
-  triangles.clip(all.triangles, filter.clip_triangles, by, found);
-  folds.clip(all.folds, filter.clip_segments, by, found);
-  return found;
+  return box_of_all(*this, all, clipping(by));
 }
-
 kernels::BoxInFrame LeafFeatures::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by) {
-  kernels::BoxInFrame found = empty_box();
-  vertices.take(all.vertices, kernels::filter().clip_points, by, found);
-  return found;
+  return box_of_vertices(*this, all, taking(by));
 }
-
 kernels::BoxInFrame LeafFeatures::take(const LeafFeatures& all, const kernels::ClipBy& by) {
-  const kernels::Filter& filter = kernels::filter();
-  kernels::BoxInFrame found = take_vertices(all, by);
-  edges.take(all.edges, filter.clip_segments, by, found);
-  triangles.take(all.triangles, filter.clip_triangles, by, found);
-  folds.take(all.folds, filter.clip_segments, by, found);
-  return found;
+  return box_of_all(*this, all, taking(by));
 }
 
 void FoldAnswers::begin(const Surface& surface, const SegmentBlock& diagonals) {
