@@ -5,6 +5,7 @@
 #include <cmath>
 #include <graze/surface.hpp>
 
+#include "mean_edge_length.hpp"
 #include "models/models.hpp"
 #include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
@@ -17,18 +18,6 @@ constexpr double two_pi = 6.28318530717958648;
 /// How far the models are from the middle, over the frames.
 double outward(double part_of_way) {
   return 1.35 + 0.6 * std::cos(two_pi * part_of_way);
-}
-
-double mean_length(const std::vector<std::shared_ptr<const Mesh>>& meshes) {
-  double sum = 0;
-  double count = 0;
-  for (const auto& mesh : meshes)
-    for (std::uint32_t edge = 0; edge < mesh->edge_count(); ++edge) {
-      const auto [low, high] = mesh->edge(edge);
-      sum += (mesh->rest()[low] - mesh->rest()[high]).norm();
-      count += 1;
-    }
-  return sum / count;
 }
 
 std::vector<double> largest_epsilon(const std::vector<std::shared_ptr<const Mesh>>& meshes) {
@@ -69,7 +58,7 @@ MovingModels::MovingModels(std::uint64_t seed, std::uint32_t frame_count) : fram
     body.twist = random.between(-0.8, 0.8);
     bodies_.push_back(std::move(body));
   }
-  mean_edge_length_ = mean_length(meshes);
+  mean_edge_length_ = tools::mean_edge_length(meshes);
   level_epsilon_ = largest_epsilon(meshes);
 }
 

@@ -9,6 +9,7 @@
 
 #include "bench/scene_parts.hpp"
 #include "bench/shapes.hpp"
+#include "mean_edge_length.hpp"
 #include "scenes/random.hpp"
 
 namespace graze::bench {
@@ -59,18 +60,6 @@ std::vector<std::shared_ptr<const Mesh>> connected_parts(const Mesh& mesh) {
   return meshes;
 }
 
-double mean_edge(const std::vector<std::shared_ptr<const Mesh>>& meshes) {
-  double sum = 0;
-  double count = 0;
-  for (const auto& mesh : meshes)
-    for (std::uint32_t i = 0; i < mesh->edge_count(); ++i) {
-      const auto [a, b] = mesh->edge(i);
-      sum += (mesh->rest()[a] - mesh->rest()[b]).norm();
-      ++count;
-    }
-  return sum / count;
-}
-
 /// Waves of about twenty edges in each direction, of half an edge.
 Body with_waves(std::shared_ptr<const Mesh> mesh, double edge, scenes::Random& random) {
   const Eigen::Vector3d phase = random.vector(0, 6);
@@ -100,7 +89,7 @@ BenchScene real_mesh(std::string name, std::string what, const std::string& file
   const io::MeshFile read = io::MeshFile::read(file);
   for (const io::LoadedObject& object : read.objects())
     for (const auto& part : connected_parts(*object.mesh)) meshes.push_back(part);
-  const double edge = mean_edge(meshes);
+  const double edge = tools::mean_edge_length(meshes);
   scene.distance = edge / 2;
   scenes::Random random(7);
   for (const auto& mesh : meshes) scene.bodies.push_back(with_waves(mesh, edge, random));

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <graze/mesh.hpp>
+#include <memory>
+#include <span>
+
+namespace graze::tools {
+
+/// Of all edges of some meshes at rest, each counted once for each mesh that has it.
+double mean_edge_length(std::span<const std::shared_ptr<const Mesh>> meshes);
+
+}  // namespace graze::tools
