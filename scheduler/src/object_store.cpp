@@ -260,16 +260,24 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
       list_to_read(*object);
   }
   read_listed(tasks, diagnostics);
+  see_new();
+}
+
+/// From now on promises may speak of where new objects are that stand as they rest.
+void ObjectStore::see_new() {
+  for (auto object = objects_.rbegin(); object != objects_.rend() && (*object)->serial >= first_unseen_;
+       ++object)
+    if (!has_input(**object)) (*object)->promised = 0;
+  first_unseen_ = next_serial_;
 }
 
 void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
                               std::vector<Diagnostic>& diagnostics) {
-  std::erase_if(wanted, [](const Object* object) { return !object->unread; });
-  std::sort(wanted.begin(), wanted.end(),
-            [](const Object* left, const Object* right) { return left->serial < right->serial; });
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   begin_list();
-  for (Object* const object : wanted) list_to_read(*object);
+  for (Object* const object : wanted) {
+    object->wanted = false;
+    list_to_read(*object);
+  }
   read_listed(tasks, diagnostics);
 }
 

@@ -33,10 +33,12 @@ struct Object {
   bool is_new = false;          ///< given since the last step
   bool may_have_input = false;  ///< it is among those that the store looks at in the next read
   double promise = std::numeric_limits<double>::infinity();
-  /// No vertex is further from where the surface has it, by the promises since that was read.
-  double promised = 0;
+  /// No vertex is further from where the surface has it, by the promises since that was read. At first
+  /// without a bound: promises speak of where a step saw the object, and none has.
+  double promised = std::numeric_limits<double>::infinity();
   /// There are positions that have not been read, since promises say that they are far from everything.
   bool unread = false;
+  bool wanted = false;  ///< among those that `read_unread` was asked for
   /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
   bool frozen = false;
 
@@ -74,7 +76,7 @@ class ObjectStore {
   /// each object's memory at most once, several objects at a time; appends what was wrong in the objects'
   /// order.
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
-  /// Reads those of `wanted` that have not been read; may name objects several times.
+  /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
   /// Those that are there after `read_positions`; ascending by serial.
@@ -103,6 +105,7 @@ class ObjectStore {
   /// Has the object looked at in the next read.
   void expect_input(Object& object);
   void drop_removed();
+  void see_new();
   void begin_list();
   void list_to_read(Object& object);
   void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
@@ -119,6 +122,7 @@ class ObjectStore {
   std::vector<std::optional<Diagnostic>> read_problems_;        ///< of `to_read_`; empty between reads
   std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial
   std::uint64_t next_serial_ = 0;
+  std::uint64_t first_unseen_ = 0;  ///< the serial of the first object that no step has seen
   std::size_t surface_bytes_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "pair_table.hpp"
 
 #include <graze/bytes_of.hpp>
+#include <utility>
 
 namespace graze {
 
@@ -27,16 +28,23 @@ void PairTable::read_what_is_near(std::span<const PlacePair> pairs, const FrameR
                                   TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
   const auto objects = store_.objects();
   wanted_.clear();
+  const auto want = [&](Object* object) {
+    if (object != nullptr && object->unread && !std::exchange(object->wanted, true))
+      wanted_.push_back(object);
+  };
   for (const PlacePair pair : pairs) {
     const ObjectSummary& a = summaries_[first_of(pair)];
     const ObjectSummary& b = summaries_[second_of(pair)];
     if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::looked_at &&
-        lower_distance(a.box, b.box) <= filter_.reach(a, b))
-      wanted_.insert(wanted_.end(), {objects[first_of(pair)].get(), objects[second_of(pair)].get()});
+        lower_distance(a.box, b.box) <= filter_.reach(a, b)) {
+      want(objects[first_of(pair)].get());
+      want(objects[second_of(pair)].get());
+    }
   }
-  for (const PairReport& row : previous.pairs())
-    for (Object* const object : {store_.find(row.a), store_.find(row.b)})
-      if (object != nullptr && object->unread) wanted_.push_back(object);
+  for (const PairReport& row : previous.pairs()) {
+    want(store_.find(row.a));
+    want(store_.find(row.b));
+  }
   if (wanted_.empty()) return;
   store_.read_unread(wanted_, tasks, diagnostics);
   summaries_.refresh_unread(objects);
@@ -125,7 +133,7 @@ void PairTable::reserve(std::size_t objects, std::size_t pairs, std::size_t leaf
   selection_.reserve(pairs);
   memories_.reserve(pairs, leaf_pairs);
   jobs_.reserve(pairs);
-  wanted_.reserve(2 * pairs);
+  wanted_.reserve(objects);
 }
 
 std::size_t PairTable::byte_count() const {

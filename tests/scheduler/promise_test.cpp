@@ -43,6 +43,27 @@ struct Row {
 
 }  // namespace
 
+TEST_CASE("a promise about an object that no step has seen does not leave it unread") {
+  // Everything starts where the meshes rest, one upon the other, and is bound elsewhere.
+  std::vector<std::vector<Eigen::Vector3f>> memory;
+  for (int i = 0; i < 6; ++i) memory.push_back(floats_of(moved(plate_mesh()->rest(), {0, 0, 4.0 * i})));
+  const auto first_step = [&](double promise) {
+    Scene scene(settings_of(0.25, 1));
+    for (const auto& positions : memory) {
+      const ObjectId id = scene.add(plate_mesh());
+      scene.bind_positions(id, positions, BindPolicy::when_told);
+      scene.positions_changed(id, promise);
+    }
+    return scene.step();
+  };
+  const ReportHandle report = first_step(0.0625);
+  CHECK(report->diagnostics().empty());
+  CHECK(report->pairs().empty());
+  CHECK(report->statistics().objects_unread == 0);
+  const double none = std::numeric_limits<double>::infinity();
+  CHECK(report->statistics().boxes_tested == first_step(none)->statistics().boxes_tested);
+}
+
 TEST_CASE("what promises say is far is not read") {
   for (const BindPolicy policy : {BindPolicy::every_step, BindPolicy::when_told}) {
     Row row(policy);
