@@ -1,12 +1,12 @@
 #!/bin/sh
 # Installs the Debian packages that graze is built, run and tested with; with the argument `peers` also those that
-# `graze bench` measures it against and what its kernels are timed with. Run as root, or where sudo asks for no word.
+# `graze bench` measures it against and what its kernels are timed and its instructions counted with. Run as root, or where sudo asks for no word.
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
   libtinyobjloader-dev nlohmann-json3-dev libcli11-dev libpng-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
-  libbenchmark-dev"
+  libbenchmark-dev valgrind"
 
 missing=""
 for package in $packages; do
