@@ -104,6 +104,23 @@ void add_of_threads(const Run& one, const Run& two, std::vector<Aim>& aims) {
                     one.median(read_limit) / two.median(read_limit), true, "the gain of reading"});
 }
 
+/// How a figure grows with the number of objects, as a power of it.
+double exponent(double few, double many, const Run& from, const Run& to) {
+  return std::log(many / few) / std::log(static_cast<double>(to.objects) / static_cast<double>(from.objects));
+}
+
+/// More and more objects at one density.
+void add_of_growth(const Run& from, const Run& to, std::vector<Aim>& aims) {
+  const std::string task(1, static_cast<char>(to.task));
+  const std::string note = format("from %zu to %zu objects", from.objects, to.objects);
+  const double time = exponent(from.median(graze_name) / from.median(read_limit),
+                               to.median(graze_name) / to.median(read_limit), from, to);
+  if (!std::isnan(time)) aims.push_back({task + " / read grows by power", where(to), time, 0.1, false, note});
+  if (to.task == Task::A && to.threads == 1)
+    aims.push_back({"memory grows by power", where(to),
+                    exponent(from.graze.object_bytes, to.graze.object_bytes, from, to), 1.05, false, note});
+}
+
 }  // namespace
 
 std::vector<Aim> aims_of(const std::vector<Run>& runs) {
@@ -117,6 +134,10 @@ std::vector<Aim> aims_of(const std::vector<Run>& runs) {
       if (whole.scene == "S10a" && part.scene == "S10b" && whole.task == part.task &&
           whole.threads == part.threads)
         add_of_cropping(whole, part, aims);
+  for (const Run& from : runs)
+    for (const Run& to : runs)
+      if (from.scene == "G100" && to.scene == "G10000" && from.task == to.task && from.threads == to.threads)
+        add_of_growth(from, to, aims);
   for (const Run& one : runs)
     for (const Run& two : runs)
       if (one.threads == 1 && two.threads == 2 && one.scene == two.scene && one.task == two.task)

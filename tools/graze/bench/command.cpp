@@ -66,7 +66,8 @@ void check_scenes(const std::vector<std::string>& wanted) {
   for (const std::string& name : wanted)
     if (std::none_of(names.begin(), names.end(),
                      [&](std::string_view scene) { return is_asked_for(scene, {name}); }))
-      throw io::InputError("no scene \"" + name + "\"; there are S1 to S10");
+      throw io::InputError("no scene \"" + name +
+                           "\"; there are S1 to S10, and G100 to G10000 and V1000 to V100000");
 }
 
 void check_writable(const std::filesystem::path& file) {
@@ -143,7 +144,10 @@ void add_bench_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "bench", "Measures graze, what it competes with and the limits on the same positions in one run.");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("--scenes", options->scenes, "Which of S1 to S10; all by default")->delimiter(',');
+  command
+      ->add_option("--scenes", options->scenes,
+                   "Which of S1 to S10, all by default; or of G100 to G10000 and V1000 to V100000")
+      ->delimiter(',');
   command->add_option("--tasks", options->tasks, "A: vertex pairs, B: contacts, D: distances of objects")
       ->delimiter(',')
       ->check(CLI::IsMember({"A", "B", "D"}))

@@ -13,6 +13,13 @@ namespace {
 
 using scenes::Random;
 
+/// With a comma before the thousands.
+std::string thousands(std::size_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t place = digits.size(); place > 3;) digits.insert(place -= 3, ",");
+  return digits;
+}
+
 Eigen::Vector3d cell_of(std::size_t index, std::size_t columns, std::size_t rows) {
   const std::size_t column = index % columns;
   const std::size_t row = index / columns % rows;
@@ -73,12 +80,18 @@ BenchScene lattice() {
   return scene;
 }
 
-BenchScene spheres() {
-  BenchScene scene{"S4", "2 spheres of 100,000 vertices with a small contact patch", 0.02, 20, {}};
-  const auto mesh = mesh_of(models::sphere(400, 250));
+/// Two spheres of about `segments * rings` vertices; distance and motion are of the size of their edges.
+BenchScene spheres(std::string name, std::uint32_t segments, std::uint32_t rings) {
+  const double edge = 400.0 / segments;  // in those of the spheres of 100,000
+  BenchScene scene{std::move(name),
+                   "2 spheres of " + thousands(segments * rings) + " vertices with a small contact patch",
+                   0.02 * edge,
+                   20,
+                   {}};
+  const auto mesh = mesh_of(models::sphere(segments, rings));
   for (const double side : {-1.0, 1.0})
     scene.bodies.push_back(wobbling(mesh, {Eigen::Matrix3d::Identity(),
-                                           {side * 0.999, 0, 0},
+                                           {side * (1 - 0.001 * edge), 0, 0},
                                            {0.002, 0.002, 0.002},
                                            {0.1, 0.13, 0.17},
                                            side,
@@ -86,13 +99,16 @@ BenchScene spheres() {
   return scene;
 }
 
-BenchScene crowd() {
-  BenchScene scene{"S5", "10,000 surfaces of 258 vertices on a jittered lattice", 0.04, 8, {}};
+/// Surfaces at one density, however many there are.
+BenchScene crowd(std::string name, std::size_t count) {
+  BenchScene scene{
+      std::move(name), thousands(count) + " surfaces of 258 vertices on a jittered lattice", 0.04, 8, {}};
   constexpr double jitter = 0.328;
   Random random(5);
   const auto mesh = mesh_of(models::sphere(16, 16));
-  for (std::size_t i = 0; i < 10'000; ++i) {
-    const Eigen::Vector3d centre = 2.55 * cell_of(i, 22, 22) + random.vector(-jitter, jitter);
+  const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d centre = 2.55 * cell_of(i, side, side) + random.vector(-jitter, jitter);
     const Eigen::Matrix3d turn = random.turn();
     scene.bodies.push_back(
         wobbling(mesh, {turn, centre, {0.02, 0.02, 0.02}, {0.1, 0.13, 0.16}, random.between(0, 6), 0.02}));
@@ -103,16 +119,20 @@ BenchScene crowd() {
 }  // namespace
 
 std::vector<std::string_view> scene_names() {
-  return {"S1",  "S2",  "S3",  "S4",  "S5",  "S6a", "S6b",  "S6c",
-          "S7a", "S7b", "S7c", "S8a", "S8b", "S9",  "S10a", "S10b"};
+  return {"S1",  "S2",  "S3", "S4",   "S5",   "S6a",  "S6b",   "S6c",    "S7a",   "S7b",    "S7c",
+          "S8a", "S8b", "S9", "S10a", "S10b", "G100", "G1000", "G10000", "V1000", "V10000", "V100000"};
 }
 
 BenchScene make_scene(std::string_view name, const std::string& data) {
   if (name == "S1") return paths();
   if (name == "S2") return pile();
   if (name == "S3") return lattice();
-  if (name == "S4") return spheres();
-  if (name == "S5") return crowd();
+  if (name == "S4" || name == "V100000") return spheres(std::string(name), 400, 250);
+  if (name == "S5" || name == "G10000") return crowd(std::string(name), 10'000);
+  if (name == "G100") return crowd("G100", 100);
+  if (name == "G1000") return crowd("G1000", 1000);
+  if (name == "V1000") return spheres("V1000", 40, 25);
+  if (name == "V10000") return spheres("V10000", 125, 80);
   if (name == "S6a") return linked_tori();
   if (name == "S6b") return nested_shells();
   if (name == "S6c") return draped_cloth();

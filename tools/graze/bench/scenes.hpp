@@ -40,7 +40,8 @@ struct BenchScene {
   std::string missing = {};  ///< why there is none, where it needs data that is not there
 };
 
-/// All scenes' names. The first letters and digits are those of the specification; some have parts.
+/// All scenes' names. S1 to S10 are those of the specification, some in parts; G… are more and more objects
+/// at the density of S5, V… the two spheres of S4 with more and more vertices.
 std::vector<std::string_view> scene_names();
 
 /// The scene of one of these names; `data` is the folder of real meshes.
