@@ -39,7 +39,8 @@ MassSpringBody::MassSpringBody(const Points& positions, std::vector<Spring> spri
       velocities_(Points::Zero(positions.rows(), 3)) {
   if (!(vertex_mass > 0) || !(step > 0))
     throw std::invalid_argument("a mass-spring body needs a mass and a step above 0");
-  solver_.compute(system_matrix(springs_, positions.rows(), mass_, step_));
+  solver_ = std::make_unique<Eigen::SimplicialLDLT<Matrix>>(
+      system_matrix(springs_, positions.rows(), mass_, step_));
 }
 
 /// h²Jd: each spring at its rest length in its present direction, times its stiffness. Where both ends are
@@ -61,7 +62,7 @@ void MassSpringBody::step(const Points& forces) {
   Points inertia = positions_ + step_ * velocities_;
   if (forces.rows() > 0) inertia += (step_ * step_ / mass_) * forces;
   Points next = elastic_energy_at(inertia) <= sum_at_start(inertia) ? inertia : positions_;
-  for (int i = 0; i < iterations_; ++i) next = solver_.solve(mass_ * inertia + pulls(next));
+  for (int i = 0; i < iterations_; ++i) next = solver_->solve(mass_ * inertia + pulls(next));
   velocities_ = (next - positions_) / step_;
   positions_ = std::move(next);
 }

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "springs/spring_network.hpp"
@@ -59,7 +59,7 @@ class MassSpringBody {
   int iterations_;
   Points positions_;
   Points velocities_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;  ///< of M + h²L
+  std::unique_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> solver_;  ///< of M + h²L
 };
 
 }  // namespace graze::springs
