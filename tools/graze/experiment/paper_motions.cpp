@@ -85,9 +85,9 @@ SoftMotion three_humans_and_torus(Random& random) {
   };
   const double third = 2 * std::numbers::pi / 3;
   for (std::uint32_t i = 0; i < 3; ++i)
-    add("human", 0, "human_" + std::to_string(i), scaled(models::human(), 38.5), on_ring(45, i / 3.0, 0),
+    add("human", 0, "human_" + std::to_string(i), scaled(models::human(), 38.5), on_ring(40, i / 3.0, 0),
         third * i - std::numbers::pi / 2);
-  add("torus", 1, "torus", scaled(models::torus(32, 24, 0.8, 0.2), 48), {0, 0, 60}, 0);
+  add("torus", 1, "torus", scaled(models::torus(32, 24, 0.8, 0.2), 48), {0, 0, 72}, 0);
   return motion;
 }
 
