@@ -57,6 +57,8 @@ struct Study {
   std::vector<ResultTable> tables;
   std::vector<Figure> figures;
   std::vector<Claim> claims;
+  /// What has to hold and does not, a sentence each: the command fails once everything is written.
+  std::vector<std::string> violations;
 };
 
 }  // namespace graze::tools
