@@ -48,19 +48,19 @@ struct RowResult {
   }
 };
 
-/// Exact mode, or within, against brute force over all steps.
+/// Exact mode, or within, against the truth.
 struct ContactCheck {
   std::string name;
   ContactDetail detail = ContactDetail::regions;
   double contact_distance = 0;
-  std::uint64_t steps = 0;
-  std::uint64_t wrong_steps = 0;  ///< recall or precision below 1
+  std::uint64_t compared = 0;  ///< pairs of objects in all steps
+  std::uint64_t wrong = 0;     ///< of those, with recall or precision below 1
   std::uint64_t contacts_true = 0;
   std::uint64_t contacts_reported = 0;
-  std::uint64_t contacts_found = 0;     ///< of the true ones
-  std::uint64_t distances_checked = 0;  ///< of pairs of objects
-  std::uint64_t distances_wrong = 0;    ///< bounds without the truth between them
-  double widest = 0;                    ///< upper - lower of pairs that are not in contact
+  std::uint64_t contacts_found = 0;   ///< of the true ones
+  std::uint64_t distances = 0;        ///< of pairs of objects in all steps
+  std::uint64_t distances_wrong = 0;  ///< of those, bounds without the truth between them
+  double widest = 0;                  ///< upper - lower
 };
 
 /// Vertices that leave their region's initial epsilon, of one kind and level.

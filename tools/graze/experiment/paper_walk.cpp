@@ -19,7 +19,9 @@ PlacedObject::PlacedObject(const RecordedObject& object, std::size_t frame) : me
   const PositionView positions = object.positions(frame);
   for (std::size_t i = 0; i < positions.size(); ++i) points_.push_back(positions[i]);
   level_radii_.resize(tree().level_count());
-  for (const Region& region : tree().regions()) {
+  for (std::uint32_t index = 0; index < tree().region_count(); ++index) {
+    const Region& region = tree().region(index);
+    if (region.is_leaf()) leaves_.push_back(index);
     double squared = 0;
     Box box;
     for (const std::uint32_t vertex : tree().vertices(region)) {
@@ -101,18 +103,14 @@ VertexPair PaperWalk::walk_from(VertexPair at) const {
 }
 
 std::vector<std::uint32_t> PaperWalk::near_leaves(double threshold) {
+  const double limit = threshold * threshold;
   std::vector<std::uint32_t> near;
-  if (!(squared_distance(a_.boxes()[0], b_.boxes()[0]) < threshold * threshold)) return near;
-  for (std::uint32_t a = 0; a < a_.tree().region_count(); ++a) {
-    if (!a_.tree().region(a).is_leaf()) continue;
-    for (std::uint32_t b = 0; b < b_.tree().region_count(); ++b) {
-      if (!b_.tree().region(b).is_leaf() ||
-          !(squared_distance(a_.boxes()[a], b_.boxes()[b]) < threshold * threshold))
-        continue;
-      const std::uint32_t number = number_of(a, b);
-      if (leaves_[number].nearest.squared < threshold * threshold) near.push_back(number);
-    }
-  }
+  if (!(squared_distance(a_.boxes()[0], b_.boxes()[0]) < limit)) return near;
+  for_each_pair_of_leaves([&](std::uint32_t a, std::uint32_t b) {
+    if (!(squared_distance(a_.boxes()[a], b_.boxes()[b]) < limit)) return;
+    const std::uint32_t number = number_of(a, b);
+    if (leaves_[number].nearest.squared < limit) near.push_back(number);
+  });
   return near;
 }
 
@@ -127,9 +125,21 @@ std::vector<VertexPair> PaperWalk::near_vertices(double threshold) {
 }
 
 VertexPair PaperWalk::nearest_vertices() const {
-  VertexPair nearest = no_pair;
-  for (const std::uint32_t a : a_.tree().vertices())
-    for (const std::uint32_t b : b_.tree().vertices()) nearest = std::min(nearest, pair_of(a, b));
+  // The leaves whose boxes are nearest give a distance that leaves out nearly all others.
+  double least = std::numeric_limits<double>::infinity();
+  RegionPair first;
+  for_each_pair_of_leaves([&](std::uint32_t a, std::uint32_t b) {
+    const double squared = squared_distance(a_.boxes()[a], b_.boxes()[b]);
+    if (squared < least) {
+      least = squared;
+      first = {a, b};
+    }
+  });
+  VertexPair nearest = nearest_of(a_.tree().region(first.a), b_.tree().region(first.b));
+  for_each_pair_of_leaves([&](std::uint32_t a, std::uint32_t b) {
+    if (squared_distance(a_.boxes()[a], b_.boxes()[b]) <= nearest.squared)
+      nearest = std::min(nearest, nearest_of(a_.tree().region(a), b_.tree().region(b)));
+  });
   return nearest;
 }
 

@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <graze/box.hpp>
+#include <graze/leaf_front.hpp>
 #include <graze/mesh.hpp>
 #include <span>
 #include <unordered_map>
@@ -26,6 +27,8 @@ class PlacedObject {
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   /// By level: the largest of its regions' (eq. 3).
   [[nodiscard]] const std::vector<double>& level_radii() const { return level_radii_; }
+  /// The leaf regions, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& leaves() const { return leaves_; }
   /// By region: of its vertices.
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
 
@@ -34,6 +37,7 @@ class PlacedObject {
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> radii_;
   std::vector<double> level_radii_;
+  std::vector<std::uint32_t> leaves_;
   std::vector<Box> boxes_;
 };
 
@@ -94,6 +98,11 @@ class PaperWalk {
   }
   [[nodiscard]] bool passes(const PaperNumbers& numbers, const Region& a, const Region& b,
                             std::size_t level) const;
+  template <typename Visit>
+  void for_each_pair_of_leaves(const Visit& visit) const {
+    for (const std::uint32_t a : a_.leaves())
+      for (const std::uint32_t b : b_.leaves()) visit(a, b);
+  }
   void visit(const PaperNumbers& numbers, std::uint32_t a, std::uint32_t b, std::size_t level,
              PaperFound& found);
   std::uint32_t number_of(std::uint32_t a, std::uint32_t b);

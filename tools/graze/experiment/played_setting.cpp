@@ -69,6 +69,12 @@ ReportHandle PlayedScene::step(std::size_t frame) {
   return report;
 }
 
+const PairReport* PlayedScene::row(const FrameReport& report, std::size_t a, std::size_t b) const {
+  const auto found = std::ranges::find_if(
+      report.pairs(), [&](const PairReport& row) { return row.a == ids_[a] && row.b == ids_[b]; });
+  return found == report.pairs().end() ? nullptr : &*found;
+}
+
 std::vector<double> step_times(const RecordedMotion& motion, const PlayedSetting& setting,
                                std::uint32_t runs) {
   std::vector<double> fastest(motion.frame_count(), std::numeric_limits<double>::infinity());
