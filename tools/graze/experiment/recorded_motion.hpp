@@ -33,6 +33,10 @@ struct RecordedMotion {
   double mean_edge_length = 0;  ///< at rest, of all objects
   std::vector<RecordedObject> objects;
 
+  /// Whether two objects are parts of one body, which are not looked at against each other.
+  [[nodiscard]] bool in_one_group(std::size_t a, std::size_t b) const {
+    return objects[a].group != 0 && objects[a].group == objects[b].group;
+  }
   [[nodiscard]] std::size_t frame_count() const { return objects.empty() ? 0 : objects[0].frames.size(); }
 };
 

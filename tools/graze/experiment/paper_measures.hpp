@@ -1,0 +1,14 @@
+#pragma once
+
+#include "experiment/options.hpp"
+#include "experiment/paper_results.hpp"
+#include "experiment/recorded_motion.hpp"
+
+namespace graze::tools {
+
+/// Plays a motion to every row, to exact mode and to within, and compares each step with the independent walk
+/// over all pairs of leaves.
+PaperResults measure_paper(const RecordedMotion& motion, const std::vector<PaperRow>& rows,
+                           const ExperimentOptions& options);
+
+}  // namespace graze::tools
