@@ -40,6 +40,20 @@ struct Axis {
     return std::isfinite(low) ? std::pow(10, std::floor(std::log10(low) + 1e-9) - 1) : 1e-3;
   }
   [[nodiscard]] double place(double value) const { return is_log && value <= 0 ? zero() : value; }
+  /// Where the axis begins and ends.
+  [[nodiscard]] double first() const {
+    if (is_log) return (has_zero ? zero() : low) / 1.6;
+    return low >= 0 && low < 0.5 * high ? 0 : low - 0.05 * (high - low);
+  }
+  [[nodiscard]] double last() const {
+    if (is_log) return 1.6 * (std::isfinite(high) ? high : zero());
+    return high > first() ? high + 0.05 * (high - first()) : first() + 1;
+  }
+  /// 0 where the axis begins, 1 where it ends.
+  [[nodiscard]] double part(double value) const {
+    if (is_log) return std::log(place(value) / first()) / std::log(last() / first());
+    return (value - first()) / (last() - first());
+  }
 };
 
 Axis axis_of(const Figure& figure, char letter, bool is_log) {
@@ -53,32 +67,51 @@ Axis axis_of(const Figure& figure, char letter, bool is_log) {
 
 std::string set_axis(const Axis& axis, const std::string& title) {
   std::string text = format("set %clabel ", axis.letter) + gnuplot_quoted(title) + "\n";
-  text += format("set autoscale %c\nset %ctics auto\nset format %c '%%g'\n", axis.letter, axis.letter,
-                 axis.letter);
-  if (!axis.is_log) {
-    text += format("unset logscale %c\n", axis.letter);
-    if (axis.low >= 0 && axis.low < 0.5 * axis.high) text += format("set %crange [0:*]\n", axis.letter);
-    return text;
-  }
-  text += format("set logscale %c\n", axis.letter);
-  const double top = std::isfinite(axis.high) ? axis.high : 10 * axis.zero();
-  const double bottom = axis.has_zero ? axis.zero() : axis.low;
+  text += format("%s logscale %c\nset %ctics auto\nset format %c '%%g'\n", axis.is_log ? "set" : "unset",
+                 axis.letter, axis.letter, axis.letter);
   if (axis.has_zero) text += format("set %ctics add ('0' %.9g)\n", axis.letter, axis.zero());
-  return text + format("set %crange [%.9g:%.9g]\n", axis.letter, bottom / 1.6, top * 1.6);
+  return text + format("set %crange [%.9g:%.9g]\n", axis.letter, axis.first(), axis.last());
 }
+
+/// Keeps labels from being written over each other: where a later point's label is, none of an earlier one.
+class LabelRoom {
+ public:
+  LabelRoom(const Axis& x, const Axis& y) : x_(x), y_(y) {}
+
+  bool take(double x, double y, const std::string& label) {
+    const Box box{x_.part(x), y_.part(y), x_.part(x) + 0.02 + 0.0075 * static_cast<double>(label.size()),
+                  y_.part(y) + 0.04};
+    const bool is_free = std::ranges::none_of(taken_, [&](const Box& other) {
+      return box.left < other.right && other.left < box.right && box.low < other.high && other.low < box.high;
+    });
+    if (is_free) taken_.push_back(box);
+    return is_free;
+  }
+
+ private:
+  struct Box {
+    double left, low, right, high;
+  };
+  const Axis& x_;
+  const Axis& y_;
+  std::vector<Box> taken_;
+};
 
 std::string data_of(const Series& series, std::size_t index, const Axis& x, const Axis& y) {
   std::string text = format("$series%zu << EOD\n", index);
-  for (std::size_t i = 0; i < series.x.size(); ++i) {
-    text += format("%.9g %.9g", x.place(series.x[i]), y.place(series.y[i]));
-    if (!series.labels.empty()) {
-      std::string label = series.labels[i];
-      std::replace(label.begin(), label.end(), '"', '\'');
-      text += " \"" + label + "\"";
-    }
-    text += "\n";
-  }
+  for (std::size_t i = 0; i < series.x.size(); ++i)
+    text += format("%.9g %.9g\n", x.place(series.x[i]), y.place(series.y[i]));
   return text + "EOD\n";
+}
+
+std::string labels_of(const Series& series, const Axis& x, const Axis& y, LabelRoom& room) {
+  std::string text;
+  for (std::size_t i = series.labels.size(); i-- > 0;)
+    if (!series.labels[i].empty() && room.take(series.x[i], series.y[i], series.labels[i]))
+      text += "set label " + gnuplot_quoted(series.labels[i]) +
+              format(" at %.9g,%.9g left offset 0.6,0.5 font ',9' front\n", x.place(series.x[i]),
+                     y.place(series.y[i]));
+  return text;
 }
 
 std::string style_of(const Series& series, std::size_t index) {
@@ -88,7 +121,7 @@ std::string style_of(const Series& series, std::size_t index) {
       format(" pointtype %d pointsize 0.9", point_types[(index + turn) % point_types.size()]);
   if (!series.joined) return "with points" + colour + marks;
   const std::string dashes = format(" dashtype %zu linewidth 1.6", turn + 1);
-  if (series.x.size() > most_marks) return "with lines" + colour + dashes;
+  if (!series.marked || series.x.size() > most_marks) return "with lines" + colour + dashes;
   return "with linespoints" + colour + marks + dashes;
 }
 
@@ -98,14 +131,13 @@ std::string plot_of(const Figure& figure) {
   std::string text = "set title " + gnuplot_quoted(figure.title) + "\n" + set_axis(x, figure.x_title) +
                      set_axis(y, figure.y_title);
   std::string plots;
+  LabelRoom room(x, y);
   for (std::size_t i = 0; i < figure.series.size(); ++i) {
     const Series& series = figure.series[i];
     if (series.x.empty()) continue;
-    text += data_of(series, i, x, y);
+    text += data_of(series, i, x, y) + labels_of(series, x, y, room);
     plots += (plots.empty() ? "plot " : ", ") + format("$series%zu using 1:2 ", i) + style_of(series, i) +
              " title " + gnuplot_quoted(series.name);
-    if (!series.labels.empty())
-      plots += format(", $series%zu using 1:2:3 with labels left offset 0.6,0.5 font ',8' notitle", i);
   }
   return plots.empty() ? "" : text + plots + "\n";
 }
@@ -122,7 +154,8 @@ void draw(std::span<const Drawing> drawings) {
   std::string script;
   for (const Drawing& drawing : drawings)
     script += terminal_of(drawing.path) + "set output " + gnuplot_quoted(drawing.path.string()) +
-              "\nset grid linecolor rgb '#dddddd'\nset key below left maxrows 4 samplen 2\n" +
+              "\nset grid linecolor rgb '#dddddd'\nset key below left Left reverse maxrows 4 samplen 2 width "
+              "2\nset xlabel offset 0,0.3\n" +
               plot_of(*drawing.figure) + "unset output\nreset\n";
   if (!drawings.empty()) run_gnuplot(script, drawings.front().path.parent_path().string());
 }

@@ -26,14 +26,17 @@ std::string text_of(std::uint64_t value) {
   return std::to_string(value);
 }
 
-/// On one line, with no bar that would end the cell.
+/// On one line, with no bar that would end a cell and nothing that would begin a tag.
 std::string text_of(const std::string& value) {
   std::string text;
   for (const char letter : value) {
-    if (letter == '|')
+    if (letter == '|') {
       text += "\\|";
-    else
+    } else if (letter == '<') {
+      text += "&lt;";
+    } else {
       text += letter == '\n' ? ' ' : letter;
+    }
   }
   return text;
 }
@@ -73,13 +76,13 @@ std::string claims_of(const std::vector<Claim>& claims) {
 }
 
 std::string section_of(const Study& study, const ImageOf& image_of) {
-  std::string text = "<a id=\"" + study.name + "\"></a>\n\n## " + study.title + "\n\n" + study.text;
+  std::string text = "<a id=\"" + study.name + "\"></a>\n\n## " + text_of(study.title) + "\n\n" + study.text;
   while (text.ends_with('\n')) text.pop_back();
   text += "\n\n" + claims_of(study.claims);
   for (const std::string& violation : study.violations) text += "**Does not hold:** " + violation + "\n\n";
   for (const Figure& figure : study.figures) {
     const std::string image = image_of(study, figure);
-    if (!image.empty()) text += "![" + figure.title + "](" + image + ")\n\n";
+    if (!image.empty()) text += "![" + text_of(figure.title) + "](" + image + ")\n\n";
   }
   for (const ResultTable& table : study.tables)
     if (table.shown) text += table_of(table);
@@ -90,7 +93,7 @@ std::string section_of(const Study& study, const ImageOf& image_of) {
 
 std::string markdown_of(std::span<const Study> studies, const ImageOf& image_of) {
   std::string text = introduction;
-  for (const Study& study : studies) text += "- [" + study.title + "](#" + study.name + ")\n";
+  for (const Study& study : studies) text += "- [" + text_of(study.title) + "](#" + study.name + ")\n";
   text += "\n";
   for (const Study& study : studies) text += section_of(study, image_of);
   text.pop_back();  // one newline ends the file

@@ -1,5 +1,6 @@
 #include "experiment/run_studies.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <graze/io/error.hpp>
 #include <vector>
@@ -30,9 +31,14 @@ std::string file_name(const Study& study, const Figure& figure, const char* exte
   return study.name + "_" + figure.name + extension;
 }
 
-void leave_out_times(Study& study) {
-  std::erase_if(study.tables, [](const ResultTable& table) { return table.timed; });
-  std::erase_if(study.figures, [](const Figure& figure) { return figure.timed; });
+/// What is timed, where that is not wanted, and figures without a point.
+void leave_out(Study& study, bool times) {
+  std::erase_if(study.tables, [&](const ResultTable& table) { return table.timed && !times; });
+  std::erase_if(study.figures, [&](const Figure& figure) {
+    const bool is_empty =
+        std::ranges::all_of(figure.series, [](const Series& series) { return series.x.empty(); });
+    return is_empty || (figure.timed && !times);
+  });
 }
 
 /// What all studies found, and what does not hold.
@@ -48,7 +54,7 @@ Findings make_all(std::span<const StudyMaker> makers, const ExperimentOptions& o
     progress.at(static_cast<std::uint64_t>(&maker - makers.data()));
     try {
       Study study = maker.make(options);
-      if (!options.times) leave_out_times(study);
+      leave_out(study, options.times);
       findings.violations.insert(findings.violations.end(), study.violations.begin(), study.violations.end());
       findings.studies.push_back(std::move(study));
     } catch (const CheckFailed& failure) {

@@ -27,7 +27,7 @@ error* is how much further apart the two named vertices are than the closest one
 leaves out has the distance of what is known of it. A setting is on the *Pareto front* where no other is both as fast and
 as right, and better in one.
 
-The paper's scenes are the last 100 frames of its experiments with one contact distance for all pairs, the last number of
+The paper's scenes are the last 50 frames of its experiments with one contact distance for all pairs, the last number of
 row 3; the real ones are meshes whose parts wobble by half an edge length, and their contact distance is the mean edge
 length.
 )";

@@ -22,7 +22,7 @@ struct Point {
 Series front_of(const std::vector<Point>& points, bool less_is_better) {
   std::vector<CostAndError> costs;
   for (const Point& point : points) costs.push_back({point.x, less_is_better ? point.y : -point.y});
-  Series front{"Pareto front", {}, {}, true, {}};
+  Series front{"Pareto front", {}, {}, true, {}, false};
   for (const std::size_t i : pareto_front(costs)) {
     front.x.push_back(points[i].x);
     front.y.push_back(points[i].y);
@@ -31,9 +31,9 @@ Series front_of(const std::vector<Point>& points, bool less_is_better) {
   return front;
 }
 
-/// A series for each family, of points alone, and the front.
+/// The front, and a series for each family, of points alone.
 std::vector<Series> series_of(const std::vector<Point>& points, bool less_is_better) {
-  std::vector<Series> all;
+  std::vector<Series> all = {front_of(points, less_is_better)};
   for (const ModeFamily family : families) {
     Series series{title_of(family), {}, {}, false, {}};
     for (const Point& point : points)
@@ -43,7 +43,6 @@ std::vector<Series> series_of(const std::vector<Point>& points, bool less_is_bet
       }
     all.push_back(std::move(series));
   }
-  all.push_back(front_of(points, less_is_better));
   return all;
 }
 
