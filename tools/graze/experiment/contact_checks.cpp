@@ -50,6 +50,12 @@ void check_distance(const PairReport& row, double squared, double tolerance, Con
 
 }  // namespace
 
+void count_work(const StepStatistics& statistics, ContactCheck& check) {
+  check.leaf_pairs += statistics.leaf_pairs_tested;
+  for (std::size_t level = 0; level < check.expanded.size(); ++level)
+    check.expanded[level] += statistics.regions_expanded[level];
+}
+
 ContactChecks::ContactChecks(const RecordedMotion& motion, const std::set<double>& distances) {
   constexpr double everything = std::numeric_limits<double>::infinity();
   const double largest = *distances.rbegin();
@@ -71,7 +77,10 @@ void ContactChecks::add(const RecordedMotion& motion, const PlayedSetting& setti
 }
 
 void ContactChecks::step(std::size_t frame) {
-  for (Checked& checked : checked_) checked.report = checked.scene->step(frame);
+  for (Checked& checked : checked_) {
+    checked.report = checked.scene->step(frame);
+    count_work(checked.report->statistics(), checked.result);
+  }
 }
 
 void ContactChecks::check(PaperWalk& walk, std::size_t a, std::size_t b) {

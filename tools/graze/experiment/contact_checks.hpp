@@ -40,6 +40,9 @@ class ContactChecks {
   std::vector<Checked> checked_;
 };
 
+/// Adds what a step did.
+void count_work(const StepStatistics& statistics, ContactCheck& check);
+
 /// Tallies one pair's contacts against the true ones; both sorted, each once.
 template <typename Name>
 void tally_contacts(const std::vector<Name>& truth, const std::vector<Name>& reported, ContactCheck& check) {

@@ -125,7 +125,10 @@ std::vector<ContactCheck> check_features(const RecordedMotion& motion, double co
     progress.at(index);
     const Frame frame(motion, index);
     std::vector<ReportHandle> reports;
-    for (const auto& scene : scenes) reports.push_back(scene->step(index));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      reports.push_back(scenes[i]->step(index));
+      count_work(reports.back()->statistics(), checks[i]);
+    }
     for (std::size_t a = 0; a < motion.objects.size(); ++a)
       for (std::size_t b = a + 1; b < motion.objects.size(); ++b) {
         std::vector<std::vector<FeatureName>> names;

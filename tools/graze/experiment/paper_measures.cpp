@@ -74,10 +74,13 @@ struct LibraryRow {
 class Measurement {
  public:
   Measurement(const RecordedMotion& motion, const std::vector<PaperRow>& rows,
-              const ExperimentOptions& options)
+              const ExperimentOptions& options, Extent extent)
       : motion_(motion), options_(options), checks_(motion, distances_of(rows)) {
     for (const PaperRow& row : rows) results_.rows.push_back({row, Reading::pair, {}});
-    for (const Reading reading : {Reading::tested_leaves, Reading::summed})
+    const std::vector<Reading> others = extent == Extent::all_readings
+                                            ? std::vector{Reading::tested_leaves, Reading::summed}
+                                            : std::vector<Reading>();
+    for (const Reading reading : others)
       for (const PaperRow& row : rows) results_.readings.push_back({row, reading, {}});
     results_.formula.row = {"eq. 3 and 6", rows[best_row].rules};
     for (RowResult& row : results_.rows) add_to_library(row, setting_of(row.row));
@@ -196,8 +199,8 @@ class Measurement {
     Progress progress(motion_.name + ": times", settings_.size());
     for (const PlayedSetting& setting : settings_) {
       progress.at(results_.times.size());
-      results_.times.push_back(
-          {setting.name, setting.settings.detail, step_times(motion_, setting, options_.runs)});
+      results_.times.push_back({setting.name, setting.settings.detail, setting.settings.contact_distance,
+                                step_times(motion_, setting, options_.runs)});
     }
   }
 
@@ -218,8 +221,8 @@ double SettingTime::mean() const {
 }
 
 PaperResults measure_paper(const RecordedMotion& motion, const std::vector<PaperRow>& rows,
-                           const ExperimentOptions& options) {
-  return Measurement(motion, rows, options).run();
+                           const ExperimentOptions& options, Extent extent) {
+  return Measurement(motion, rows, options, extent).run();
 }
 
 }  // namespace graze::tools

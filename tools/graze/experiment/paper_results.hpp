@@ -27,6 +27,7 @@ struct StepCount {
   std::uint64_t extra = 0;     ///< reported, and not of the truth
   std::uint64_t contacts = 0;  ///< different vertex pairs that DV ends at
   std::uint64_t given_to_dv = 0;
+  [[nodiscard]] std::uint64_t found() const { return truth - missed; }
   std::array<std::uint64_t, PaperFound::most_levels> passed{};    ///< eq. 4, by level
   std::array<std::uint64_t, PaperFound::most_levels> expanded{};  ///< by level
 };
@@ -41,6 +42,8 @@ struct RowResult {
     for (const StepCount& step : steps) sum += step.*count;
     return sum;
   }
+  /// Leaf pairs of the truth that are reported.
+  [[nodiscard]] std::uint64_t found() const { return sum(&StepCount::truth) - sum(&StepCount::missed); }
   [[nodiscard]] std::uint64_t passed(std::size_t level) const {
     std::uint64_t sum = 0;
     for (const StepCount& step : steps) sum += step.passed[level];
@@ -61,6 +64,9 @@ struct ContactCheck {
   std::uint64_t distances = 0;        ///< of pairs of objects in all steps
   std::uint64_t distances_wrong = 0;  ///< of those, bounds without the truth between them
   double widest = 0;                  ///< upper - lower
+  // What the library did for it, in all steps.
+  std::array<std::uint64_t, PaperFound::most_levels> expanded{};
+  std::uint64_t leaf_pairs = 0;
 };
 
 /// Vertices that leave their region's initial epsilon, of one kind and level.
@@ -84,6 +90,7 @@ struct ExpansionCount {
 struct SettingTime {
   std::string name;
   ContactDetail detail = ContactDetail::regions;
+  double contact_distance = 0;
   std::vector<double> step_ms;
 
   [[nodiscard]] double mean() const;
