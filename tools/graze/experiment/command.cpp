@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "experiment/region_bounds_study.hpp"
 #include "experiment/run_studies.hpp"
 #include "experiment/speed_against_error.hpp"
+#include "experiment/subdivision_study.hpp"
 
 namespace graze::tools {
 namespace {
@@ -21,7 +23,9 @@ struct CommandOptions {
 };
 
 std::vector<StudyMaker> all_makers() {
-  return {{"speed", speed_against_error_study}};
+  return {{"bounds", region_bounds_study},
+          {"subdivision", subdivision_study},
+          {"speed", speed_against_error_study}};
 }
 
 std::vector<StudyMaker> makers_of(const std::string& what) {

@@ -6,7 +6,6 @@
 
 #include "experiment/bound_measure.hpp"
 #include "experiment/comparison_scenes.hpp"
-#include "experiment/deforming_scenes.hpp"
 #include "progress.hpp"
 #include "text_format.hpp"
 
@@ -373,9 +372,8 @@ Study subdivision_study(const ExperimentOptions& options) {
                   work_table(results),  time_table(results),       level_table(results)};
   for (const SceneResult& result : results)
     if (result.name == "unfolding" || result.name == "folding")
-      study.figures.push_back(
-          frames_figure(result, "" + result.name,
-                        "Two sheets, " + result.name + ": vertex pairs left, with boxes"));
+      study.figures.push_back(frames_figure(
+          result, "" + result.name, "Two sheets, " + result.name + ": vertex pairs left, with boxes"));
   add_claims(beside, study);
   return study;
 }
