@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/paper_experiment.hpp"
 #include "experiment/region_bounds_study.hpp"
 #include "experiment/run_studies.hpp"
 #include "experiment/speed_against_error.hpp"
@@ -23,7 +24,13 @@ struct CommandOptions {
 };
 
 std::vector<StudyMaker> all_makers() {
-  return {{"bounds", region_bounds_study},
+  const auto paper = [](int number) {
+    return [number](const ExperimentOptions& options) { return paper_experiment(number, options); };
+  };
+  return {{"1", paper(1)},
+          {"2", paper(2)},
+          {"3", paper(3)},
+          {"bounds", region_bounds_study},
           {"subdivision", subdivision_study},
           {"speed", speed_against_error_study}};
 }
