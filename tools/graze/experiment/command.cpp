@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/paper_experiment.hpp"
 #include "experiment/region_bounds_study.hpp"
 #include "experiment/run_studies.hpp"
 #include "experiment/speed_against_error.hpp"
@@ -22,8 +23,16 @@ struct CommandOptions {
   ExperimentOptions experiment;
 };
 
+StudyMaker paper_maker(int number) {
+  return {std::to_string(number),
+          [number](const ExperimentOptions& options) { return paper_experiment(number, options); }};
+}
+
 std::vector<StudyMaker> all_makers() {
-  return {{"bounds", region_bounds_study},
+  return {paper_maker(1),
+          paper_maker(2),
+          paper_maker(3),
+          {"bounds", region_bounds_study},
           {"subdivision", subdivision_study},
           {"speed", speed_against_error_study}};
 }
