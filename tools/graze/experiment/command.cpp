@@ -23,13 +23,15 @@ struct CommandOptions {
   ExperimentOptions experiment;
 };
 
+StudyMaker paper_maker(int number) {
+  return {std::to_string(number),
+          [number](const ExperimentOptions& options) { return paper_experiment(number, options); }};
+}
+
 std::vector<StudyMaker> all_makers() {
-  const auto paper = [](int number) {
-    return [number](const ExperimentOptions& options) { return paper_experiment(number, options); };
-  };
-  return {{"1", paper(1)},
-          {"2", paper(2)},
-          {"3", paper(3)},
+  return {paper_maker(1),
+          paper_maker(2),
+          paper_maker(3),
           {"bounds", region_bounds_study},
           {"subdivision", subdivision_study},
           {"speed", speed_against_error_study}};

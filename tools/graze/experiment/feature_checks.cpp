@@ -1,7 +1,6 @@
 #include "experiment/feature_checks.hpp"
 
 #include <array>
-#include <limits>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -87,6 +86,11 @@ std::vector<FeatureName> names_of(std::span<const Contact> contacts) {
   return names;
 }
 
+std::vector<PlayedSetting> feature_settings(double distance) {
+  return {exact_setting(ContactDetail::features, distance, 0),
+          within_setting(ContactDetail::features, distance, 5)};
+}
+
 /// Which pairs of objects are compared.
 class Sample {
  public:
@@ -98,50 +102,65 @@ class Sample {
   std::array<std::size_t, 2> counts_{};
 };
 
-}  // namespace
+/// The scenes of all settings, and how they compare.
+class Comparison {
+ public:
+  Comparison(const RecordedMotion& motion, double contact_distance)
+      : motion_(motion), contact_distance_(contact_distance) {
+    for (const PlayedSetting& setting : feature_settings(contact_distance)) {
+      scenes_.push_back(std::make_unique<PlayedScene>(motion, setting));
+      checks_.emplace_back();
+      checks_.back().name = setting.name;
+      checks_.back().detail = ContactDetail::features;
+      checks_.back().contact_distance = contact_distance;
+    }
+  }
 
-std::vector<PlayedSetting> feature_settings(double distance) {
-  return {exact_setting(ContactDetail::features, distance, 0),
-          exact_setting(ContactDetail::features, distance, std::numeric_limits<double>::infinity()),
-          within_setting(ContactDetail::features, distance, 0.5),
-          within_setting(ContactDetail::features, distance, 5)};
-}
+  void step(std::size_t index, Sample& sample) {
+    std::vector<ReportHandle> reports;
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      reports.push_back(scenes_[i]->step(index));
+      count_work(reports.back()->statistics(), checks_[i]);
+    }
+    const Frame frame(motion_, index);
+    for (std::size_t a = 0; a < motion_.objects.size(); ++a)
+      for (std::size_t b = a + 1; b < motion_.objects.size(); ++b)
+        if (!motion_.in_one_group(a, b)) compare(frame, reports, a, b, sample);
+  }
+
+  [[nodiscard]] const std::vector<ContactCheck>& checks() const { return checks_; }
+
+ private:
+  void compare(const Frame& frame, const std::vector<ReportHandle>& reports, std::size_t a, std::size_t b,
+               Sample& sample) {
+    std::vector<std::vector<FeatureName>> names;
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      const PairReport* row = scenes_[i]->row(*reports[i], a, b);
+      names.push_back(row == nullptr ? std::vector<FeatureName>() : names_of(reports[i]->contacts(*row)));
+    }
+    if (!sample.takes(!names[0].empty())) return;
+    const auto truth = frame.truth(a, b, contact_distance_);
+    for (std::size_t i = 0; i < names.size(); ++i) tally_contacts(truth, names[i], checks_[i]);
+  }
+
+  const RecordedMotion& motion_;
+  double contact_distance_;
+  std::vector<std::unique_ptr<PlayedScene>> scenes_;
+  std::vector<ContactCheck> checks_;
+};
+
+}  // namespace
 
 std::vector<ContactCheck> check_features(const RecordedMotion& motion, double contact_distance,
                                          std::size_t every) {
-  const std::vector<PlayedSetting> settings = feature_settings(contact_distance);
-  std::vector<ContactCheck> checks;
-  std::vector<std::unique_ptr<PlayedScene>> scenes;
-  for (const PlayedSetting& setting : settings) {
-    scenes.push_back(std::make_unique<PlayedScene>(motion, setting));
-    checks.emplace_back();
-    checks.back().name = setting.name;
-    checks.back().detail = ContactDetail::features;
-    checks.back().contact_distance = contact_distance;
-  }
+  Comparison comparison(motion, contact_distance);
   Sample sample(every);
   Progress progress(motion.name + ": features, step", motion.frame_count());
   for (std::size_t index = 0; index < motion.frame_count(); ++index) {
     progress.at(index);
-    const Frame frame(motion, index);
-    std::vector<ReportHandle> reports;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      reports.push_back(scenes[i]->step(index));
-      count_work(reports.back()->statistics(), checks[i]);
-    }
-    for (std::size_t a = 0; a < motion.objects.size(); ++a)
-      for (std::size_t b = a + 1; b < motion.objects.size(); ++b) {
-        std::vector<std::vector<FeatureName>> names;
-        for (std::size_t i = 0; i < scenes.size(); ++i) {
-          const PairReport* row = scenes[i]->row(*reports[i], a, b);
-          names.push_back(row == nullptr ? std::vector<FeatureName>() : names_of(reports[i]->contacts(*row)));
-        }
-        if (motion.in_one_group(a, b) || !sample.takes(!names[0].empty())) continue;
-        const auto truth = frame.truth(a, b, contact_distance);
-        for (std::size_t i = 0; i < names.size(); ++i) tally_contacts(truth, names[i], checks[i]);
-      }
+    comparison.step(index, sample);
   }
-  return checks;
+  return comparison.checks();
 }
 
 }  // namespace graze::tools

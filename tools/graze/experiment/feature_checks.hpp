@@ -8,9 +8,6 @@
 
 namespace graze::tools {
 
-/// The settings of detail `features` that are checked.
-std::vector<PlayedSetting> feature_settings(double contact_distance);
-
 /// Compares the contacts of `features` in exact mode and in within with exact arithmetic, in one in `every`
 /// of the pairs of objects that have any, counted through all frames, and in as many that have none.
 std::vector<ContactCheck> check_features(const RecordedMotion& motion, double contact_distance,

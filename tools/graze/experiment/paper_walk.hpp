@@ -87,6 +87,8 @@ class PaperWalk {
   /// regions.
   [[nodiscard]] std::vector<std::uint32_t> near_leaves(double threshold);
   [[nodiscard]] const LeafPair& leaves(std::uint32_t number) const { return leaves_[number]; }
+  /// How many have a number by now.
+  [[nodiscard]] std::size_t leaf_pair_count() const { return leaves_.size(); }
   /// Of all pairs of vertices, those nearer than `threshold`, sorted by the vertices.
   [[nodiscard]] std::vector<VertexPair> near_vertices(double threshold);
   /// The nearest vertices of all.

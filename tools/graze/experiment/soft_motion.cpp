@@ -24,7 +24,7 @@ constexpr double grid = 0x1p-14;
 constexpr double largest_coordinate = 512;
 constexpr double nearest_allowed = 0.25;
 constexpr double share_of_speed_error = 0.08;  ///< made good in one step
-constexpr int iterations = 8;
+constexpr int iterations = 4;
 
 Vector3d on_grid(const Vector3d& point) {
   return (point / grid).array().round().matrix() * grid;
