@@ -120,7 +120,7 @@ ExperimentOptions options_for(const std::filesystem::path& out, bool times) {
   return options;
 }
 
-const std::vector<std::string> quick = {"--frames", "3", "--no-times", "--data", "no-such-folder"};
+const std::vector<std::string> quick = {"--frames", "2", "--no-times", "--data", "no-such-folder"};
 
 ProgramResult run_all(const std::filesystem::path& folder) {
   std::vector<std::string> arguments = {

@@ -29,17 +29,19 @@ void write(const Vector& point, std::size_t vertex, std::span<float> out) {
 
 constexpr std::uint32_t cells_along = 120, cells_across = 60, cells_a_panel = 12;
 constexpr double cell = 1.0 / cells_a_panel;
-constexpr double steep = 1.45, level = 0.1;
+constexpr double steep = 1.5, level = 0.1;
 
-/// An accordion of panels that stand at `slope` to the ground, up and down in turns, each a unit long.
+/// An accordion of panels that stand at `slope` to the ground, up and down in turns, each a unit long; the
+/// whole of it turned, so that neither panels nor folds lie along an axis.
 std::vector<Vector> accordion(double slope, double height) {
+  const Eigen::AngleAxisd turn(0.6, Vector(1, 2, 3).normalized());
   std::vector<Vector> points;
   for (std::uint32_t row = 0; row <= cells_across; ++row)
     for (std::uint32_t column = 0; column <= cells_along; ++column) {
       const double in_panel = cell * (column % cells_a_panel);
       const bool goes_up = column / cells_a_panel % 2 == 0;
-      points.emplace_back(cell * column * std::cos(slope), cell * row,
-                          (goes_up ? in_panel : 1 - in_panel) * std::sin(slope) + height);
+      points.push_back(turn * Vector(cell * column * std::cos(slope), cell * row,
+                                     (goes_up ? in_panel : 1 - in_panel) * std::sin(slope) + height));
     }
   return points;
 }

@@ -13,10 +13,11 @@
 namespace graze::tools {
 namespace {
 
-/// Of Okabe and Ito, which the colour-blind can tell apart; yellow is left out, which white swallows.
-constexpr std::array<const char*, 7> colours = {"#000000", "#0072b2", "#d55e00", "#009e73",
-                                                "#cc79a7", "#e69f00", "#56b4e9"};
-constexpr std::array<int, 7> point_types = {7, 5, 9, 11, 13, 4, 6};
+/// Of Okabe and Ito, which the colour-blind can tell apart; brown is in place of yellow, which white
+/// swallows.
+constexpr std::array<const char*, 8> colours = {"#000000", "#0072b2", "#e69f00", "#cc79a7",
+                                                "#56b4e9", "#8c564b", "#009e73", "#d55e00"};
+constexpr std::array<int, 7> point_types = {7, 5, 9, 11, 13, 15, 4};
 /// Lines of more points than this have no marks on them.
 constexpr std::size_t most_marks = 40;
 
@@ -40,20 +41,25 @@ struct Axis {
     return std::isfinite(low) ? std::pow(10, std::floor(std::log10(low) + 1e-9) - 1) : 1e-3;
   }
   [[nodiscard]] double place(double value) const { return is_log && value <= 0 ? zero() : value; }
-  /// Where the axis begins and ends.
+  /// Where the axis begins and ends, with room around what it shows.
   [[nodiscard]] double first() const {
-    if (is_log) return (has_zero ? zero() : low) / 1.6;
+    if (is_log) return bottom() / room();
     return low >= 0 && low < 0.5 * high ? 0 : low - 0.05 * (high - low);
   }
   [[nodiscard]] double last() const {
-    if (is_log) return 1.6 * (std::isfinite(high) ? high : zero());
-    return high > first() ? high + 0.05 * (high - first()) : first() + 1;
+    if (is_log) return top() * room();
+    return high > first() ? high + 0.07 * (high - first()) : first() + 1;
   }
   /// 0 where the axis begins, 1 where it ends.
   [[nodiscard]] double part(double value) const {
     if (is_log) return std::log(place(value) / first()) / std::log(last() / first());
     return (value - first()) / (last() - first());
   }
+
+ private:
+  [[nodiscard]] double bottom() const { return has_zero ? zero() : low; }
+  [[nodiscard]] double top() const { return std::isfinite(high) ? high : zero(); }
+  [[nodiscard]] double room() const { return std::max(1.3, std::pow(top() / bottom(), 0.07)); }
 };
 
 Axis axis_of(const Figure& figure, char letter, bool is_log) {

@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "experiment/soft_motion.hpp"
@@ -112,15 +114,23 @@ SoftMotion tooth_and_cylinder(Random& random) {
   return motion;
 }
 
+RecordedMotion record(int number, std::uint64_t seed, std::uint32_t frames) {
+  Random random(seed + static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15U);
+  const SoftMotion motion = number == 1   ? ten_objects(random)
+                            : number == 2 ? three_humans_and_torus(random)
+                                          : tooth_and_cylinder(random);
+  return record_soft_motion(motion, frames == 0 ? motion.steps : frames);
+}
+
 }  // namespace
 
 RecordedMotion record_experiment(int number, const ExperimentOptions& options) {
   if (number < 1 || number > 3) throw std::invalid_argument("the paper has experiments 1, 2 and 3");
-  Random random(options.seed + static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15U);
-  const SoftMotion motion = number == 1   ? ten_objects(random)
-                            : number == 2 ? three_humans_and_torus(random)
-                                          : tooth_and_cylinder(random);
-  return record_soft_motion(motion, options.frames_of(static_cast<std::uint32_t>(motion.steps)));
+  static std::map<std::tuple<int, std::uint64_t, std::uint32_t>, RecordedMotion>
+      made;  // for study after study
+  RecordedMotion& motion = made[{number, options.seed, options.frames}];
+  if (motion.objects.empty()) motion = record(number, options.seed, options.frames);
+  return motion;
 }
 
 }  // namespace graze::tools

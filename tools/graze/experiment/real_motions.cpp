@@ -38,7 +38,7 @@ std::vector<RecordedMotion> record_real_motions(const ExperimentOptions& options
   for (const char* name : {"S7c", "S7b", "S7a"}) {
     const bench::BenchScene scene = bench::make_scene(name, options.data.string());
     if (scene.missing.empty()) {
-      motions.push_back(record(scene, options.frames_of(6)));
+      motions.push_back(record(scene, options.frames_of(4)));
     } else {
       std::fprintf(stderr, "note: %s is left out: %s\n", scene.what.c_str(), scene.missing.c_str());
     }

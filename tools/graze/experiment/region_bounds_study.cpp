@@ -6,7 +6,6 @@
 
 #include "experiment/bound_measure.hpp"
 #include "experiment/comparison_scenes.hpp"
-#include "experiment/deforming_scenes.hpp"
 #include "experiment/library_leaf_cost.hpp"
 #include "experiment/swept_box.hpp"
 #include "progress.hpp"
@@ -262,8 +261,9 @@ Figure time_figure(const std::vector<SceneResult>& results) {
   return figure;
 }
 
-/// Leaf pairs reached over those that are near, against the distance, for the paper's models.
-void add_distances(const ExperimentOptions& options, Study& study) {
+/// Leaf pairs reached over those that are near, against the distance, for the paper's models, whose own
+/// distance is one mean edge length.
+void add_distances(const bench::BenchScene& models, const ExperimentOptions& options, Study& study) {
   Figure figure{"distance",
                 "Leaf pairs reached for each that is near: the paper's models",
                 "distance, in mean edge lengths",
@@ -277,9 +277,10 @@ void add_distances(const ExperimentOptions& options, Study& study) {
       figure.title,
       {{"edges", "distance, in mean edge lengths"}, {"near_leaf_pairs", "leaf pairs that are near, a frame"}},
       {}};
+  bench::BenchScene scene = models;
+  const double edge_length = models.distance;
   for (const double edges : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
-    bench::BenchScene scene = meeting_models(options.seed);
-    scene.distance *= edges;
+    scene.distance = edges * edge_length;
     const PlacedFrames placed = place_frames(scene, compared_frames(options));
     const DividedScene divided(placed, Partition::octree);
     const std::uint64_t near = divided.near_leaf_pairs();
@@ -413,7 +414,7 @@ Study region_bounds_study(const ExperimentOptions& options) {
   study.tables = {beside_box_table(beside), beside_box_time_table(beside), scene_table(results),
                   tightness_table(results), time_table(results),           level_table(results)};
   study.figures.push_back(time_figure(results));
-  add_distances(options, study);
+  add_distances(scenes.scenes.front(), options, study);
   add_claims(beside, results, options.times, study);
   return study;
 }

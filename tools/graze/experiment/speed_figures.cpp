@@ -9,9 +9,10 @@
 namespace graze::tools {
 namespace {
 
+/// What is last is drawn over the others.
 constexpr std::array<ModeFamily, 7> families = {
-    ModeFamily::exact,       ModeFamily::within,      ModeFamily::paper_formula, ModeFamily::paper_numbers,
-    ModeFamily::paper_loose, ModeFamily::time_budget, ModeFamily::work_budget};
+    ModeFamily::work_budget,   ModeFamily::time_budget, ModeFamily::paper_loose, ModeFamily::paper_numbers,
+    ModeFamily::paper_formula, ModeFamily::within,      ModeFamily::exact};
 
 struct Point {
   ModeFamily family;

@@ -33,7 +33,7 @@ std::vector<SpeedScene> speed_scenes(const ExperimentOptions& options) {
   for (const PaperScene& paper : paper_scenes) {
     SpeedScene scene{"experiment" + std::to_string(paper.number), paper.title,
                      record_experiment(paper.number, options), paper.contact_distance};
-    keep_last_frames(scene.motion, 50);
+    keep_last_frames(scene.motion, 25);
     scenes.push_back(std::move(scene));
   }
   for (RecordedMotion& motion : record_real_motions(options)) {

@@ -16,7 +16,7 @@ struct SpeedScene {
   double contact_distance = 0;
 };
 
-/// The ends of the paper's three experiments, 50 frames each, where most is in contact: the contact distance
+/// The ends of the paper's three experiments, 25 frames each, where most is in contact: the contact distance
 /// is the last number of the row that the paper calls best. And the real motions, whose is the mean edge
 /// length.
 std::vector<SpeedScene> speed_scenes(const ExperimentOptions& options);

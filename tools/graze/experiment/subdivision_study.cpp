@@ -6,7 +6,6 @@
 
 #include "experiment/bound_measure.hpp"
 #include "experiment/comparison_scenes.hpp"
-#include "experiment/deforming_scenes.hpp"
 #include "progress.hpp"
 #include "text_format.hpp"
 
@@ -264,13 +263,16 @@ ResultTable beside_time_table(const std::vector<BesideOctree>& all) {
   return table;
 }
 
-/// The vertex pairs in the leaves reached, frame by frame.
+/// The vertex pairs in the leaves reached, frame by frame, by the octree and by leaves of about its size.
 Figure frames_figure(const SceneResult& result, std::string name, std::string title) {
   Figure figure{std::move(name), std::move(title),
                 "frame",         "vertex pairs in the leaves reached",
                 false,           true,
                 false,           {}};
-  for (const DivisionResult& each : result.divisions) {
+  for (std::size_t i = 0; i < all_divisions.size(); ++i) {
+    const DivisionResult& each = result.divisions[i];
+    const bool has_full_leaves = i != octree && all_divisions[i].capacity == RegionTree::leaf_capacity;
+    if (has_full_leaves) continue;
     Series series{each.name, {}, {}, true, {}};
     for (std::size_t frame = 0; frame < each.boxes.leaf_vertex_pairs_by_frame.size(); ++frame) {
       series.x.push_back(static_cast<double>(frame));
@@ -373,9 +375,8 @@ Study subdivision_study(const ExperimentOptions& options) {
                   work_table(results),  time_table(results),       level_table(results)};
   for (const SceneResult& result : results)
     if (result.name == "unfolding" || result.name == "folding")
-      study.figures.push_back(
-          frames_figure(result, "" + result.name,
-                        "Two sheets, " + result.name + ": vertex pairs left, with boxes"));
+      study.figures.push_back(frames_figure(
+          result, "" + result.name, "Two sheets, " + result.name + ": vertex pairs left, with boxes"));
   add_claims(beside, study);
   return study;
 }
