@@ -124,7 +124,7 @@ std::string style_of(const Series& series, std::size_t index) {
   const std::size_t turn = index / colours.size();
   const std::string colour = std::string(" linecolor rgb '") + colours[index % colours.size()] + "'";
   const std::string marks =
-      format(" pointtype %d pointsize 0.9", point_types[(index + turn) % point_types.size()]);
+      format(" pointtype %d pointsize 1.1", point_types[(index + turn) % point_types.size()]);
   if (!series.joined) return "with points" + colour + marks;
   const std::string dashes = format(" dashtype %zu linewidth 1.6", turn + 1);
   if (!series.marked || series.x.size() > most_marks) return "with lines" + colour + dashes;
@@ -151,7 +151,17 @@ std::string plot_of(const Figure& figure) {
 std::string terminal_of(const std::filesystem::path& path) {
   if (path.extension() == ".svg")
     return "set terminal svg noenhanced size 900,600 font 'DejaVu Sans,13' background rgb 'white'\n";
-  return "set terminal pngcairo noenhanced size 900,600 font 'DejaVu Sans,10'\n";
+  return "set terminal pngcairo noenhanced size 760,520 font 'DejaVu Sans,9'\n";
+}
+
+/// The names of the series in two columns below the plot, however long they are.
+std::string layout_of(const Figure& figure) {
+  const std::size_t rows = (figure.series.size() + 1) / 2;
+  return "set grid linecolor rgb '#dddddd'\nset lmargin 10\nset rmargin 3\n" +
+         format(
+             "set bmargin %zu\nset key at screen 0.08,0.015 left bottom Left reverse maxrows %zu samplen 2 "
+             "width 2\n",
+             rows + 5, rows);
 }
 
 }  // namespace
@@ -159,10 +169,8 @@ std::string terminal_of(const std::filesystem::path& path) {
 void draw(std::span<const Drawing> drawings) {
   std::string script;
   for (const Drawing& drawing : drawings)
-    script += terminal_of(drawing.path) + "set output " + gnuplot_quoted(drawing.path.string()) +
-              "\nset grid linecolor rgb '#dddddd'\nset key below left Left reverse maxrows 4 samplen 2 width "
-              "2\nset xlabel offset 0,0.3\n" +
-              plot_of(*drawing.figure) + "unset output\nreset\n";
+    script += terminal_of(drawing.path) + "set output " + gnuplot_quoted(drawing.path.string()) + "\n" +
+              layout_of(*drawing.figure) + plot_of(*drawing.figure) + "unset output\nreset\n";
   if (!drawings.empty()) run_gnuplot(script, drawings.front().path.parent_path().string());
 }
 

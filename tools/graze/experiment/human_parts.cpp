@@ -82,9 +82,20 @@ void add_parts(const RecordedObject& human, std::uint64_t group, RecordedMotion&
     motion.objects.push_back(parts[i].object(part_names[i], group));
 }
 
+RecordedMotion thinned_out(RecordedMotion motion, std::size_t every) {
+  for (RecordedObject& object : motion.objects) {
+    std::vector<std::vector<float>> kept;
+    for (std::size_t frame = 0; frame < object.frames.size(); ++frame)
+      if ((object.frames.size() - 1 - frame) % every == 0) kept.push_back(std::move(object.frames[frame]));
+    object.frames = std::move(kept);
+  }
+  return motion;
+}
+
 }  // namespace
 
-RecordedMotion with_humans_in_parts(const RecordedMotion& motion) {
+RecordedMotion with_humans_in_parts(const RecordedMotion& whole, std::size_t every) {
+  const RecordedMotion motion = thinned_out(whole, every);
   RecordedMotion result;
   result.name = motion.name + "_parts";
   std::uint64_t group = 0;

@@ -101,7 +101,10 @@ std::string text_of(int experiment, const RecordedMotion& motion, const PaperRes
         "As the paper suggests, the experiment is done once more with each human in six parts, head, body, "
         "arms "
         "and legs, each with a tree of its own and not looked at against the others of its body; faces are "
-        "divided, so that vertices on a cut are in two parts, and collisions there count twice.\n\n";
+        "divided, so that vertices on a cut are in two parts, and collisions there count twice. Of that, one "
+        "step in four is played: small parts end at level 1, all of whose pairs are tested in every step, "
+        "and "
+        "leaves go to DV.\n\n";
   return text + outcome(results);
 }
 

@@ -14,6 +14,7 @@ const char* introduction =
 `graze experiment all` measures all of this anew and writes this page; `tools/experiments.sh` installs what is missing,
 builds graze and runs it. The paper is *A Distance Hierarchy to Detect Collisions Between Deformable Objects* (Madera,
 Day, Laycock); its equations and tables are cited by their numbers, and `docs/method.md` tells its method in other words.
+Every table, also those too long for this page, and the points of every figure are among the CSV files that it writes.
 All steps run on one thread. Times are of the machine that wrote this page; everything else is the same in a second run.
 
 )";

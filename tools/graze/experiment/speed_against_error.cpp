@@ -23,9 +23,10 @@ if ε were chosen badly the other way. Of the answers between the levels of regi
 stops at a level where its bounds are tight enough.
 
 The truth is exact mode, which is checked by brute force over all pairs of vertices in some of the frames. The *distance
-error* is how much further apart the two named vertices are than the closest ones. A pair of objects that a budget
-leaves out has the distance of what is known of it. A setting is on the *Pareto front* where no other is both as fast and
-as right, and better in one.
+error* is how much further apart the two named vertices are than the closest ones. A budget goes to the pairs of
+objects in order of urgency; one whose turn does not come, or that is cut short, has no contacts, and for a distance the
+upper bound known by then. A setting is on the *Pareto front* where no other is both as fast and as right, and better in
+one.
 
 The paper's scenes are the last 25 frames of its experiments with one contact distance for all pairs, the last number of
 row 3; the real ones are meshes whose parts wobble by half an edge length, and their contact distance is the mean edge
