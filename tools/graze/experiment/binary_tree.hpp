@@ -27,7 +27,7 @@ class BinaryTree {
     std::uint32_t vertex_count = 0;
     std::vector<std::uint32_t> vertices;  ///< of a leaf
   };
-  [[nodiscard]] bool is_leaf(const Node& node, std::uint32_t capacity) const {
+  static bool is_leaf(const Node& node, std::uint32_t capacity) {
     return node.left == Node::none || node.vertex_count <= capacity;
   }
   void collect_vertices(std::uint32_t node, std::vector<std::uint32_t>& vertices) const;

@@ -18,6 +18,9 @@ struct BoundMeasure {
   WalkCounts walked;
   std::uint64_t leaf_vertex_pairs = 0;  ///< in the pairs of leaves that were reached
   std::vector<std::uint64_t> leaf_vertex_pairs_by_frame;
+  /// Of bounds of faces: pairs of corners left in the leaves reached when each leaf keeps those that are
+  /// within the distance of the other's box.
+  std::uint64_t corner_pairs_left = 0;
   std::uint64_t near_found = 0;  ///< of those, nearer than the distance; of vertices' bounds only
   double update_ms = 0;          ///< bounds of all regions of all objects, points laid out in order included
   double walk_ms = 0;            ///< all pairs of objects

@@ -59,7 +59,7 @@ ComparisonScenes bound_scenes(const ExperimentOptions& options) {
   scenes.add(meeting_models(options.seed));
   scenes.add(striding_humans());
   scenes.add(posing_wolves(options.data.string()));
-  scenes.add_bench("S7a", "organs");
+  scenes.add_large_bench("S7a", "organs");
   scenes.add_bench("S7b", "armadillo");
   scenes.add_bench("S7c", "funnel");
   scenes.add(unfolding_sheets());
@@ -75,7 +75,7 @@ ComparisonScenes partition_scenes(const ExperimentOptions& options) {
   scenes.add(meeting_models(options.seed));
   scenes.add(striding_humans());
   scenes.add(posing_wolves(options.data.string()));
-  scenes.add_bench("S7a", "organs");
+  scenes.add_large_bench("S7a", "organs");
   scenes.add_bench("S7b", "armadillo");
   scenes.add_bench("S7c", "funnel");
   scenes.add(folding_sheets());

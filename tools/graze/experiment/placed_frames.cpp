@@ -9,7 +9,7 @@ std::vector<Eigen::Vector3d> as_points(const std::vector<float>& coordinates) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(coordinates.size() / 3);
   for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
-    points.push_back(Eigen::Vector3f(coordinates[i], coordinates[i + 1], coordinates[i + 2]).cast<double>());
+    points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
   return points;
 }
 

@@ -24,7 +24,7 @@ class SurfaceHalves {
 
   std::size_t sort_components(std::span<std::uint32_t> region);
   void measure_from(std::uint32_t start, std::vector<double>& distances);
-  std::uint32_t furthest(std::span<const std::uint32_t> region) const;
+  [[nodiscard]] std::uint32_t furthest(std::span<const std::uint32_t> region) const;
 
   const Mesh& mesh_;
   std::vector<std::uint32_t> region_of_;  ///< of each vertex, which call of `sort` was the last about it
