@@ -6,6 +6,7 @@
 
 #if GRAZE_HAS_ORACLES
 #include "accuracy/command.hpp"
+#include "experiment/command.hpp"
 #endif
 #include "bench/command.hpp"
 #include "check_failed.hpp"
@@ -35,6 +36,7 @@ int run_program(int argument_count, char** arguments) {
   graze::tools::add_bench_command(app);
 #if GRAZE_HAS_ORACLES
   graze::tools::add_accuracy_command(app);
+  graze::tools::add_experiment_command(app);
 #endif
   try {
     app.parse(argument_count, arguments);  // runs the subcommand

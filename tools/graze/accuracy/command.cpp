@@ -11,6 +11,7 @@
 #include "accuracy/page.hpp"
 #include "accuracy/plot.hpp"
 #include "check_failed.hpp"
+#include "gnuplot.hpp"
 #include "progress.hpp"
 #include "text_format.hpp"
 
@@ -85,7 +86,7 @@ void measure_modes(const AccuracyOptions& options, const Extent& extent, Accurac
 }
 
 void refuse_bad_output(const AccuracyOptions& options) {
-  if (!options.no_times && !can_plot())
+  if (!options.no_times && !has_gnuplot())
     throw io::InputError(
         "gnuplot: not found, and the figure is drawn by it; install gnuplot-nox, or add --no-times");
   if (!std::ofstream(options.out, std::ios::app))

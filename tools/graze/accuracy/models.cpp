@@ -1,9 +1,7 @@
 #include "accuracy/models.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-#include <graze/surface.hpp>
 
 #include "mean_edge_length.hpp"
 #include "models/models.hpp"
@@ -18,20 +16,6 @@ constexpr double two_pi = 6.28318530717958648;
 /// How far the models are from the middle, over the frames.
 double outward(double part_of_way) {
   return 1.35 + 0.6 * std::cos(two_pi * part_of_way);
-}
-
-std::vector<double> largest_epsilon(const std::vector<std::shared_ptr<const Mesh>>& meshes) {
-  std::vector<double> largest;
-  for (const auto& mesh : meshes) {
-    Surface surface(mesh);
-    surface.refit_vertices();
-    surface.refit(RefitOf::radii);
-    const auto radii = surface.level_radii();
-    largest.resize(std::max(largest.size(), radii.size()));
-    for (std::size_t level = 0; level < radii.size(); ++level)
-      largest[level] = std::max(largest[level], 2 * radii[level]);
-  }
-  return largest;
 }
 
 }  // namespace
@@ -59,7 +43,7 @@ MovingModels::MovingModels(std::uint64_t seed, std::uint32_t frame_count) : fram
     bodies_.push_back(std::move(body));
   }
   mean_edge_length_ = tools::mean_edge_length(meshes);
-  level_epsilon_ = largest_epsilon(meshes);
+  level_epsilon_ = largest_level_epsilon(meshes);
 }
 
 std::vector<Eigen::Vector3d> MovingModels::positions(std::size_t index, std::uint32_t frame) const {
@@ -75,6 +59,10 @@ std::vector<Eigen::Vector3d> MovingModels::positions(std::size_t index, std::uin
     result.emplace_back(turn * point + outward(part) * body.way);
   }
   return result;
+}
+
+void MovingModels::place(Scene& scene, ObjectId object, std::size_t body, std::uint32_t frame) const {
+  scene.set_positions(object, positions(body, frame));
 }
 
 oracle::Shape MovingModels::shape(std::size_t body, std::uint32_t frame) const {

@@ -6,23 +6,25 @@
 #include <memory>
 #include <vector>
 
+#include "accuracy/moving_scene.hpp"
 #include "support/oracle.hpp"
 
 namespace graze::tools {
 
 /// The paper's five models, each bending, twisting and turning, which meet in the middle and part again:
 /// apart, near, touching and interpenetrating in the course of `frame_count` frames.
-class MovingModels {
+class MovingModels final : public MovingScene {
  public:
   MovingModels(std::uint64_t seed, std::uint32_t frame_count);
 
-  [[nodiscard]] std::size_t size() const { return bodies_.size(); }
-  [[nodiscard]] std::uint32_t frame_count() const { return frame_count_; }
-  [[nodiscard]] const std::shared_ptr<const Mesh>& mesh(std::size_t body) const { return bodies_[body].mesh; }
-  /// At rest, of all edges of all models.
-  [[nodiscard]] double mean_edge_length() const { return mean_edge_length_; }
-  /// Twice the largest eq. 3 radius of any model at rest, which is what eq. 6 is at most, by level.
-  [[nodiscard]] const std::vector<double>& level_epsilon() const { return level_epsilon_; }
+  [[nodiscard]] std::size_t size() const override { return bodies_.size(); }
+  [[nodiscard]] std::uint32_t frame_count() const override { return frame_count_; }
+  [[nodiscard]] const std::shared_ptr<const Mesh>& mesh(std::size_t body) const override {
+    return bodies_[body].mesh;
+  }
+  [[nodiscard]] double mean_edge_length() const override { return mean_edge_length_; }
+  [[nodiscard]] const std::vector<double>& level_epsilon() const override { return level_epsilon_; }
+  void place(Scene& scene, ObjectId object, std::size_t body, std::uint32_t frame) const override;
 
   [[nodiscard]] std::vector<Eigen::Vector3d> positions(std::size_t body, std::uint32_t frame) const;
   /// The surface as the oracle takes it.

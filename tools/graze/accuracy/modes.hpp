@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "accuracy/models.hpp"
+#include "accuracy/moving_scene.hpp"
 #include "accuracy/settings.hpp"
 #include "accuracy/tally.hpp"
 
@@ -27,25 +27,28 @@ struct ModeResult {
   ErrorTally below;                     ///< truth - lower
   std::uint64_t broken_bounds = 0;      ///< rows whose bounds do not hold the truth
   std::uint64_t region_pairs = 0;
-  double step_ms = 0;  ///< mean over the frames of the fastest of some runs
+  std::uint64_t most_region_pairs = 0;  ///< in one frame
+  double step_ms = 0;                   ///< mean over the frames of the fastest of some runs
+  double longest_step_ms = 0;           ///< the largest of those
 
   /// The share of true contacts found, and of reported ones that are below the contact distance; 1 of none.
   [[nodiscard]] double recall() const;
   [[nodiscard]] double precision() const;
 };
 
-/// Measures settings on the moving models.
+/// Measures settings on bodies in motion.
 class ModeStudy {
  public:
   using Reports = std::vector<ReportHandle>;
 
-  /// Runs exact mode in the three details that settings are compared with. `models` must outlive the study.
-  ModeStudy(const MovingModels& models, double contact_distance);
+  /// Runs exact mode in the three details that settings are compared with. `bodies` must outlive the study.
+  ModeStudy(const MovingScene& bodies, double contact_distance);
 
   [[nodiscard]] double contact_distance() const { return contact_distance_; }
-  /// The reports of exact mode, one a frame; every pair of models is listed.
+  /// The reports of exact mode, one a frame; every pair of bodies is listed.
   [[nodiscard]] const Reports& truth(ContactDetail detail) const;
-  /// Runs a setting `runs` times; answers are those of the last run.
+  /// Runs a setting `runs` times; answers are those of the last run. A pair that is not within its range has
+  /// no contacts there, and counts for no distance.
   [[nodiscard]] ModeResult measure(const ModeSetting& setting, std::uint32_t runs) const;
 
  private:
@@ -57,7 +60,7 @@ class ModeStudy {
   void compare(const FrameReport& report, const FrameReport& truth, const FrameReport& below,
                ModeResult& result) const;
 
-  const MovingModels& models_;
+  const MovingScene& bodies_;
   double contact_distance_;
   Reports features_, regions_, vertices_;
 };

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <graze/io/error.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "gnuplot.hpp"
 #include "text_format.hpp"
 
 namespace graze::tools {
@@ -84,12 +82,6 @@ void add_lines(std::vector<Line>& lines, const ModeTable& table, ErrorOf error) 
   }
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char letter : text) result += letter == '\'' ? std::string("''") : std::string(1, letter);
-  return result + "'";
-}
-
 std::string plot_command(const std::vector<Line>& lines, const std::string& block) {
   std::string data, plot;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -98,7 +90,7 @@ std::string plot_command(const std::vector<Line>& lines, const std::string& bloc
     data += "EOD\n";
     plot += (i == 0 ? "plot $" : ", $") + block + std::to_string(i) +
             " with linespoints linewidth 2 pointsize 1.3 " + lines[i].style + " title " +
-            quoted(lines[i].title);
+            gnuplot_quoted(lines[i].title);
   }
   return data + plot + "\n";
 }
@@ -111,7 +103,8 @@ std::string script_of(const std::filesystem::path& path, std::span<const ModeTab
     if (table.detail == ContactDetail::features || table.detail == ContactDetail::vertices)
       add_lines(missing, table, missing_of);
   }
-  return "set terminal pngcairo size 1500,780 font 'DejaVu Sans,11'\nset output " + quoted(path.string()) +
+  return "set terminal pngcairo size 1500,780 font 'DejaVu Sans,11'\nset output " +
+         gnuplot_quoted(path.string()) +
          "\nset multiplot layout 1,2\nset logscale xy\nset grid\nset bmargin 9\nset key below center maxcols "
          "2 samplen 3\n"
          "set xlabel 'time a step (ms, one thread)'\n"
@@ -128,18 +121,8 @@ std::string script_of(const std::filesystem::path& path, std::span<const ModeTab
 
 }  // namespace
 
-bool can_plot() {
-  return std::system("gnuplot --version >/dev/null 2>&1") == 0;
-}
-
 void plot_time_against_error(const std::filesystem::path& path, std::span<const ModeTable> tables) {
-  const std::string script = script_of(path, tables);
-  std::FILE* gnuplot = popen("gnuplot", "w");
-  const bool written =
-      gnuplot != nullptr && std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
-  const bool drawn = gnuplot != nullptr && pclose(gnuplot) == 0;
-  if (!written || !drawn)
-    throw io::InputError(path.string() + ": gnuplot could not draw this figure; see its message above");
+  run_gnuplot(script_of(path, tables), path.string());
 }
 
 }  // namespace graze::tools

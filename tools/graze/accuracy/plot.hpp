@@ -7,9 +7,6 @@
 
 namespace graze::tools {
 
-/// Whether gnuplot, which draws the figure, can be run.
-bool can_plot();
-
 /// Draws time against error into a PNG: how wide the bounds of distances are, and how many contacts are
 /// missing. Throws io::InputError where gnuplot fails or the file cannot be written.
 void plot_time_against_error(const std::filesystem::path& path, std::span<const ModeTable> tables);

@@ -29,7 +29,8 @@ struct Series {
   std::string name;
   std::vector<double> x, y;         ///< of one length
   bool joined = true;               ///< a line through the points, otherwise points alone
-  std::vector<std::string> labels;  ///< none, or one a point, written beside it
+  std::vector<std::string> labels;  ///< none, or one a point, written beside it where there is room
+  bool marked = true;               ///< a mark at each point, where they are few
 };
 
 /// Drawn in the page, and beside the document as an image.
@@ -57,6 +58,8 @@ struct Study {
   std::vector<ResultTable> tables;
   std::vector<Figure> figures;
   std::vector<Claim> claims;
+  /// What has to hold and does not, a sentence each: the command fails once everything is written.
+  std::vector<std::string> violations;
 };
 
 }  // namespace graze::tools

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/scenes.hpp"
+#include "experiment/options.hpp"
+#include "experiment/study.hpp"
+
+namespace graze::tools {
+
+/// The scenes that a comparison plays, and a sentence about those that it does not.
+struct ComparisonScenes {
+  std::vector<bench::BenchScene> scenes;
+  std::string left_out;  ///< empty, or ends with a full stop
+};
+
+/// Those that bounds are compared on: the paper's models, real meshes, large generated ones. With fewer
+/// frames than usual (ExperimentOptions::frames) the large ones are left out.
+ComparisonScenes bound_scenes(const ExperimentOptions& options);
+
+/// Those that partitions are compared on: rigid motion, folding and unfolding, limbs, real meshes.
+ComparisonScenes partition_scenes(const ExperimentOptions& options);
+
+/// How many frames of each are looked at.
+std::size_t compared_frames(const ExperimentOptions& options);
+
+/// `of_all_frames` for one of `frames`.
+double a_frame(std::uint64_t of_all_frames, std::size_t frames);
+
+/// The `n`th root of the product of n positive numbers; 1 of none.
+double geometric_mean(const std::vector<double>& values);
+
+}  // namespace graze::tools

@@ -1,0 +1,177 @@
+#include "experiment/figure_plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "gnuplot.hpp"
+#include "text_format.hpp"
+
+namespace graze::tools {
+namespace {
+
+/// Of Okabe and Ito, which the colour-blind can tell apart; brown is in place of yellow, which white
+/// swallows.
+constexpr std::array<const char*, 8> colours = {"#000000", "#0072b2", "#e69f00", "#cc79a7",
+                                                "#56b4e9", "#8c564b", "#009e73", "#d55e00"};
+constexpr std::array<int, 7> point_types = {7, 5, 9, 11, 13, 15, 4};
+/// Lines of more points than this have no marks on them.
+constexpr std::size_t most_marks = 40;
+
+/// An axis, and where 0 is drawn on it.
+struct Axis {
+  char letter = 'x';
+  bool is_log = false;
+  double low = std::numeric_limits<double>::infinity();  ///< positive, or finite if not log
+  double high = -std::numeric_limits<double>::infinity();
+  bool has_zero = false;
+
+  void add(double value) {
+    if (is_log && value <= 0) {
+      has_zero = true;
+    } else if (std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  [[nodiscard]] double zero() const {
+    return std::isfinite(low) ? std::pow(10, std::floor(std::log10(low) + 1e-9) - 1) : 1e-3;
+  }
+  [[nodiscard]] double place(double value) const { return is_log && value <= 0 ? zero() : value; }
+  /// Where the axis begins and ends, with room around what it shows.
+  [[nodiscard]] double first() const {
+    if (is_log) return bottom() / room();
+    return low >= 0 && low < 0.5 * high ? 0 : low - 0.05 * (high - low);
+  }
+  [[nodiscard]] double last() const {
+    if (is_log) return top() * room();
+    return high > first() ? high + 0.07 * (high - first()) : first() + 1;
+  }
+  /// 0 where the axis begins, 1 where it ends.
+  [[nodiscard]] double part(double value) const {
+    if (is_log) return std::log(place(value) / first()) / std::log(last() / first());
+    return (value - first()) / (last() - first());
+  }
+
+ private:
+  [[nodiscard]] double bottom() const { return has_zero ? zero() : low; }
+  [[nodiscard]] double top() const { return std::isfinite(high) ? high : zero(); }
+  [[nodiscard]] double room() const { return std::max(1.3, std::pow(top() / bottom(), 0.07)); }
+};
+
+Axis axis_of(const Figure& figure, char letter, bool is_log) {
+  Axis axis;
+  axis.letter = letter;
+  axis.is_log = is_log;
+  for (const Series& series : figure.series)
+    for (const double value : letter == 'x' ? series.x : series.y) axis.add(value);
+  return axis;
+}
+
+std::string set_axis(const Axis& axis, const std::string& title) {
+  std::string text = format("set %clabel ", axis.letter) + gnuplot_quoted(title) + "\n";
+  text += format("%s logscale %c\nset %ctics auto\nset format %c '%%g'\n", axis.is_log ? "set" : "unset",
+                 axis.letter, axis.letter, axis.letter);
+  if (axis.has_zero) text += format("set %ctics add ('0' %.9g)\n", axis.letter, axis.zero());
+  return text + format("set %crange [%.9g:%.9g]\n", axis.letter, axis.first(), axis.last());
+}
+
+/// Keeps labels from being written over each other: where a later point's label is, none of an earlier one.
+class LabelRoom {
+ public:
+  LabelRoom(const Axis& x, const Axis& y) : x_(x), y_(y) {}
+
+  bool take(double x, double y, const std::string& label) {
+    const Box box{x_.part(x), y_.part(y), x_.part(x) + 0.02 + 0.0075 * static_cast<double>(label.size()),
+                  y_.part(y) + 0.04};
+    const bool is_free = std::ranges::none_of(taken_, [&](const Box& other) {
+      return box.left < other.right && other.left < box.right && box.low < other.high && other.low < box.high;
+    });
+    if (is_free) taken_.push_back(box);
+    return is_free;
+  }
+
+ private:
+  struct Box {
+    double left, low, right, high;
+  };
+  const Axis& x_;
+  const Axis& y_;
+  std::vector<Box> taken_;
+};
+
+std::string data_of(const Series& series, std::size_t index, const Axis& x, const Axis& y) {
+  std::string text = format("$series%zu << EOD\n", index);
+  for (std::size_t i = 0; i < series.x.size(); ++i)
+    text += format("%.9g %.9g\n", x.place(series.x[i]), y.place(series.y[i]));
+  return text + "EOD\n";
+}
+
+std::string labels_of(const Series& series, const Axis& x, const Axis& y, LabelRoom& room) {
+  std::string text;
+  for (std::size_t i = series.labels.size(); i-- > 0;)
+    if (!series.labels[i].empty() && room.take(series.x[i], series.y[i], series.labels[i]))
+      text += "set label " + gnuplot_quoted(series.labels[i]) +
+              format(" at %.9g,%.9g left offset 0.6,0.5 font ',9' front\n", x.place(series.x[i]),
+                     y.place(series.y[i]));
+  return text;
+}
+
+std::string style_of(const Series& series, std::size_t index) {
+  const std::size_t turn = index / colours.size();
+  const std::string colour = std::string(" linecolor rgb '") + colours[index % colours.size()] + "'";
+  const std::string marks =
+      format(" pointtype %d pointsize 1.1", point_types[(index + turn) % point_types.size()]);
+  if (!series.joined) return "with points" + colour + marks;
+  const std::string dashes = format(" dashtype %zu linewidth 1.6", turn + 1);
+  if (!series.marked || series.x.size() > most_marks) return "with lines" + colour + dashes;
+  return "with linespoints" + colour + marks + dashes;
+}
+
+std::string plot_of(const Figure& figure) {
+  const Axis x = axis_of(figure, 'x', figure.log_x);
+  const Axis y = axis_of(figure, 'y', figure.log_y);
+  std::string text = "set title " + gnuplot_quoted(figure.title) + "\n" + set_axis(x, figure.x_title) +
+                     set_axis(y, figure.y_title);
+  std::string plots;
+  LabelRoom room(x, y);
+  for (std::size_t i = 0; i < figure.series.size(); ++i) {
+    const Series& series = figure.series[i];
+    if (series.x.empty()) continue;
+    text += data_of(series, i, x, y) + labels_of(series, x, y, room);
+    plots += (plots.empty() ? "plot " : ", ") + format("$series%zu using 1:2 ", i) + style_of(series, i) +
+             " title " + gnuplot_quoted(series.name);
+  }
+  return plots.empty() ? "" : text + plots + "\n";
+}
+
+std::string terminal_of(const std::filesystem::path& path) {
+  if (path.extension() == ".svg")
+    return "set terminal svg noenhanced size 900,600 font 'DejaVu Sans,13' background rgb 'white'\n";
+  return "set terminal pngcairo noenhanced size 760,520 font 'DejaVu Sans,9'\n";
+}
+
+/// The names of the series in two columns below the plot, however long they are.
+std::string layout_of(const Figure& figure) {
+  const std::size_t rows = (figure.series.size() + 1) / 2;
+  return "set grid linecolor rgb '#dddddd'\nset lmargin 10\nset rmargin 3\n" +
+         format(
+             "set bmargin %zu\nset key at screen 0.08,0.015 left bottom Left reverse maxrows %zu samplen 2 "
+             "width 2\n",
+             rows + 5, rows);
+}
+
+}  // namespace
+
+void draw(std::span<const Drawing> drawings) {
+  std::string script;
+  for (const Drawing& drawing : drawings)
+    script += terminal_of(drawing.path) + "set output " + gnuplot_quoted(drawing.path.string()) + "\n" +
+              layout_of(*drawing.figure) + plot_of(*drawing.figure) + "unset output\nreset\n";
+  if (!drawings.empty()) run_gnuplot(script, drawings.front().path.parent_path().string());
+}
+
+}  // namespace graze::tools

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+#include "springs/spring_network.hpp"
+
+namespace graze::springs {
+
+/// x, y, z of a vertex in each row.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// Masses joined by springs, moved by implicit Euler.
+///
+/// Explicit schemes blow up once a step is longer than a spring's own period allows. Implicit Euler does not
+/// (Baraff and Witkin, Large Steps in Cloth Simulation, 1998), but takes one linear solve of another matrix
+/// in each step, and that matrix has to be kept positive where springs are pressed together. It is solved
+/// here as Liu, Bargteil, O'Brien and Kavan do (Fast Simulation of Mass-Spring Systems, 2013): a step is the
+/// minimum of (1/2h²)‖x − y‖²_M + E(x), y being where inertia and outer forces lead. With a direction d for
+/// each spring, E is quadratic in x, and the minimum over x, and that over d, are found in turn: the best d
+/// is the spring's present direction, the best x solves M + h²L, which never changes and is factorized once.
+/// Each half lowers the same bounded sum, whatever the step and the stiffness, so nothing can blow up; energy
+/// is lost, as in implicit Euler, and not won. Since springs pull both ends alike the rows of L sum to zero,
+/// and momentum is kept in every iteration, not at convergence only.
+///
+/// The same on every run: a fixed number of iterations, and no randomness.
+class MassSpringBody {
+ public:
+  static constexpr int default_iterations = 12;
+
+  /// Every vertex has this mass. `step` is h.
+  MassSpringBody(const Points& positions, std::vector<Spring> springs, double vertex_mass, double step,
+                 int iterations = default_iterations);
+
+  [[nodiscard]] const Points& positions() const { return positions_; }
+  [[nodiscard]] const Points& velocities() const { return velocities_; }
+  /// Of positions().rows() rows.
+  void set_velocities(const Points& velocities) { velocities_ = velocities; }
+  void set_positions(const Points& positions) { positions_ = positions; }
+
+  /// One step under a force on each vertex, none where there are no rows.
+  void step(const Points& forces = {});
+
+  [[nodiscard]] double kinetic_energy() const;
+  [[nodiscard]] double elastic_energy() const { return elastic_energy_at(positions_); }
+  [[nodiscard]] Eigen::RowVector3d momentum() const;
+
+ private:
+  [[nodiscard]] double elastic_energy_at(const Points& at) const;
+  [[nodiscard]] double sum_at_start(const Points& inertia) const;
+  [[nodiscard]] Points pulls(const Points& at) const;
+
+  std::vector<Spring> springs_;
+  double mass_;
+  double step_;
+  int iterations_;
+  Points positions_;
+  Points velocities_;
+  std::unique_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> solver_;  ///< of M + h²L
+};
+
+}  // namespace graze::springs
