@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/aims.hpp"
+#include "bench/growth_figures.hpp"
 #include "bench/run.hpp"
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
@@ -28,7 +29,7 @@ struct BenchOptions {
   bool evict = false;
   std::string instruction_set;
   std::string data = GRAZE_SHARED_DATA;
-  std::filesystem::path csv, json;
+  std::filesystem::path csv, json, figures;
 };
 
 /// Parts of a scene have its name and a letter.
@@ -135,6 +136,7 @@ void run(const BenchOptions& options) {
   for (const bench::Run& run : runs) figures["runs"].push_back(bench::figures_of(run));
   figures["aims"] = bench::figures_of(aims);
   write(options.json, figures.dump(2) + "\n");
+  if (!options.figures.empty()) bench::draw_growth(options.figures, runs);
   check_answers(runs);
 }
 
@@ -166,6 +168,12 @@ void add_bench_command(CLI::App& app) {
   command->add_option("--data", options->data, "The folder of real meshes, for S7")->capture_default_str();
   command->add_option("--csv", options->csv, "Write a line for each contender of each run into this file");
   command->add_option("--json", options->json, "Write all figures into this file");
+  command
+      ->add_option(
+          "--figures", options->figures,
+          "Draw times against the number of objects and vertices into this folder, from the scenes G "
+          "and V")
+      ->check(CLI::ExistingDirectory);
   command->callback([options] { run(*options); });
 }
 

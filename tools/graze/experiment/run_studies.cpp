@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "check_failed.hpp"
-#include "experiment/figure_plot.hpp"
 #include "experiment/report_csv.hpp"
 #include "experiment/report_html.hpp"
 #include "experiment/report_markdown.hpp"
 #include "experiment/text_file.hpp"
+#include "figure_plot.hpp"
 #include "gnuplot.hpp"
 #include "progress.hpp"
 #include "text_format.hpp"

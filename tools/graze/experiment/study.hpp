@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "figure.hpp"
+
 namespace graze::tools {
 
 struct Column {
@@ -23,24 +25,6 @@ struct ResultTable {
   std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
   bool timed = false;                   ///< holds times: not the same in a second run
   bool shown = true;                    ///< false: too long to read, data of a figure
-};
-
-struct Series {
-  std::string name;
-  std::vector<double> x, y;         ///< of one length
-  bool joined = true;               ///< a line through the points, otherwise points alone
-  std::vector<std::string> labels;  ///< none, or one a point, written beside it where there is room
-  bool marked = true;               ///< a mark at each point, where they are few
-};
-
-/// Drawn in the page, and beside the document as an image.
-struct Figure {
-  std::string name;  ///< as in a file's name
-  std::string title;
-  std::string x_title, y_title;
-  bool log_x = false, log_y = false;
-  bool timed = false;
-  std::vector<Series> series;
 };
 
 /// What the paper says, what was measured, and whether it holds.

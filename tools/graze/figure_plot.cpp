@@ -1,4 +1,4 @@
-#include "experiment/figure_plot.hpp"
+#include "figure_plot.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <span>
 
-#include "experiment/study.hpp"
+#include "figure.hpp"
 
 namespace graze::tools {
 
