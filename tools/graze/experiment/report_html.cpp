@@ -12,12 +12,14 @@ namespace {
 const char* style = R"(
 :root { color-scheme: light dark; --line: #8886; --back: #fff; --fore: #1b1f24; --head: #eef1f4; --link: #0b5cad; }
 @media (prefers-color-scheme: dark) { :root { --back: #14181d; --fore: #dfe4ea; --head: #232a32; --link: #7ab8ff; } }
-body { max-width: 60rem; margin: 2rem auto; padding: 0 1rem; background: var(--back); color: var(--fore);
+body { max-width: 78rem; margin: 2rem auto; padding: 0 1rem; background: var(--back); color: var(--fore);
   font: 16px/1.55 system-ui, "DejaVu Sans", sans-serif; }
+p, ul { max-width: 60rem; }
 h1, h2 { line-height: 1.25; } h2 { margin-top: 3rem; border-bottom: 1px solid var(--line); padding-bottom: .3rem; }
 a { color: var(--link); } code { font-size: .9em; }
 table { border-collapse: collapse; display: block; overflow-x: auto; font-size: .86rem; margin: 1rem 0; }
 th, td { border: 1px solid var(--line); padding: .25rem .6rem; vertical-align: top; }
+td[align="right"] { white-space: nowrap; }
 th { background: var(--head); } td { font-variant-numeric: tabular-nums; }
 img { display: block; width: 100%; max-width: 900px; height: auto; margin: 1.2rem 0; border: 1px solid var(--line);
   background: #fff; border-radius: 4px; }
