@@ -73,7 +73,10 @@ void ContactChecks::add(const RecordedMotion& motion, const PlayedSetting& setti
   check.name = setting.name;
   check.detail = setting.settings.detail;
   check.contact_distance = setting.settings.contact_distance;
-  checked_.push_back({setting, check, std::make_unique<PlayedScene>(motion, setting), {}});
+  Checked& checked = checked_.emplace_back();
+  checked.setting = setting;
+  checked.result = check;
+  checked.scene = std::make_unique<PlayedScene>(motion, setting);
 }
 
 void ContactChecks::step(std::size_t frame) {

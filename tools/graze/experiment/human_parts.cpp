@@ -94,12 +94,12 @@ RecordedMotion thinned_out(RecordedMotion motion, std::size_t every) {
 
 }  // namespace
 
-RecordedMotion with_humans_in_parts(const RecordedMotion& whole, std::size_t every) {
-  const RecordedMotion motion = thinned_out(whole, every);
+RecordedMotion with_humans_in_parts(const RecordedMotion& motion, std::size_t every) {
+  const RecordedMotion kept = thinned_out(motion, every);
   RecordedMotion result;
   result.name = motion.name + "_parts";
   std::uint64_t group = 0;
-  for (const RecordedObject& object : motion.objects) {
+  for (const RecordedObject& object : kept.objects) {
     if (object.kind == "human")
       add_parts(object, ++group, result);
     else

@@ -26,6 +26,7 @@ std::vector<Series> truths_of(const PaperResults& results) {
   std::map<double, const RowResult*> rows;
   for (const RowResult& row : results.rows) rows.emplace(row.row.last(), &row);
   std::vector<Series> truths;
+  truths.reserve(rows.size());
   for (const auto& [last, row] : rows)
     truths.push_back(series_of(*row, format("all, exact mode at %g", last),
                                [](const StepCount& step) { return step.truth; }));

@@ -110,7 +110,9 @@ class Measurement {
   }
 
   void add_to_library(RowResult& result, const PlayedSetting& setting) {
-    library_.push_back({&result, std::make_unique<PlayedScene>(motion_, setting), {}});
+    LibraryRow& row = library_.emplace_back();
+    row.result = &result;
+    row.scene = std::make_unique<PlayedScene>(motion_, setting);
     settings_.push_back(setting);
   }
 

@@ -20,6 +20,7 @@ std::vector<double> list_of(const Numbers& numbers) {
 
 std::vector<PaperRow> rows_of(const std::vector<std::vector<RowRule>>& rules) {
   std::vector<PaperRow> rows;
+  rows.reserve(rules.size());
   for (const std::vector<RowRule>& row : rules)
     rows.push_back({"row " + std::to_string(rows.size() + 1), row});
   return rows;
@@ -43,6 +44,7 @@ std::vector<PaperRow> table_3() {
                                                         {{{40, 25, 10}, {40, 30, 10}}},
                                                         {{{25, 15, 10}, {45, 30, 10}}}}};
   std::vector<std::vector<RowRule>> rows;
+  rows.reserve(table.size());
   for (const auto& [humans, torus] : table)
     rows.push_back({{first_and_first, list_of(humans)}, {first_and_second, list_of(torus)}});
   return rows_of(rows);

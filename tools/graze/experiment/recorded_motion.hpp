@@ -23,7 +23,7 @@ struct RecordedObject {
   std::vector<std::vector<float>> frames;  ///< x, y, z of each vertex
 
   [[nodiscard]] PositionView positions(std::size_t frame) const {
-    return PositionView(frames[frame].data(), frames[frame].size() / 3);
+    return {frames[frame].data(), frames[frame].size() / 3};
   }
 };
 

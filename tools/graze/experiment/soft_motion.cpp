@@ -151,7 +151,8 @@ class Simulation {
   /// A force on each vertex, by the contacts that were last seen.
   [[nodiscard]] std::vector<Points> pushes() const {
     std::vector<Points> forces;
-    for (std::size_t i = 0; i < actors_.size(); ++i) forces.push_back(Points::Zero(positions(i).rows(), 3));
+    for (std::size_t i = 0; i < actors_.size(); ++i)
+      forces.emplace_back(Points::Zero(positions(i).rows(), 3));
     for (const PairReport& pair : report_->pairs()) {
       const std::size_t a = index_of(pair.a);
       const std::size_t b = index_of(pair.b);
@@ -194,12 +195,12 @@ RecordedMotion empty_recording(const SoftMotion& motion, const Simulation& simul
 
 }  // namespace
 
-RecordedMotion record_soft_motion(const SoftMotion& plan, std::size_t frames) {
-  SoftMotion motion = plan;
-  for (SoftBody& body : motion.bodies)
+RecordedMotion record_soft_motion(const SoftMotion& motion, std::size_t frames) {
+  SoftMotion rounded = motion;
+  for (SoftBody& body : rounded.bodies)
     for (Vector3d& position : body.rest.positions) position = on_grid(position);
-  Simulation simulation(motion);
-  RecordedMotion recording = empty_recording(motion, simulation);
+  Simulation simulation(rounded);
+  RecordedMotion recording = empty_recording(rounded, simulation);
   simulation.look();
   bool moving = true;
   std::size_t step = 0;
