@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "check_failed.hpp"
-#include "experiment/pareto.hpp"
-#include "experiment/report_csv.hpp"
-#include "experiment/report_html.hpp"
-#include "experiment/run_studies.hpp"
+#include "experiment/report/report_csv.hpp"
+#include "experiment/report/report_html.hpp"
+#include "experiment/report/run_studies.hpp"
+#include "experiment/speed/pareto.hpp"
 #include "gnuplot.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"

@@ -13,10 +13,10 @@
 #include <set>
 #include <vector>
 
-#include "experiment/bound_walk.hpp"
-#include "experiment/near_vertices.hpp"
-#include "experiment/partitions.hpp"
-#include "experiment/swept_box.hpp"
+#include "experiment/regions/bound_walk.hpp"
+#include "experiment/regions/near_vertices.hpp"
+#include "experiment/regions/partitions.hpp"
+#include "experiment/regions/swept_box.hpp"
 #include "models/models.hpp"
 #include "scenes/random.hpp"
 #include "support/catch.hpp"

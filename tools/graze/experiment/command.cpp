@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "experiment/paper_experiment.hpp"
-#include "experiment/region_bounds_study.hpp"
-#include "experiment/run_studies.hpp"
-#include "experiment/speed_against_error.hpp"
-#include "experiment/subdivision_study.hpp"
+#include "experiment/paper/paper_experiment.hpp"
+#include "experiment/regions/region_bounds_study.hpp"
+#include "experiment/regions/subdivision_study.hpp"
+#include "experiment/report/run_studies.hpp"
+#include "experiment/speed/speed_against_error.hpp"
 
 namespace graze::tools {
 namespace {
