@@ -1,5 +1,6 @@
 #include "experiment/regions/comparison_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -97,6 +98,15 @@ double geometric_mean(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += std::log(value);
   return values.empty() ? 1 : std::exp(sum / static_cast<double>(values.size()));
+}
+
+double beside(double mine, double other) {
+  return mine / other;
+}
+
+double beside(std::uint64_t mine, std::uint64_t other) {
+  return beside(static_cast<double>(std::max<std::uint64_t>(1, mine)),
+                static_cast<double>(std::max<std::uint64_t>(1, other)));
 }
 
 }  // namespace graze::tools

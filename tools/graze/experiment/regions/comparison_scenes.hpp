@@ -31,4 +31,8 @@ double a_frame(std::uint64_t of_all_frames, std::size_t frames);
 /// The `n`th root of the product of n positive numbers; 1 of none.
 double geometric_mean(const std::vector<double>& values);
 
+/// One figure beside another: its part of it; of counts at least 1 each.
+double beside(double mine, double other);
+double beside(std::uint64_t mine, std::uint64_t other);
+
 }  // namespace graze::tools

@@ -157,47 +157,44 @@ ResultTable time_table(const std::vector<SceneResult>& results) {
 /// A bound beside the box, by geometric means over all scenes.
 struct BesideBox {
   std::string bound;
-  double tests, leaf_pairs, face_leaf_pairs, corner_pairs;  // the same in a second run
-  double test_ns, update, walk, step, face_step;            // times
-  std::size_t faster_scenes, faster_face_scenes;
+  double tests = 0, leaf_pairs = 0, face_leaf_pairs = 0, corner_pairs = 0;  // the same in a second run
+  double test_ns = 0, update = 0, walk = 0, step = 0, face_step = 0;        // times
+  std::size_t faster_scenes = 0, faster_face_scenes = 0;
 };
 
 BesideBox beside_box(const std::vector<SceneResult>& results, std::size_t bound) {
-  std::vector<double> tests, leaf_pairs, face_leaf_pairs, corner_pairs, test_ns, update, walk, step,
-      face_step;
-  BesideBox beside{};
-  const auto count_ratio = [](std::uint64_t value, std::uint64_t box) {
-    return static_cast<double>(std::max<std::uint64_t>(1, value)) /
-           static_cast<double>(std::max<std::uint64_t>(1, box));
+  const auto ratio_in = [&](const std::vector<BoundMeasure>& measures, const auto& figure) {
+    return beside(figure(measures[bound]), figure(measures[axis_box]));
   };
-  for (const SceneResult& result : results) {
-    const BoundMeasure& mine = result.of_vertices[bound];
-    const BoundMeasure& box = result.of_vertices[axis_box];
-    const BoundMeasure& my_faces = result.of_faces[bound];
-    const BoundMeasure& box_faces = result.of_faces[axis_box];
-    beside.bound = mine.bound;
-    tests.push_back(count_ratio(mine.walked.tested, box.walked.tested));
-    leaf_pairs.push_back(count_ratio(mine.walked.reached, box.walked.reached));
-    face_leaf_pairs.push_back(count_ratio(my_faces.walked.reached, box_faces.walked.reached));
-    corner_pairs.push_back(count_ratio(my_faces.corner_pairs_left, box_faces.corner_pairs_left));
-    test_ns.push_back(mine.test_ns / box.test_ns);
-    update.push_back(mine.update_ms / box.update_ms);
-    walk.push_back(mine.walk_ms / box.walk_ms);
-    step.push_back(mine.step_ms() / box.step_ms());
-    face_step.push_back(my_faces.step_ms() / box_faces.step_ms());
-    beside.faster_scenes += step.back() < 1 ? 1U : 0U;
-    beside.faster_face_scenes += face_step.back() < 1 ? 1U : 0U;
-  }
-  beside.tests = geometric_mean(tests);
-  beside.leaf_pairs = geometric_mean(leaf_pairs);
-  beside.face_leaf_pairs = geometric_mean(face_leaf_pairs);
-  beside.corner_pairs = geometric_mean(corner_pairs);
-  beside.test_ns = geometric_mean(test_ns);
-  beside.update = geometric_mean(update);
-  beside.walk = geometric_mean(walk);
-  beside.step = geometric_mean(step);
-  beside.face_step = geometric_mean(face_step);
-  return beside;
+  const auto mean = [&](const auto& measures, const auto& figure) {
+    std::vector<double> ratios;
+    for (const SceneResult& result : results) ratios.push_back(ratio_in(result.*measures, figure));
+    return geometric_mean(ratios);
+  };
+  const auto faster = [&](const auto& measures) {
+    return static_cast<std::size_t>(
+        std::count_if(results.begin(), results.end(), [&](const SceneResult& result) {
+          return (result.*measures)[bound].step_ms() < (result.*measures)[axis_box].step_ms();
+        }));
+  };
+  const auto vertices = &SceneResult::of_vertices;
+  const auto faces = &SceneResult::of_faces;
+  const auto reached = [](const BoundMeasure& each) { return each.walked.reached; };
+  const auto step = [](const BoundMeasure& each) { return each.step_ms(); };
+  BesideBox result;
+  result.bound = results.front().of_vertices[bound].bound;
+  result.tests = mean(vertices, [](const BoundMeasure& each) { return each.walked.tested; });
+  result.leaf_pairs = mean(vertices, reached);
+  result.face_leaf_pairs = mean(faces, reached);
+  result.corner_pairs = mean(faces, [](const BoundMeasure& each) { return each.corner_pairs_left; });
+  result.test_ns = mean(vertices, [](const BoundMeasure& each) { return each.test_ns; });
+  result.update = mean(vertices, [](const BoundMeasure& each) { return each.update_ms; });
+  result.walk = mean(vertices, [](const BoundMeasure& each) { return each.walk_ms; });
+  result.step = mean(vertices, step);
+  result.face_step = mean(faces, step);
+  result.faster_scenes = faster(vertices);
+  result.faster_face_scenes = faster(faces);
+  return result;
 }
 
 ResultTable beside_box_table(const std::vector<BesideBox>& all) {

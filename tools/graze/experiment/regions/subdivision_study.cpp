@@ -193,48 +193,37 @@ ResultTable time_table(const std::vector<SceneResult>& results) {
 /// A partition beside the octree, by geometric means over all scenes.
 struct BesideOctree {
   std::string name;
-  double tests, vertex_pairs, sphere_vertex_pairs, bytes;  // the same in a second run
-  double build, update, step, sphere_step;                 // times
-  std::size_t faster_scenes;
+  double tests = 0, vertex_pairs = 0, sphere_vertex_pairs = 0, bytes = 0;  // the same in a second run
+  double build = 0, update = 0, step = 0, sphere_step = 0;                 // times
+  std::size_t faster_scenes = 0;
 };
 
 BesideOctree beside_octree(const std::vector<SceneResult>& results, std::size_t division) {
-  std::vector<double> tests, vertex_pairs, sphere_vertex_pairs, bytes, build, update, step, sphere_step;
-  BesideOctree beside{};
-  const auto ratio = [](auto mine, auto octrees) {
-    return static_cast<double>(mine) / static_cast<double>(octrees);
+  const auto mean = [&](const auto& figure) {
+    std::vector<double> ratios;
+    for (const SceneResult& result : results)
+      ratios.push_back(beside(figure(result.divisions[division]), figure(result.divisions[octree])));
+    return geometric_mean(ratios);
   };
-  const auto count_ratio = [](std::uint64_t mine, std::uint64_t octrees) {
-    return static_cast<double>(std::max<std::uint64_t>(1, mine)) /
-           static_cast<double>(std::max<std::uint64_t>(1, octrees));
-  };
-  for (const SceneResult& result : results) {
-    const DivisionResult& mine = result.divisions[division];
-    const DivisionResult& tree = result.divisions[octree];
-    beside.name = mine.name;
-    tests.push_back(count_ratio(mine.boxes.walked.tested, tree.boxes.walked.tested));
-    vertex_pairs.push_back(count_ratio(mine.boxes.leaf_vertex_pairs, tree.boxes.leaf_vertex_pairs));
-    sphere_vertex_pairs.push_back(
-        count_ratio(mine.spheres.leaf_vertex_pairs, tree.spheres.leaf_vertex_pairs));
-    const auto total_bytes = [](const DivisionResult& each) {
-      return each.bytes + each.regions * each.boxes.bytes_a_region;
-    };
-    bytes.push_back(ratio(total_bytes(mine), total_bytes(tree)));
-    build.push_back(ratio(mine.build_ms, tree.build_ms));
-    update.push_back(ratio(mine.boxes.update_ms, tree.boxes.update_ms));
-    step.push_back(ratio(mine.boxes.step_ms(), tree.boxes.step_ms()));
-    sphere_step.push_back(ratio(mine.spheres.step_ms(), tree.spheres.step_ms()));
-    beside.faster_scenes += step.back() < 1 ? 1U : 0U;
-  }
-  beside.tests = geometric_mean(tests);
-  beside.vertex_pairs = geometric_mean(vertex_pairs);
-  beside.sphere_vertex_pairs = geometric_mean(sphere_vertex_pairs);
-  beside.bytes = geometric_mean(bytes);
-  beside.build = geometric_mean(build);
-  beside.update = geometric_mean(update);
-  beside.step = geometric_mean(step);
-  beside.sphere_step = geometric_mean(sphere_step);
-  return beside;
+  const auto step = [](const DivisionResult& each) { return each.boxes.step_ms(); };
+  BesideOctree result;
+  if (!results.empty()) result.name = results.front().divisions[division].name;
+  result.tests = mean([](const DivisionResult& each) { return each.boxes.walked.tested; });
+  result.vertex_pairs = mean([](const DivisionResult& each) { return each.boxes.leaf_vertex_pairs; });
+  result.sphere_vertex_pairs =
+      mean([](const DivisionResult& each) { return each.spheres.leaf_vertex_pairs; });
+  result.bytes = mean([](const DivisionResult& each) {
+    return std::uint64_t{each.bytes + each.regions * each.boxes.bytes_a_region};
+  });
+  result.build = mean([](const DivisionResult& each) { return each.build_ms; });
+  result.update = mean([](const DivisionResult& each) { return each.boxes.update_ms; });
+  result.step = mean(step);
+  result.sphere_step = mean([](const DivisionResult& each) { return each.spheres.step_ms(); });
+  result.faster_scenes =
+      static_cast<std::size_t>(std::count_if(results.begin(), results.end(), [&](const SceneResult& each) {
+        return step(each.divisions[division]) < step(each.divisions[octree]);
+      }));
+  return result;
 }
 
 ResultTable beside_table(const std::vector<BesideOctree>& all) {
