@@ -61,6 +61,7 @@ void draw_growth(const std::filesystem::path& folder, const std::vector<Run>& ru
       if (!figure.series.empty() && figure.series.front().x.size() > 1) figures.push_back(std::move(figure));
     }
   std::vector<tools::Drawing> drawings;
+  drawings.reserve(figures.size());
   for (const tools::Figure& figure : figures) drawings.push_back({&figure, folder / (figure.name + ".png")});
   tools::draw(drawings);
 }

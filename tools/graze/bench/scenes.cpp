@@ -83,11 +83,12 @@ BenchScene lattice() {
 /// Two spheres of about `segments * rings` vertices; distance and motion are of the size of their edges.
 BenchScene spheres(std::string name, std::uint32_t segments, std::uint32_t rings) {
   const double edge = 400.0 / segments;  // in those of the spheres of 100,000
-  BenchScene scene{std::move(name),
-                   "2 spheres of " + thousands(segments * rings) + " vertices with a small contact patch",
-                   0.02 * edge,
-                   20,
-                   {}};
+  BenchScene scene{
+      std::move(name),
+      "2 spheres of " + thousands(std::size_t{segments} * rings) + " vertices with a small contact patch",
+      0.02 * edge,
+      20,
+      {}};
   const auto mesh = mesh_of(models::sphere(segments, rings));
   for (const double side : {-1.0, 1.0})
     scene.bodies.push_back(wobbling(mesh, {Eigen::Matrix3d::Identity(),

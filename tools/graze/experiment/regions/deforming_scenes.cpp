@@ -111,7 +111,9 @@ BenchScene striding_humans() {
   BenchScene scene{
       "striding", "four humans of 946 vertices who stride in a crowd", mean_edge_length(meshes), 24, {}};
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vector place(0.42 * static_cast<double>(i % 2), 0.36 * static_cast<double>(i / 2), 0);
+    const std::size_t column = i % 2;
+    const std::size_t row = i / 2;
+    const Vector place(0.42 * static_cast<double>(column), 0.36 * static_cast<double>(row), 0);
     const auto pose = [human, place, i](std::size_t frame, std::span<float> out) {
       std::vector<Vector> positions;
       human->pose(2 * std::numbers::pi * static_cast<double>(frame) / 24 + 1.3 * static_cast<double>(i),

@@ -39,6 +39,7 @@ struct SceneResult {
 std::vector<BoundMeasure> measure_all(const DividedScene& divided, const MeasureSettings& settings) {
   const TimedTests timed = tests_of_boxes(divided, settings);
   std::vector<BoundMeasure> measures;
+  measures.reserve(all_bounds.size());
   for (const MeasureBound measure : all_bounds) measures.push_back(measure(divided, settings, timed));
   return measures;
 }
@@ -168,6 +169,7 @@ BesideBox beside_box(const std::vector<SceneResult>& results, std::size_t bound)
   };
   const auto mean = [&](const auto& measures, const auto& figure) {
     std::vector<double> ratios;
+    ratios.reserve(results.size());
     for (const SceneResult& result : results) ratios.push_back(ratio_in(result.*measures, figure));
     return geometric_mean(ratios);
   };
@@ -366,6 +368,7 @@ void add_claims(const std::vector<BesideBox>& all, const std::vector<SceneResult
   const BesideBox& sphere = all[middle_sphere];
   const auto median_test_ns = [&](std::size_t bound) {
     std::vector<double> ns;
+    ns.reserve(results.size());
     for (const SceneResult& result : results) ns.push_back(result.of_vertices[bound].test_ns);
     std::nth_element(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(ns.size() / 2), ns.end());
     return ns[ns.size() / 2];

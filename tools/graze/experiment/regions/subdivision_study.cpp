@@ -201,6 +201,7 @@ struct BesideOctree {
 BesideOctree beside_octree(const std::vector<SceneResult>& results, std::size_t division) {
   const auto mean = [&](const auto& figure) {
     std::vector<double> ratios;
+    ratios.reserve(results.size());
     for (const SceneResult& result : results)
       ratios.push_back(beside(figure(result.divisions[division]), figure(result.divisions[octree])));
     return geometric_mean(ratios);
