@@ -26,7 +26,7 @@ class MovingModels final : public MovingScene {
   [[nodiscard]] const std::vector<double>& level_epsilon() const override { return level_epsilon_; }
   void place(Scene& scene, ObjectId object, std::size_t body, std::uint32_t frame) const override;
 
-  [[nodiscard]] std::vector<Eigen::Vector3d> positions(std::size_t body, std::uint32_t frame) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> positions(std::size_t index, std::uint32_t frame) const;
   /// The surface as the oracle takes it.
   [[nodiscard]] oracle::Shape shape(std::size_t body, std::uint32_t frame) const;
   [[nodiscard]] const oracle::Shape& rest(std::size_t body) const { return bodies_[body].rest; }

@@ -61,6 +61,7 @@ std::string table_of(const ResultTable& table) {
   std::string text = "**" + text_of(table.title) + "**\n\n" + row(titles) + row(rules);
   for (const std::vector<Cell>& cells : table.rows) {
     std::vector<std::string> texts;
+    texts.reserve(cells.size());
     for (const Cell& cell : cells)
       texts.push_back(std::visit([](const auto& value) { return text_of(value); }, cell));
     text += row(texts);

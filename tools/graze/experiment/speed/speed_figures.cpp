@@ -22,6 +22,7 @@ struct Point {
 
 Series front_of(const std::vector<Point>& points, bool less_is_better) {
   std::vector<CostAndError> costs;
+  costs.reserve(points.size());
   for (const Point& point : points) costs.push_back({point.x, less_is_better ? point.y : -point.y});
   Series front{"Pareto front", {}, {}, true, {}, false};
   for (const std::size_t i : pareto_front(costs)) {
