@@ -33,26 +33,24 @@ std::vector<Series> truths_of(const PaperResults& results) {
   return truths;
 }
 
-Figure found_figure(const PaperResults& results) {
-  Figure figure{"found", "Leaf regions with vertices nearer than the last ε: found by each row, and all",
-                "step",  "collisions",
-                false,   false,
-                false,   truths_of(results)};
-  for (const RowResult& row : results.rows)
-    figure.series.push_back(
-        series_of(row, title_of(row), [](const StepCount& step) { return step.found(); }));
+/// A count of each row in each step, beside the truth.
+template <typename CountOf>
+Figure steps_figure(const PaperResults& results, const char* name, const char* title, const CountOf& count) {
+  Figure figure{name, title, "step", "collisions", false, false, false, truths_of(results)};
+  for (const RowResult& row : results.rows) figure.series.push_back(series_of(row, title_of(row), count));
   return figure;
 }
 
+Figure found_figure(const PaperResults& results) {
+  return steps_figure(results, "found",
+                      "Leaf regions with vertices nearer than the last ε: found by each row, and all",
+                      [](const StepCount& step) { return step.found(); });
+}
+
 Figure reported_figure(const PaperResults& results) {
-  Figure figure{"reported", "Leaf regions for which DV ends nearer than the last ε, and those truly so near",
-                "step",     "collisions",
-                false,      false,
-                false,      truths_of(results)};
-  for (const RowResult& row : results.rows)
-    figure.series.push_back(
-        series_of(row, title_of(row), [](const StepCount& step) { return step.reported; }));
-  return figure;
+  return steps_figure(results, "reported",
+                      "Leaf regions for which DV ends nearer than the last ε, and those truly so near",
+                      [](const StepCount& step) { return step.reported; });
 }
 
 Figure times_figure(const PaperResults& results) {

@@ -6,6 +6,7 @@
 #include "bench/scenes.hpp"
 #include "experiment/options.hpp"
 #include "experiment/study.hpp"
+#include "progress.hpp"
 
 namespace graze::tools {
 
@@ -27,6 +28,18 @@ std::size_t compared_frames(const ExperimentOptions& options);
 
 /// `of_all_frames` for one of `frames`.
 double a_frame(std::uint64_t of_all_frames, std::size_t frames);
+
+/// `measure(scene)` of every scene, with a progress line.
+template <typename Measure>
+auto measure_each(const ComparisonScenes& scenes, const Measure& measure) {
+  std::vector<decltype(measure(scenes.scenes.front()))> results;
+  Progress progress("scene", scenes.scenes.size());
+  for (const bench::BenchScene& scene : scenes.scenes) {
+    progress.at(results.size());
+    results.push_back(measure(scene));
+  }
+  return results;
+}
 
 /// The `n`th root of the product of n positive numbers; 1 of none.
 double geometric_mean(const std::vector<double>& values);

@@ -7,7 +7,6 @@
 #include "experiment/regions/bound_measure.hpp"
 #include "experiment/regions/comparison_scenes.hpp"
 #include "experiment/regions/swept_box.hpp"
-#include "progress.hpp"
 #include "text_format.hpp"
 
 namespace graze::tools {
@@ -400,18 +399,12 @@ void add_claims(const std::vector<BesideBox>& all, const std::vector<SceneResult
 
 Study region_bounds_study(const ExperimentOptions& options) {
   const ComparisonScenes scenes = bound_scenes(options);
-  std::vector<SceneResult> results;
+  const auto results =
+      measure_each(scenes, [&](const bench::BenchScene& scene) { return measure_scene(scene, options); });
   Study study;
   study.name = "bounds";
   study.title = "Region bounds compared";
-  {
-    Progress progress("scene", scenes.scenes.size());
-    for (const bench::BenchScene& scene : scenes.scenes) {
-      progress.at(results.size());
-      results.push_back(measure_scene(scene, options));
-      check(results.back(), study);
-    }
-  }
+  for (const SceneResult& result : results) check(result, study);
   std::vector<BesideBox> beside;
   for (std::size_t i = 0; i < all_bounds.size(); ++i) beside.push_back(beside_box(results, i));
   study.text = text_of(beside, scenes, results.size(), options.times);

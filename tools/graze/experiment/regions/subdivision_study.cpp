@@ -7,7 +7,6 @@
 
 #include "experiment/regions/bound_measure.hpp"
 #include "experiment/regions/comparison_scenes.hpp"
-#include "progress.hpp"
 #include "text_format.hpp"
 
 namespace graze::tools {
@@ -355,18 +354,12 @@ void add_claims(const std::vector<BesideOctree>& all, Study& study) {
 
 Study subdivision_study(const ExperimentOptions& options) {
   const ComparisonScenes scenes = partition_scenes(options);
-  std::vector<SceneResult> results;
+  const auto results =
+      measure_each(scenes, [&](const bench::BenchScene& scene) { return measure_scene(scene, options); });
   Study study;
   study.name = "subdivision";
   study.title = "Subdivision compared";
-  {
-    Progress progress("scene", scenes.scenes.size());
-    for (const bench::BenchScene& scene : scenes.scenes) {
-      progress.at(results.size());
-      results.push_back(measure_scene(scene, options));
-      check(results.back(), study);
-    }
-  }
+  for (const SceneResult& result : results) check(result, study);
   std::vector<BesideOctree> beside;
   for (std::size_t i = 0; i < all_divisions.size(); ++i) beside.push_back(beside_octree(results, i));
   study.text = text_of(beside, results, scenes, options.times);
@@ -375,7 +368,7 @@ Study subdivision_study(const ExperimentOptions& options) {
   for (const SceneResult& result : results)
     if (is_of_folds(result))
       study.figures.push_back(frames_figure(
-          result, "" + result.name, "Two sheets, " + result.name + ": vertex pairs left, with boxes"));
+          result, result.name, "Two sheets, " + result.name + ": vertex pairs left, with boxes"));
   add_claims(beside, study);
   return study;
 }
