@@ -117,7 +117,7 @@ void PairSearch::next_stage(Worker& worker) {
       if (query_.mode == AccuracyMode::paper) return as_in_paper(worker);
       if (query_.detail == ContactDetail::none || query_.detail == ContactDetail::closest)
         return begin_approach(worker);
-      return begin_reach(worker);
+      return begin_contact(worker);
     case Stage::reach:
       return begin_contacts(worker);
     case Stage::contacts:
@@ -292,6 +292,17 @@ auto PairSearch::may_touch_within_slack() const {
   return [this](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); };
 }
 
+/// Vertices near each other are mostly in one place of their surfaces, where no walk is needed.
+void PairSearch::begin_contact(Worker& worker) {
+  if (query_.detail != ContactDetail::vertices) return begin_reach(worker);
+  const Swept swept =
+      sweep_close_vertices(worker.pair, query_.threshold, worker.scratch.sweep, worker.meter, names_);
+  if (swept == Swept::out_of_budget) return give_up();
+  if (swept == Swept::too_many) return begin_reach(worker);
+  std::sort(names_.begin(), names_.end());
+  begin_measuring(worker);
+}
+
 void PairSearch::begin_reach(Worker& worker) {
   stage_ = Stage::reach;
   from_front_ = front_->beyond_now(*a_, *b_) > query_.threshold;
@@ -351,6 +362,10 @@ void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& wo
 
 void PairSearch::finish_contacts(Worker& worker) {
   gather_names(worker);
+  begin_measuring(worker);
+}
+
+void PairSearch::begin_measuring(Worker& worker) {
   slice_count_ = 0;
   if (names_.empty() && query_.reach <= query_.threshold) {
     stage_ = Stage::done;

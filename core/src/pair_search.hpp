@@ -11,12 +11,14 @@
 #include "measure_batch.hpp"
 #include "paper.hpp"
 #include "parallel.hpp"
+#include "vertex_sweep.hpp"
 
 namespace graze {
 
 /// Working memory of one thread.
 struct SearchScratch {
   LeafPairScratch leaf_pairs;
+  VertexSweepScratch sweep;
   LeafScratch features;
   Closest nearest_of_leaves;
   PaperScratch paper;
@@ -26,7 +28,7 @@ struct SearchScratch {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.leaf_pairs, self.features, self.nearest_of_leaves, self.paper, self.lowest,
+    return std::tie(self.leaf_pairs, self.sweep, self.features, self.nearest_of_leaves, self.paper, self.lowest,
                     self.parallel, self.measure);
   }
 };
@@ -79,12 +81,14 @@ class PairSearch {
   void give_up();
   void as_in_paper(Worker& worker);
 
+  void begin_contact(Worker& worker);
   void begin_reach(Worker& worker);
   void run_reach(Slice& slice, Worker& worker);
   void begin_contacts(Worker& worker);
   void run_contacts(Slice& slice, Worker& worker);
   void add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const;
   void finish_contacts(Worker& worker);
+  void begin_measuring(Worker& worker);
   void gather_names(Worker& worker);
   void finish_measuring(Worker& worker);
   [[nodiscard]] ContactName lowest_measured(Worker& worker) const;

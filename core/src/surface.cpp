@@ -241,6 +241,46 @@ Box Surface::face_box_now(const Region& leaf) const {
   return box;
 }
 
+namespace {
+
+/// A box whose bounds are floats and between which the same floats lie; coordinates are within limits.
+struct FloatBox {
+  std::array<float, 3> low;
+  std::array<float, 3> high;
+
+  explicit FloatBox(const Box& box) {
+    constexpr float most = std::numeric_limits<float>::max();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double from = std::clamp<double>(box.min[static_cast<int>(axis)], -most, most);
+      const double to = std::clamp<double>(box.max[static_cast<int>(axis)], -most, most);
+      low[axis] = static_cast<float>(from);
+      high[axis] = static_cast<float>(to);
+      if (static_cast<double>(low[axis]) < from) low[axis] = std::nextafter(low[axis], most);
+      if (static_cast<double>(high[axis]) > to) high[axis] = std::nextafter(high[axis], -most);
+    }
+  }
+};
+
+}  // namespace
+
+std::size_t Surface::find_inside(const Box& box, std::span<std::uint32_t> found) const {
+  const std::size_t count = mesh_->vertex_count();
+  const kernels::PositionPasses& passes = kernels::position_passes();
+  std::size_t inside = 0;
+  if (in_double_.empty()) {
+    const FloatBox in_float(box);
+    inside = passes.floats_inside(in_float_.front().data(), count, in_float.low.data(), in_float.high.data(),
+                                  found.data());
+  } else {
+    inside =
+        passes.doubles_inside(in_double_.front().data(), count, box.min.data(), box.max.data(), found.data());
+  }
+  if (all_used_) return inside;
+  const auto unused = [this](std::uint32_t vertex) { return !mesh_->is_used(vertex); };
+  const auto listed = found.first(inside);
+  return static_cast<std::size_t>(std::remove_if(listed.begin(), listed.end(), unused) - listed.begin());
+}
+
 void Surface::refit(RefitOf what) {
   if (motion_since_refit(what) == 0) return;
   begin_refit(what);

@@ -11,8 +11,8 @@ namespace {
 /// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
 constexpr double stale_leaf_sizes = 0.25;
 
-/// A small object that as many jobs look at is refitted whenever it moved: otherwise each of them makes boxes
-/// of its leaves for itself.
+/// A small object of whose faces as many jobs want boxes is refitted whenever it moved: otherwise each of them
+/// makes boxes of its leaves for itself. Vertices are mostly found without.
 constexpr std::size_t jobs_worth_a_refit = 3;
 
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
@@ -107,7 +107,7 @@ void RegionRefit::list_parts(Object& object, RefitOf what) {
 
 void RegionRefit::refit_small(const Small& small, RefitOf what) const {
   const AccessScope access({AccessRight::write(small.object), {}});
-  const bool is_asked_often = what != RefitOf::radii && small.jobs >= jobs_worth_a_refit;
+  const bool is_asked_often = what == RefitOf::faces && small.jobs >= jobs_worth_a_refit;
   if (is_asked_often || is_stale(small.object->surface(), what)) small.object->surface_to_write().refit(what);
 }
 

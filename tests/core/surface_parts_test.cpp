@@ -6,6 +6,7 @@
 #include <graze/surface.hpp>
 #include <iostream>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "core/shapes.hpp"
@@ -214,6 +215,57 @@ TEST_CASE("a surface in parts: one pass sees what a look at every vertex does, w
   }
   std::cout << "compared " << vertices << " vertices with " << available_instruction_sets().size()
             << " instruction sets\n";
+}
+
+namespace {
+
+/// The vertices in boxes whose sides go through some of them, beside going through all.
+template <typename Number>
+std::size_t check_inside(std::uint64_t seed) {
+  oracle::Random random(seed);
+  const oracle::Shape rest = random_soup(seed, 10 + random.below(90), 60);
+  Surface surface(mesh_of(rest));
+  std::vector<Eigen::Matrix<Number, 3, 1>> positions(rest.positions.size());
+  for (auto& position : positions)
+    for (int axis = 0; axis < 3; ++axis) position[axis] = static_cast<Number>(random.between(-1, 1));
+  surface.set_positions(positions);
+  const auto coordinate = [&](int axis) {
+    const double of_vertex =
+        surface.position(random.below(static_cast<std::uint32_t>(positions.size())))[axis];
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double others[] = {
+        of_vertex, std::nextafter(of_vertex, -2), std::nextafter(of_vertex, 2), random.between(-1, 1), 1e300,
+        -infinity};
+    return others[random.below(6)];
+  };
+  Box box;
+  for (int axis = 0; axis < 3; ++axis)
+    std::tie(box.min[axis], box.max[axis]) = std::minmax({coordinate(axis), coordinate(axis)});
+  std::vector<std::uint32_t> expected;
+  for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {
+    const Eigen::Vector3d p = surface.position(vertex);
+    if (surface.mesh().is_used(vertex) && (p.array() >= box.min.array()).all() &&
+        (p.array() <= box.max.array()).all())
+      expected.push_back(vertex);
+  }
+  for (const InstructionSet set : available_instruction_sets()) {
+    use_instruction_set(set);
+    std::vector<std::uint32_t> found(positions.size());
+    found.resize(surface.find_inside(box, found));
+    CHECK(found == expected);
+  }
+  use_instruction_set(available_instruction_sets().back());
+  return expected.size();
+}
+
+}  // namespace
+
+TEST_CASE("a surface in parts: the vertices in a box are found, with every instruction set") {
+  std::size_t found = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed)
+    found += check_inside<float>(seed) + check_inside<double>(seed + 400);
+  CHECK(found > 1000);
+  std::cout << "compared " << found << " vertices in boxes\n";
 }
 
 TEST_CASE("a surface in parts: positions are kept in the precision in which they come") {

@@ -64,6 +64,7 @@ struct GRAZE_API PairRoom {
   std::size_t ties = 0;              ///< names at the least distance, and features about them
   std::size_t region_distances = 0;  ///< listed
   // Of the largest of the meshes:
+  std::size_t vertices = 0;
   std::size_t regions = 0;
   std::size_t leaf_vertices = 0;
   std::size_t leaf_edges = 0;

@@ -125,6 +125,9 @@ class GRAZE_API Surface {
   [[nodiscard]] Box vertex_box_now(const Region& region) const;
   [[nodiscard]] Box face_box_now(const Region& leaf) const;
 
+  /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices.
+  std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
+
   /// Of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
   [[nodiscard]] std::span<const Box> face_boxes() const { return face_boxes_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 /// Passes over all positions of a surface, in memory order. Compiled once for each instruction set, so this
 /// header has no inline function that another translation unit might share with them.
@@ -21,6 +22,11 @@ struct PositionPasses {
                  PositionsSeen<float>& seen);
   void (*doubles)(const double* now, const double* before, std::size_t count, double limit,
                   PositionsSeen<double>& seen);
+  /// Numbers of the points that no coordinate leads out of a box, ascending; how many. Room for `count`.
+  std::size_t (*floats_inside)(const float* points, std::size_t count, const float* low, const float* high,
+                               std::uint32_t* index);
+  std::size_t (*doubles_inside)(const double* points, std::size_t count, const double* low,
+                                const double* high, std::uint32_t* index);
 };
 
 /// The passes in use, of the set that `filter()` is of.

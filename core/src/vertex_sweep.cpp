@@ -1,0 +1,270 @@
+#include "vertex_sweep.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace graze {
+
+void LocalVertices::begin(std::size_t count) {
+  stride_ = stride_of(count);
+  if (data_.size() < stride_ * kernels::point::count) data_.resize(stride_ * kernels::point::count);
+  vertices_.clear();
+}
+
+Box LocalVertices::take(const Surface& surface, std::span<const std::uint32_t> vertices,
+                        const FilterFrame& frame, float size) {
+  begin(vertices.size());
+  vertices_.assign(vertices.begin(), vertices.end());
+  Box box;
+  float* at = data_.data();
+  for (const std::uint32_t vertex : vertices) {
+    const Eigen::Vector3d position = surface.position(vertex);
+    box.add(position);
+    const Eigen::Vector3f local = frame.to_local(position).cast<float>();
+    at[0] = local.x();
+    at[stride_] = local.y();
+    at[2 * stride_] = local.z();
+    ++at;
+  }
+  std::fill_n(at + 2 * stride_ + stride_ - vertices.size(), vertices.size(), size);
+  return box;
+}
+
+void LocalVertices::take(const LocalVertices& all, std::span<const std::uint32_t> places) {
+  begin(places.size());
+  kernels::filter().gather(all.block(0, all.count()), kernels::point::count, places.data(), places.size(),
+                           data_.data(), stride_);
+  for (const std::uint32_t place : places) vertices_.push_back(all.vertices_[place]);
+}
+
+void LocalVertices::reserve(std::size_t most) {
+  if (data_.size() < stride_of(most) * kernels::point::count)
+    data_.resize(stride_of(most) * kernels::point::count);
+  vertices_.reserve(most);
+}
+
+namespace {
+
+/// More vertices of one surface, or pairs of vertices to be compared, are too many.
+constexpr std::size_t most_vertices = 4096;
+constexpr std::size_t most_pairs = std::size_t{1} << 18;
+/// Surfaces of no more vertices are gone through in memory order.
+constexpr std::size_t small_surface = 2048;
+/// Regions of no more vertices are not gone into further.
+constexpr std::uint32_t small_region = 64;
+/// So few pairs are all compared.
+constexpr std::size_t few_pairs = 2048;
+constexpr std::size_t most_slabs = 256;
+
+Box common(const Box& a, const Box& b) {
+  const Box box{a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
+  return (box.min.array() <= box.max.array()).all() ? box : Box{};
+}
+bool overlap(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+bool contains(const Box& box, const Eigen::Vector3d& point) {
+  return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
+}
+
+/// Cuts a box into slabs along its longest side, none thinner than what is looked for.
+class Slabs {
+ public:
+  Slabs(const kernels::BoxInFrame& box, float limit) {
+    for (std::size_t axis = 1; axis < 3; ++axis)
+      if (box.max[axis] - box.min[axis] > box.max[axis_] - box.min[axis_]) axis_ = axis;
+    first_ = box.min[axis_];
+    const float length = box.max[axis_] - first_;
+    const float count = std::min(length / limit, static_cast<float>(most_slabs));
+    per_unit_ = length > 0 && count > 1 ? count / length : 0;
+    last_ = per_unit_ > 0 ? count - 1 : 0;
+  }
+  [[nodiscard]] std::size_t axis() const { return axis_; }
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(last_) + 1; }
+  /// The slab of a coordinate, or that at the end where it lies beyond; ascends with the coordinate.
+  [[nodiscard]] std::uint32_t at(float coordinate) const {
+    const float place = (coordinate - first_) * per_unit_;
+    return place > 0 ? static_cast<std::uint32_t>(std::min(place, last_)) : 0;
+  }
+
+ private:
+  std::size_t axis_ = 0;
+  float first_ = 0;
+  float per_unit_ = 0;
+  float last_ = 0;
+};
+
+class VertexSweep {
+ public:
+  VertexSweep(const SurfacePair& pair, double limit, VertexSweepScratch& scratch, WorkMeter& meter,
+              std::vector<ContactName>& names)
+      : pair_(pair),
+        limit_(limit),
+        scratch_(scratch),
+        meter_(meter),
+        names_(names),
+        near_both_(near_both(pair, limit)),
+        frame_(near_both_, near_both_),
+        local_limit_(frame_.to_local_limit(limit)),
+        size_(frame_.to_local(near_both_).size) {}
+
+  Swept run() {
+    names_.clear();
+    if (near_both_.empty()) return Swept::all;
+    Box box_a;
+    Box box_b;
+    if (!collect(pair_.a, near_both_, scratch_.a, box_a)) return gave_up_;
+    if (scratch_.a.count() == 0) return Swept::all;
+    if (!collect(pair_.b, common(near_both_, grown(box_a, limit_)), scratch_.b, box_b)) return gave_up_;
+    if (scratch_.b.count() == 0) return Swept::all;
+    if (scratch_.near.size() < scratch_.a.count()) {
+      scratch_.near.resize(scratch_.a.count());
+      scratch_.bound.resize(scratch_.a.count());
+    }
+    if (scratch_.a.count() * scratch_.b.count() <= few_pairs) return compare_all();
+    const Slabs slabs(frame_.to_local(common(box_a, grown(box_b, limit_))), local_limit_);
+    sort_into(slabs);
+    return compare_beside(slabs);
+  }
+
+ private:
+  /// Where vertices of either may be near the other.
+  static Box near_both(const SurfacePair& pair, double limit) {
+    Box both = pair.a.box();
+    both.add(pair.b.box());
+    return common(both, common(grown(pair.a.box(), limit), grown(pair.b.box(), limit)));
+  }
+
+  /// The surface's vertices in the box, and their box; false where they are too many or the budget is spent.
+  bool collect(const Surface& surface, const Box& box, LocalVertices& vertices, Box& found_box) {
+    std::size_t count = 0;
+    if (surface.mesh().vertex_count() <= small_surface) {
+      if (!meter_.spend()) return give_up(Swept::out_of_budget);
+      make_room(surface.mesh().vertex_count());
+      count = surface.find_inside(box, scratch_.found);
+    } else if (!collect_from_tree(surface, box, count)) {
+      return false;
+    }
+    found_box = vertices.take(surface, std::span(scratch_.found).first(count), frame_, size_);
+    return true;
+  }
+  bool collect_from_tree(const Surface& surface, const Box& box, std::size_t& count) {
+    const RegionTree& tree = surface.mesh().regions();
+    const auto boxes = surface.boxes(RefitOf::vertices);
+    // The regions' boxes are of where the vertices were.
+    const Box reached = grown(box, surface.motion_since_vertex_refit());
+    make_room(most_vertices);
+    scratch_.regions.assign(1, 0);
+    while (!scratch_.regions.empty()) {
+      const std::uint32_t index = scratch_.regions.back();
+      scratch_.regions.pop_back();
+      if (!meter_.spend()) return give_up(Swept::out_of_budget);
+      if (!overlap(boxes[index], reached)) continue;
+      const Region& region = tree.region(index);
+      if (region.is_leaf() || region.vertex_count <= small_region) {
+        for (const std::uint32_t vertex : tree.vertices(region)) {
+          if (!contains(box, surface.position(vertex))) continue;
+          if (count == most_vertices) return give_up(Swept::too_many);
+          scratch_.found[count++] = vertex;
+        }
+      } else {
+        for (std::uint32_t child = region.child_count; child-- > 0;)
+          scratch_.regions.push_back(region.first_child + child);
+      }
+    }
+    return true;
+  }
+  void make_room(std::size_t count) {
+    if (scratch_.found.size() < count) scratch_.found.resize(count);
+  }
+  bool give_up(Swept why) {
+    gave_up_ = why;
+    return false;
+  }
+
+  /// The vertices of a, slab by slab.
+  void sort_into(const Slabs& slabs) {
+    const LocalVertices& a = scratch_.a;
+    auto& slab_of = scratch_.slab;
+    auto& begin = scratch_.begin;
+    slab_of.resize(a.count());
+    begin.assign(slabs.count() + 1, 0);
+    for (std::size_t i = 0; i < a.count(); ++i) {
+      slab_of[i] = slabs.at(a.coordinate(slabs.axis(), i));
+      ++begin[slab_of[i]];
+    }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    make_room(a.count());
+    for (std::size_t i = a.count(); i-- > 0;)
+      scratch_.found[--begin[slab_of[i]]] = static_cast<std::uint32_t>(i);
+    scratch_.sorted.take(a, std::span(scratch_.found).first(a.count()));
+  }
+
+  Swept compare_all() {
+    for (std::size_t row = 0; row < scratch_.b.count(); ++row)
+      compare(row, scratch_.a, 0, scratch_.a.count());
+    return Swept::all;
+  }
+  /// Each vertex of b with those of a in the slabs about it.
+  Swept compare_beside(const Slabs& slabs) {
+    const float reach = local_limit_ + 2 * size_ * kernels::margin;
+    std::size_t pairs = 0;
+    for (std::size_t row = 0; row < scratch_.b.count(); ++row) {
+      const float at = scratch_.b.coordinate(slabs.axis(), row);
+      const std::size_t begin = scratch_.begin[slabs.at(at - reach)];
+      const std::size_t end = scratch_.begin[slabs.at(at + reach) + std::size_t{1}];
+      pairs += end - begin;
+      if (pairs > most_pairs) {
+        names_.clear();
+        return Swept::too_many;
+      }
+      compare(row, scratch_.sorted, begin, end);
+    }
+    return Swept::all;
+  }
+  /// A vertex of b with some of a.
+  void compare(std::size_t row, const LocalVertices& a, std::size_t begin, std::size_t end) {
+    const std::size_t found =
+        kernels::filter().near_points(scratch_.b.point(row), a.block(begin, end), local_limit_,
+                                      {scratch_.near.data(), scratch_.bound.data()});
+    pair_.count.discarded_in_float += end - begin - found;
+    for (std::size_t k = 0; k < found; ++k) {
+      const ContactName name = ContactName::of(vertex_piece(a.vertex(begin + scratch_.near[k])),
+                                               vertex_piece(scratch_.b.vertex(row)));
+      if (is_closer_than(pair_, name, limit_)) names_.push_back(name);
+    }
+  }
+
+  const SurfacePair& pair_;
+  double limit_;
+  VertexSweepScratch& scratch_;
+  WorkMeter& meter_;
+  std::vector<ContactName>& names_;
+  Box near_both_;
+  FilterFrame frame_;
+  float local_limit_;
+  float size_;  ///< at least that of every vertex taken
+  Swept gave_up_ = Swept::all;
+};
+
+}  // namespace
+
+Swept sweep_close_vertices(const SurfacePair& pair, double limit, VertexSweepScratch& scratch,
+                           WorkMeter& meter, std::vector<ContactName>& names) {
+  return VertexSweep(pair, limit, scratch, meter, names).run();
+}
+
+void VertexSweepScratch::reserve(const PairRoom& room) {
+  const std::size_t most = std::min(most_vertices, room.vertices);
+  if (found.size() < most_vertices) found.resize(most_vertices);
+  constexpr std::size_t children_left = 7 * std::size_t{RegionTree::max_level} + 1;
+  regions.reserve(std::min(children_left, room.regions));
+  for (LocalVertices* const vertices : {&a, &b, &sorted}) vertices->reserve(most);
+  slab.reserve(most);
+  begin.reserve(most_slabs + 1);
+  near.reserve(most);
+  bound.reserve(most);
+}
+
+}  // namespace graze

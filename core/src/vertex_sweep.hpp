@@ -1,0 +1,86 @@
+#pragma once
+
+#include <graze/box.hpp>
+#include <graze/surface.hpp>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "contact_name.hpp"
+#include "dmv.hpp"
+#include "filter_frame.hpp"
+#include "kernels/filter.hpp"
+#include "working_memory.hpp"
+
+namespace graze {
+
+/// Vertices of one surface in a frame, as the kernels read points.
+class LocalVertices {
+ public:
+  /// Takes the listed vertices, of which none is of a greater size in the frame, and gives their box.
+  Box take(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
+           float size);
+  /// Takes some of another's, in that order.
+  void take(const LocalVertices& all, std::span<const std::uint32_t> places);
+
+  [[nodiscard]] std::size_t count() const { return vertices_.size(); }
+  [[nodiscard]] std::uint32_t vertex(std::size_t i) const { return vertices_[i]; }
+  [[nodiscard]] float coordinate(std::size_t axis, std::size_t i) const { return data_[axis * stride_ + i]; }
+  [[nodiscard]] kernels::Point point(std::size_t i) const {
+    return {{coordinate(0, i), coordinate(1, i), coordinate(2, i)}, coordinate(kernels::point::size, i)};
+  }
+  /// Those from `begin` to `end`.
+  [[nodiscard]] kernels::Block block(std::size_t begin, std::size_t end) const {
+    return {data_.data() + begin, stride_, end - begin};
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.data_, self.vertices_);
+  }
+  void reserve(std::size_t most);
+
+ private:
+  void begin(std::size_t count);
+  /// Kernels may read as many more as they have lanes, from any place on.
+  static std::size_t stride_of(std::size_t count) { return count + kernels::lanes; }
+
+  std::vector<float> data_;
+  std::size_t stride_ = 0;
+  std::vector<std::uint32_t> vertices_;
+};
+
+struct VertexSweepScratch {
+  std::vector<std::uint32_t> found;    ///< vertices in a box; longer than they are many
+  std::vector<std::uint32_t> regions;  ///< to be gone through
+  LocalVertices a;
+  LocalVertices b;
+  LocalVertices sorted;              ///< those of a by their slabs
+  std::vector<std::uint32_t> slab;   ///< of each vertex of a
+  std::vector<std::uint32_t> begin;  ///< of the slabs
+  std::vector<std::uint32_t> near;   ///< what a kernel left, with its bounds
+  std::vector<float> bound;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.found, self.regions, self.a, self.b, self.sorted, self.slab, self.begin, self.near,
+                    self.bound);
+  }
+  void reserve(const PairRoom& room);
+};
+
+/// What came of a sweep.
+enum class Swept : std::uint8_t {
+  all,            ///< all pairs were found
+  too_many,       ///< nothing was, since too many vertices are near the other surface
+  out_of_budget,  ///< nothing was
+};
+
+/// Names, in place of what `names` held, all pairs of vertices of two surfaces that are nearer than `limit`,
+/// where few of either are near the other: those in the other's box are taken, and those of them in slabs
+/// beside each other are compared. Less work than to walk down two trees where surfaces meet in one place;
+/// where they lie along each other it gives up before it costs much.
+Swept sweep_close_vertices(const SurfacePair& pair, double limit, VertexSweepScratch& scratch,
+                           WorkMeter& meter, std::vector<ContactName>& names);
+
+}  // namespace graze
