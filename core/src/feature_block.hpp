@@ -1,14 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
+#include <span>
 #include <vector>
 
-#include "filter_frame.hpp"
 #include "kernels/filter.hpp"
 #include "working_memory.hpp"
 
@@ -31,22 +26,29 @@ class FeatureBlock {
     owner_count_ = 0;
   }
 
-  /// Adds the feature that `owner` stands for. Coordinates too large for the kernels are left out, and its
-  /// size says so.
-  void add(std::uint32_t owner, const FilterFrame& frame,
-           const std::array<Eigen::Vector3d, Corners>& corners) {
-    double size = kernels::least_size;
-    std::array<Eigen::Vector3d, Corners> local;
-    for (std::size_t corner = 0; corner < Corners; ++corner) {
-      local[corner] = frame.to_local(corners[corner]);
-      for (int axis = 0; axis < 3; ++axis) size = std::max(size, std::abs(local[corner][axis]));
-    }
-    const bool fits = size <= kernels::largest_size;
-    float* at = data_.data() + owners_.size();
-    for (const Eigen::Vector3d& point : local)
-      for (int axis = 0; axis < 3; ++axis, at += stride_) *at = fits ? static_cast<float>(point[axis]) : 0.0F;
-    *at = fits ? static_cast<float>(size) : std::numeric_limits<float>::infinity();
-    add_owner(owner);
+  /// Adds the feature that `owner` stands for, to be laid out.
+  void add(std::uint32_t owner) {
+    if (owners_.empty() || owners_.back() != owner) ++owner_count_;
+    owners_.push_back(owner);
+  }
+  /// Adds one for each of `owners`, which are all different.
+  void add(std::span<const std::uint32_t> owners) {
+    owners_.insert(owners_.end(), owners.begin(), owners.end());
+    owner_count_ += owners.size();
+  }
+  /// Lays out all that were added; `corners` are the places among `vertices` of each one's corners, up to a
+  /// multiple of 4 features. What the kernels prepare is left open.
+  void lay_out(const kernels::Point* vertices, const std::uint32_t* corners) {
+    const kernels::Filter& filter = kernels::filter();
+    const auto kernel = Corners == 1   ? filter.lay_out_points
+                        : Corners == 2 ? filter.lay_out_segments
+                                       : filter.lay_out_triangles;
+    kernel(vertices, corners, count(), data_.data(), stride_);
+  }
+  /// Makes the rest.
+  void prepare() {
+    if constexpr (Corners == 2) kernels::filter().prepare_segments(data_.data(), stride_, count());
+    if constexpr (Corners == 3) kernels::filter().prepare_triangles(data_.data(), stride_, count());
   }
 
   /// Finds those features of another block that `by` keeps; how many, and extends `found` by their box.
@@ -56,7 +58,7 @@ class FeatureBlock {
     if (touches_.size() < all.count()) touches_.resize(all.count());
     return kernel(all.block(), by, {index_.data(), touches_.data(), &found});
   }
-  /// Takes them, those first that may touch.
+  /// Takes them, those first that may touch, and prepares them.
   void take(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::ClipBy& by,
             kernels::BoxInFrame& found) {
     begin(all.count());
@@ -67,8 +69,12 @@ class FeatureBlock {
     touching_ = order_.size();
     for (std::size_t i = 0; i < count; ++i)
       if (touches_[i] == 0) order_.push_back(index_[i]);
-    kernels::filter().gather(all.block(), Components, order_.data(), count, data_.data(), stride_);
-    for (const std::uint32_t place : order_) add_owner(all.owners_[place]);
+    constexpr std::size_t laid_out = Corners == 1   ? kernels::point::laid_out
+                                     : Corners == 2 ? kernels::segment::laid_out
+                                                    : kernels::triangle::laid_out;
+    kernels::filter().gather(all.block(), laid_out, order_.data(), count, data_.data(), stride_);
+    for (const std::uint32_t place : order_) add(all.owners_[place]);
+    prepare();
   }
 
   template <typename Self>
@@ -101,17 +107,10 @@ class FeatureBlock {
   [[nodiscard]] float component(std::size_t k, std::size_t i) const { return data_[k * stride_ + i]; }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }
   [[nodiscard]] kernels::Block touching_block() const { return {data_.data(), stride_, touching_}; }
-  /// For what the kernels prepare.
-  [[nodiscard]] float* data() { return data_.data(); }
-  [[nodiscard]] std::size_t stride() const { return stride_; }
 
  private:
   static std::size_t stride_of(std::size_t most) {
     return (most + kernels::lanes - 1) / kernels::lanes * kernels::lanes;
-  }
-  void add_owner(std::uint32_t owner) {
-    if (owners_.empty() || owners_.back() != owner) ++owner_count_;
-    owners_.push_back(owner);
   }
 
   std::vector<float> data_;

@@ -8,6 +8,7 @@
 
 #include "arithmetic.hpp"
 #include "feature_block.hpp"
+#include "filter_frame.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
@@ -57,7 +58,7 @@ class FloatFilter {
     const auto keep = [&](float bound, const auto& lower_in_double) {
       if (bound == untrusted) return range_.keep(lower_in_double());
       const double limit = range_.limit();
-      if (bound < frame_.to_local_limit(limit)) return true;
+      if (bound < local(limit)) return true;
       range_.left_out(limit);
       ++count_.discarded_in_float;
       return false;
@@ -66,8 +67,8 @@ class FloatFilter {
     if (columns.features.count() == 0) return;
     for (std::size_t row = 0; row < rows.features.count(); ++row) {
       const double limit = range_.limit();
-      const std::size_t found = kernel(row_of(rows.features, row), columns.features.block(),
-                                       frame_.to_local_limit(limit), survivors);
+      const std::size_t found =
+          kernel(row_of(rows.features, row), columns.features.block(), local(limit), survivors);
       if (hand_on(rows, columns, row, found, keep, visit) > 0) range_.left_out(limit);
     }
   }
@@ -90,6 +91,15 @@ class FloatFilter {
   }
 
  private:
+  /// A limit in the frame. It mostly is the one of the last call.
+  float local(double limit) {
+    if (limit != limit_) {
+      limit_ = limit;
+      local_limit_ = frame_.to_local_limit(limit);
+    }
+    return local_limit_;
+  }
+
   static constexpr float untrusted = -std::numeric_limits<float>::infinity();
 
   kernels::Survivors room_for(std::size_t columns) {
@@ -124,6 +134,8 @@ class FloatFilter {
   }
 
   const FilterFrame& frame_;
+  double limit_ = -1;  ///< none yet
+  float local_limit_ = 0;
   Range& range_;
   FloatFilterScratch& scratch_;
   DecisionCount& count_;

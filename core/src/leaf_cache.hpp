@@ -22,17 +22,17 @@ class LeafCache {
     for (Slot& slot : slots_) slot.leaf = nullptr;
   }
 
-  /// All features of a leaf of that surface; stays until the next call.
-  const LeafFeatures& of(const Surface& surface, const Region& leaf) {
+  /// All features of a leaf of that surface; stays until the next call. `corners` is working memory.
+  const LeafFeatures& of(const Surface& surface, const Region& leaf, LeafVertices& corners) {
     make_room(leaf);
     const auto number = static_cast<std::size_t>(&leaf - surface.mesh().regions().regions().data());
     Slot& slot = slots_[number % slot_count];
     if (slot.leaf != &leaf) {
       slot.leaf = &leaf;
       if (vertices_only_)
-        slot.features.collect_vertices(surface, leaf, frame_);
+        slot.features.collect_vertices(surface, leaf, frame_, corners);
       else
-        slot.features.collect(surface, leaf, frame_);
+        slot.features.collect(surface, leaf, frame_, corners);
     }
     return slot.features;
   }

@@ -24,35 +24,60 @@ Box box_of(const Surface& surface, Part part, std::uint32_t index) {
   return box;
 }
 
-void LeafFeatures::collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
-  vertices.begin(leaf.vertex_count);
-  for (const std::uint32_t vertex : surface.mesh().regions().vertices(leaf))
-    vertices.add(vertex, frame, std::array{Eigen::Vector3d(surface.position(vertex))});
+void LeafFeatures::collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame,
+                                    LeafVertices& corners) {
+  corners.take_own(surface, leaf, frame);
+  lay_out_vertices(surface, leaf, corners);
 }
 
-void LeafFeatures::collect(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
+void LeafFeatures::collect(const Surface& surface, const Region& leaf, const FilterFrame& frame,
+                           LeafVertices& corners) {
+  corners.take(surface, leaf, frame);
+  lay_out_vertices(surface, leaf, corners);
+  lay_out_edges(surface, leaf, corners);
+  lay_out_faces(surface, leaf, corners);
+}
+
+void LeafFeatures::lay_out_vertices(const Surface& surface, const Region& leaf, LeafVertices& from) {
+  vertices.begin(leaf.vertex_count);
+  vertices.add(surface.mesh().regions().vertices(leaf));
+  from.corners.begin(leaf.vertex_count);
+  for (std::uint32_t place = 0; place < leaf.vertex_count; ++place) from.corners.add(place);
+  vertices.lay_out(from.data(), from.corners.padded());
+}
+
+void LeafFeatures::lay_out_edges(const Surface& surface, const Region& leaf, LeafVertices& from) {
+  const auto all = surface.mesh().regions().edges(leaf);
+  edges.begin(all.size());
+  edges.add(all);
+  from.corners.begin(2 * all.size());
+  for (const std::uint32_t edge : all)
+    for (const std::uint32_t end : surface.mesh().edge(edge)) from.corners.add(from.place(end));
+  edges.lay_out(from.data(), from.corners.padded());
+}
+
+void LeafFeatures::lay_out_faces(const Surface& surface, const Region& leaf, LeafVertices& from) {
   const Mesh& mesh = surface.mesh();
-  const auto at = [&](std::uint32_t vertex) -> Eigen::Vector3d { return surface.position(vertex); };
-  collect_vertices(surface, leaf, frame);
-  edges.begin(leaf.edge_count);
-  for (const std::uint32_t edge : mesh.regions().edges(leaf)) {
-    const auto end = mesh.edge(edge);
-    edges.add(edge, frame, std::array{at(end[0]), at(end[1])});
-  }
   triangles.begin(std::size_t{2} * leaf.face_count);
   folds.begin(leaf.face_count);
+  from.corners.begin(std::size_t{6} * leaf.face_count);
+  from.fold_corners.begin(std::size_t{2} * leaf.face_count);
   for (const std::uint32_t face : mesh.regions().faces(leaf)) {
     const auto corner = mesh.face(face);
-    triangles.add(face, frame, std::array{at(corner[0]), at(corner[1]), at(corner[2])});
-    if (corner.size() == 3) continue;
-    triangles.add(face, frame, std::array{at(corner[0]), at(corner[2]), at(corner[3])});
-    if (diagonal_of(mesh, face).feature.kind == FeatureKind::face)
-      folds.add(face, frame, std::array{at(corner[0]), at(corner[2])});
+    const std::uint32_t first = from.place(corner[0]);
+    for (std::size_t second = 1; second + 1 < corner.size(); ++second) {
+      triangles.add(face);
+      from.corners.add(first);
+      from.corners.add(from.place(corner[second]));
+      from.corners.add(from.place(corner[second + 1]));
+    }
+    if (corner.size() == 3 || diagonal_of(mesh, face).feature.kind != FeatureKind::face) continue;
+    folds.add(face);
+    from.fold_corners.add(first);
+    from.fold_corners.add(from.place(corner[2]));
   }
-  const kernels::Filter& filter = kernels::filter();
-  filter.prepare_segments(edges.data(), edges.stride(), edges.count());
-  filter.prepare_segments(folds.data(), folds.stride(), folds.count());
-  filter.prepare_triangles(triangles.data(), triangles.stride(), triangles.count());
+  triangles.lay_out(from.data(), from.corners.padded());
+  folds.lay_out(from.data(), from.fold_corners.padded());
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "float_filter.hpp"
+#include "leaf_vertices.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
@@ -25,10 +26,11 @@ class LeafFeatures {
   TriangleBlock triangles{Part::face};  ///< a quad's two one after the other
   SegmentBlock folds{Part::fold};       ///< diagonals of quads that no edge joins, by the quad's number
 
-  /// All features of a leaf.
-  void collect(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  /// All features of a leaf, laid out. `corners` is working memory.
+  void collect(const Surface& surface, const Region& leaf, const FilterFrame& frame, LeafVertices& corners);
   /// Its vertices alone.
-  void collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  void collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame,
+                        LeafVertices& corners);
 
   /// The box of those of `all` that `by` keeps.
   kernels::BoxInFrame near_box(const LeafFeatures& all, const kernels::ClipBy& by);
@@ -51,6 +53,11 @@ class LeafFeatures {
     triangles.reserve(2 * room.leaf_faces);
     folds.reserve(room.leaf_faces);
   }
+
+ private:
+  void lay_out_vertices(const Surface& surface, const Region& leaf, LeafVertices& from);
+  void lay_out_edges(const Surface& surface, const Region& leaf, LeafVertices& from);
+  void lay_out_faces(const Surface& surface, const Region& leaf, LeafVertices& from);
 };
 
 /// Whether diagonals of quads are folds (see `is_folded`); asked of few, so decided when asked.

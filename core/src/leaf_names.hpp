@@ -14,6 +14,7 @@ namespace graze {
 struct LeafScratch {
   LeafCache all_a;
   LeafCache all_b;
+  LeafVertices corners;
   LeafFeatures a;
   LeafFeatures b;
   FoldAnswers folds_a;
@@ -39,7 +40,8 @@ struct LeafScratch {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.all_a, self.all_b, self.a, self.b, self.folds_a, self.folds_b, self.filter);
+    return std::tie(self.all_a, self.all_b, self.corners, self.a, self.b, self.folds_a, self.folds_b,
+                    self.filter);
   }
 
  private:
@@ -49,8 +51,8 @@ struct LeafScratch {
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
     all_a.begin(pair.a, frame, vertices_only);
     all_b.begin(pair.b, frame, vertices_only);
-    const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region);
-    const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region);
+    const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
+    const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region, corners);
     const double limit = range.limit();
     const float local_limit = frame.to_local_limit(limit);
     // What of b is near those of a that are near b's leaf, and what of a is near that. Two features can only

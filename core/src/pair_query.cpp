@@ -19,6 +19,7 @@ void PairCounters::add(const PairCounters& other) {
 
 void PairRoom::include(const Mesh& mesh) {
   const auto all = mesh.regions().regions();
+  vertices = std::max<std::size_t>(vertices, mesh.vertex_count());
   regions = std::max(regions, all.size());
   vertices = std::max<std::size_t>(vertices, mesh.vertex_count());
   for (const Region& region : all) {

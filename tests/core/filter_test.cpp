@@ -12,6 +12,7 @@
 #include <string>
 
 #include "feature_block.hpp"
+#include "leaf_vertices.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
 #include "support/random_scenes.hpp"
@@ -177,9 +178,19 @@ template <std::size_t Corners, std::size_t Components>
 FeatureBlock<Corners, Components> block_of(const std::vector<Corner<Corners>>& features, Part part,
                                            const FilterFrame& frame) {
   FeatureBlock<Corners, Components> block(part);
+  std::vector<kernels::Point> vertices;
+  CornerList corners;
   block.begin(features.size());
-  for (std::size_t i = 0; i < features.size(); ++i)
-    block.add(static_cast<std::uint32_t>(i), frame, features[i]);
+  corners.begin(Corners * features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    block.add(static_cast<std::uint32_t>(i));
+    for (const Vector3d& corner : features[i]) {
+      corners.add(static_cast<std::uint32_t>(vertices.size()));
+      vertices.push_back(local_vertex(frame, corner));
+    }
+  }
+  block.lay_out(vertices.data(), corners.padded());
+  block.prepare();
   return block;
 }
 
@@ -187,14 +198,10 @@ PointBlock block_of(const std::vector<Corner<1>>& points, const FilterFrame& fra
   return block_of<1, kernels::point::count>(points, Part::vertex, frame);
 }
 SegmentBlock block_of(const std::vector<Corner<2>>& segments, const FilterFrame& frame) {
-  auto block = block_of<2, kernels::segment::count>(segments, Part::edge, frame);
-  kernels::filter().prepare_segments(block.data(), block.stride(), block.count());
-  return block;
+  return block_of<2, kernels::segment::count>(segments, Part::edge, frame);
 }
 TriangleBlock block_of(const std::vector<Corner<3>>& triangles, const FilterFrame& frame) {
-  auto block = block_of<3, kernels::triangle::count>(triangles, Part::face, frame);
-  kernels::filter().prepare_triangles(block.data(), block.stride(), block.count());
-  return block;
+  return block_of<3, kernels::triangle::count>(triangles, Part::face, frame);
 }
 
 /// The survivors of one call, with room for a block.

@@ -18,18 +18,18 @@ struct Block {
 inline constexpr std::size_t lanes = 16;
 
 /// Components of a block. A feature's `size` is the largest magnitude of its coordinates, at least
-/// `least_size`; infinite where they are not to be trusted, and then the feature survives everything. What
-/// stands behind the size is filled in by `prepare_…`.
+/// `least_size`; infinite where they are not to be trusted, and then the feature survives everything. Those
+/// below `laid_out` are filled in by `lay_out_…`, the others by `prepare_…`.
 namespace point {
-inline constexpr std::size_t position = 0, size = 3, count = 4;
+inline constexpr std::size_t position = 0, size = 3, laid_out = 4, count = 4;
 }
 namespace segment {
-inline constexpr std::size_t p = 0, q = 3, size = 6;
+inline constexpr std::size_t p = 0, q = 3, size = 6, laid_out = 7;
 inline constexpr std::size_t inverse_length_squared = 7, count = 8;
 }  // namespace segment
 namespace triangle {
 inline constexpr std::size_t corner0 = 0, corner1 = 3, corner2 = 6, size = 9;
-inline constexpr std::size_t box_min = 10, box_max = 13, normal = 16;
+inline constexpr std::size_t box_min = 10, box_max = 13, laid_out = 16, normal = 16;
 inline constexpr std::size_t uu = 19, uv = 20, vv = 21;  // products of the sides u = 0-1 and v = 0-2
 inline constexpr std::size_t inverse_uu = 22, inverse_vv = 23, inverse_ww = 24, count = 25;  // w = 1-2
 }  // namespace triangle
@@ -44,7 +44,8 @@ inline constexpr float largest_size = 0x1p20F;
 /// A separating axis shorter than this says nothing.
 inline constexpr float least_axis_squared = 0x1p-60F;
 
-/// One feature of a block by itself: its components up to and with its size.
+/// One feature of a block by itself: its components up to and with its size. Of a point with an infinite
+/// size the position is 0.
 struct Point {
   float position[3];
   float size;
@@ -83,11 +84,18 @@ struct Clipped {
   BoxInFrame* box = nullptr;
 };
 
-/// The kernels of one instruction set. `prepare_…` computes what stands behind the sizes. `near_…` discards
+/// The kernels of one instruction set. `lay_out_…` fills blocks from vertices and the places of each
+/// feature's corners among them, one feature after the other; it reads corners and writes features up to a
+/// multiple of 4, of which those behind `count` may be any. `prepare_…` computes the rest. `near_…` discards
 /// what is certainly further than `limit`, `maybe_pierced` the triangles that the segment certainly does not
 /// touch; both, and `clip_…`, return how many are left. `clip_…`
 /// extend the box that they are given. `gather` copies the features of a block that are listed.
 struct Filter {
+  using LayOut = void (*)(const Point* vertices, const std::uint32_t* corners, std::size_t count, float* data,
+                          std::size_t stride);
+  LayOut lay_out_points;
+  LayOut lay_out_segments;
+  LayOut lay_out_triangles;
   void (*prepare_segments)(float* data, std::size_t stride, std::size_t count);
   void (*prepare_triangles)(float* data, std::size_t stride, std::size_t count);
   std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);

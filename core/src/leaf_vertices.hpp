@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <graze/pair_query.hpp>
+#include <graze/surface.hpp>
+#include <limits>
+#include <vector>
+
+#include "filter_frame.hpp"
+#include "kernels/filter.hpp"
+#include "working_memory.hpp"
+
+namespace graze {
+
+/// A vertex in a frame. Coordinates too large for the kernels are left out, and its size says so.
+inline kernels::Point local_vertex(const FilterFrame& frame, const Eigen::Vector3d& position) {
+  const Eigen::Vector3d local = frame.to_local(position);
+  const double size = std::max(double{kernels::least_size}, local.cwiseAbs().maxCoeff());
+  if (!(size <= kernels::largest_size)) return {{0, 0, 0}, std::numeric_limits<float>::infinity()};
+  return {{static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(local.z())},
+          static_cast<float>(size)};
+}
+
+/// Where the corners of features are among vertices, one feature after the other.
+class CornerList {
+ public:
+  void begin(std::size_t most) {
+    count_ = 0;
+    if (places_.size() < most + padding) places_.resize(most + padding);
+  }
+  void add(std::uint32_t place) { places_[count_++] = place; }
+  /// Goes on for the features that the kernels look at beyond the last.
+  [[nodiscard]] const std::uint32_t* padded() {
+    std::fill_n(places_.begin() + static_cast<std::ptrdiff_t>(count_), padding, 0U);
+    return places_.data();
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.places_);
+  }
+  void reserve_as(const CornerList& other) { begin(std::max(other.places_.size(), padding) - padding); }
+  void reserve(std::size_t most) { begin(most); }
+
+ private:
+  static constexpr std::size_t padding = 9;  ///< three triangles
+  std::vector<std::uint32_t> places_;
+  std::size_t count_ = 0;
+};
+
+/// The corners of a leaf's features, each brought into the frame once, however many features it is part of.
+class LeafVertices {
+ public:
+  /// Takes up those of a leaf, its own vertices first.
+  void take(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  /// Its own vertices alone.
+  void take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+
+  [[nodiscard]] const kernels::Point* data() const { return local_.data(); }
+  /// Where a corner is among them.
+  [[nodiscard]] std::uint32_t place(std::uint32_t vertex) const { return place_of_[vertex]; }
+
+  /// For what is laid out: two lists, since folds come up between triangles.
+  CornerList corners;
+  CornerList fold_corners;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.local_, self.place_of_, self.corners, self.fold_corners);
+  }
+  void reserve_as(const LeafVertices& other);
+  void reserve(const PairRoom& room);
+
+ private:
+  void add(const Surface& surface, std::uint32_t vertex, const FilterFrame& frame) {
+    place_of_[vertex] = static_cast<std::uint32_t>(local_.size());
+    local_.push_back(local_vertex(frame, surface.position(vertex)));
+  }
+
+  std::vector<kernels::Point> local_;
+  std::vector<std::uint32_t> place_of_;  ///< by vertex; means something for those taken up last
+};
+
+}  // namespace graze
