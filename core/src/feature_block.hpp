@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,50 +52,51 @@ class FeatureBlock {
     if constexpr (Corners == 3) kernels::filter().prepare_triangles(data_.data(), stride_, count());
   }
 
-  /// Finds those features of another block that `by` keeps; how many, and extends `found` by their box.
-  std::size_t clip(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::ClipBy& by,
-                   kernels::BoxInFrame& found) {
-    if (index_.size() < all.count()) index_.resize(all.count());
-    if (touches_.size() < all.count()) touches_.resize(all.count());
-    return kernel(all.block(), by, {index_.data(), touches_.data(), &found});
+  /// Extends `found` by the box of those features that `by` keeps.
+  void find_near(kernels::Filter::Clip kernel, const kernels::ClipBy& by, kernels::BoxInFrame& found) const {
+    if (count() > 0) kernel(block(), by, {nullptr, nullptr, &found});
   }
-  /// Takes them, those first that may touch, and prepares them.
+  /// Takes those features of another block that `by` keeps, those first that may touch, and prepares them.
+  /// Extends `found`, where there is one, by their box.
   void take(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::ClipBy& by,
-            kernels::BoxInFrame& found) {
+            kernels::BoxInFrame* found) {
     begin(all.count());
-    const std::size_t count = clip(all, kernel, by, found);
-    order_.clear();
-    for (std::size_t i = 0; i < count; ++i)
-      if (touches_[i] != 0) order_.push_back(index_[i]);
-    touching_ = order_.size();
-    for (std::size_t i = 0; i < count; ++i)
-      if (touches_[i] == 0) order_.push_back(index_[i]);
+    touching_ = 0;
+    if (all.count() == 0) return;
+    if (index_.size() < stride_) {
+      index_.resize(stride_);
+      others_.resize(stride_);
+    }
+    const kernels::ClipCount clipped = kernel(all.block(), by, {index_.data(), others_.data(), found});
+    touching_ = clipped.touching;
+    const std::size_t count = clipped.touching + clipped.others;
+    const auto end = std::copy_n(others_.begin(), clipped.others,
+                                 index_.begin() + static_cast<std::ptrdiff_t>(clipped.touching));
+    std::fill_n(end, stride_of(count) - count, 0U);
+    for (std::size_t i = 0; i < count; ++i) add(all.owners_[index_[i]]);
     constexpr std::size_t laid_out = Corners == 1   ? kernels::point::laid_out
                                      : Corners == 2 ? kernels::segment::laid_out
                                                     : kernels::triangle::laid_out;
-    kernels::filter().gather(all.block(), laid_out, order_.data(), count, data_.data(), stride_);
-    for (const std::uint32_t place : order_) add(all.owners_[place]);
+    kernels::filter().gather(all.block(), laid_out, index_.data(), count, data_.data(), stride_);
     prepare();
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.data_, self.owners_, self.index_, self.touches_, self.order_);
+    return std::tie(self.data_, self.owners_, self.index_, self.others_);
   }
   void reserve_as(const FeatureBlock& other) {
     if (data_.size() < other.data_.size()) data_.resize(other.data_.size());
     graze::reserve_as(owners_, other.owners_);
     graze::reserve_as(index_, other.index_);
-    graze::reserve_as(touches_, other.touches_);
-    graze::reserve_as(order_, other.order_);
+    graze::reserve_as(others_, other.others_);
   }
   /// What it holds stays.
   void reserve(std::size_t most) {
     if (data_.size() < stride_of(most) * Components) data_.resize(stride_of(most) * Components);
     owners_.reserve(most);
-    index_.reserve(most);
-    touches_.reserve(most);
-    order_.reserve(most);
+    index_.reserve(stride_of(most));
+    others_.reserve(stride_of(most));
   }
 
   [[nodiscard]] Part part() const { return part_; }
@@ -116,9 +118,8 @@ class FeatureBlock {
   std::vector<float> data_;
   std::size_t stride_ = 0;
   std::vector<std::uint32_t> owners_;
-  std::vector<std::uint32_t> index_;  ///< of features taken, in the block they are from
-  std::vector<std::uint8_t> touches_;
-  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> index_;   ///< of features taken, in the block they are from
+  std::vector<std::uint32_t> others_;  ///< of them, that do not touch
   std::size_t touching_ = 0;
   std::size_t owner_count_ = 0;
   Part part_;

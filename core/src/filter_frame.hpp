@@ -78,6 +78,14 @@ class FilterFrame {
   double scale_ = 0;  ///< 0 for the frame of nothing
 };
 
+/// Holds nothing, and is extended by what it is to hold.
+inline kernels::BoxInFrame empty_box() {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
+}
+inline bool is_empty(const kernels::BoxInFrame& box) {
+  return box.min[0] > box.max[0];
+}
 /// Where two boxes overlap; nothing, as least above greatest, where they do not.
 inline kernels::BoxInFrame overlap_of(const kernels::BoxInFrame& a, const kernels::BoxInFrame& b) {
   kernels::BoxInFrame overlap{};

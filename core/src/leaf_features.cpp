@@ -80,52 +80,32 @@ void LeafFeatures::lay_out_faces(const Surface& surface, const Region& leaf, Lea
   folds.lay_out(from.data(), from.fold_corners.padded());
 }
 
-namespace {
-
-/// Holds nothing, and is extended by what it is to hold.
-kernels::BoxInFrame empty_box() {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
-}
-
-/// The box of what `look(block, block of all, kernel, box)` finds, which extends the box.
-template <typename Look>
-kernels::BoxInFrame box_of_vertices(LeafFeatures& own, const LeafFeatures& all, const Look& look) {
+kernels::BoxInFrame LeafFeatures::near_box_of_vertices(const kernels::ClipBy& by) const {
   kernels::BoxInFrame found = empty_box();
-  look(own.vertices, all.vertices, kernels::filter().clip_points, found);
+  vertices.find_near(kernels::filter().clip_points, by, found);
   return found;
 }
 
-template <typename Look>
-kernels::BoxInFrame box_of_all(LeafFeatures& own, const LeafFeatures& all, const Look& look) {
+kernels::BoxInFrame LeafFeatures::near_box(const kernels::ClipBy& by) const {
   const kernels::Filter& filter = kernels::filter();
-  kernels::BoxInFrame found = box_of_vertices(own, all, look);
-  look(own.edges, all.edges, filter.clip_segments, found);
-  look(own.triangles, all.triangles, filter.clip_triangles, found);
-  look(own.folds, all.folds, filter.clip_segments, found);
+  kernels::BoxInFrame found = near_box_of_vertices(by);
+  edges.find_near(filter.clip_segments, by, found);
+  triangles.find_near(filter.clip_triangles, by, found);
+  folds.find_near(filter.clip_segments, by, found);
   return found;
 }
 
-auto clipping(const kernels::ClipBy& by) {
-  return [&by](auto& own, const auto& all, auto kernel, auto& found) { own.clip(all, kernel, by, found); };
-}
-auto taking(const kernels::ClipBy& by) {
-  return [&by](auto& own, const auto& all, auto kernel, auto& found) { own.take(all, kernel, by, found); };
+void LeafFeatures::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by,
+                                 kernels::BoxInFrame* found) {
+  vertices.take(all.vertices, kernels::filter().clip_points, by, found);
 }
 
-}  // namespace
-
-kernels::BoxInFrame LeafFeatures::vertices_near_box(const LeafFeatures& all, const kernels::ClipBy& by) {
-  return box_of_vertices(*this, all, clipping(by));
-}
-kernels::BoxInFrame LeafFeatures::near_box(const LeafFeatures& all, const kernels::ClipBy& by) {
-  return box_of_all(*this, all, clipping(by));
-}
-kernels::BoxInFrame LeafFeatures::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by) {
-  return box_of_vertices(*this, all, taking(by));
-}
-kernels::BoxInFrame LeafFeatures::take(const LeafFeatures& all, const kernels::ClipBy& by) {
-  return box_of_all(*this, all, taking(by));
+void LeafFeatures::take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found) {
+  const kernels::Filter& filter = kernels::filter();
+  take_vertices(all, by, found);
+  edges.take(all.edges, filter.clip_segments, by, found);
+  triangles.take(all.triangles, filter.clip_triangles, by, found);
+  folds.take(all.folds, filter.clip_segments, by, found);
 }
 
 void FoldAnswers::begin(const Surface& surface, const SegmentBlock& diagonals) {

@@ -32,12 +32,12 @@ class LeafFeatures {
   void collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame,
                         LeafVertices& corners);
 
-  /// The box of those of `all` that `by` keeps.
-  kernels::BoxInFrame near_box(const LeafFeatures& all, const kernels::ClipBy& by);
-  kernels::BoxInFrame vertices_near_box(const LeafFeatures& all, const kernels::ClipBy& by);
-  /// Takes them, and gives their box.
-  kernels::BoxInFrame take(const LeafFeatures& all, const kernels::ClipBy& by);
-  kernels::BoxInFrame take_vertices(const LeafFeatures& all, const kernels::ClipBy& by);
+  /// The box of those that `by` keeps.
+  [[nodiscard]] kernels::BoxInFrame near_box(const kernels::ClipBy& by) const;
+  [[nodiscard]] kernels::BoxInFrame near_box_of_vertices(const kernels::ClipBy& by) const;
+  /// Takes those of `all` that `by` keeps, and extends `found`, where there is one, by their box.
+  void take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
+  void take_vertices(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
 
   [[nodiscard]] std::size_t count() const {
     return vertices.count() + edges.count() + triangles.count() + folds.count();

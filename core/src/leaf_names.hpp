@@ -34,7 +34,7 @@ struct LeafScratch {
   }
   template <typename Range>
   bool take_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
-    return take(pair, leaf_a, leaf_b, range, true, &LeafFeatures::vertices_near_box,
+    return take(pair, leaf_a, leaf_b, range, true, &LeafFeatures::near_box_of_vertices,
                 &LeafFeatures::take_vertices);
   }
 
@@ -58,9 +58,16 @@ struct LeafScratch {
     // What of b is near those of a that are near b's leaf, and what of a is near that. Two features can only
     // touch where both sides' boxes overlap.
     const kernels::BoxInFrame box_b = frame.to_local(leaf_b.box);
-    const kernels::BoxInFrame near_a = (a.*box_of_near)(of_a, {box_b, box_b, local_limit});
-    const kernels::BoxInFrame near_b = (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), local_limit});
-    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), local_limit});
+    const auto nothing_near = [&] {
+      range.left_out(limit);
+      return false;
+    };
+    const kernels::BoxInFrame near_a = (of_a.*box_of_near)({box_b, box_b, local_limit});
+    if (is_empty(near_a)) return nothing_near();
+    kernels::BoxInFrame near_b = empty_box();
+    (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), local_limit}, &near_b);
+    if (is_empty(near_b)) return nothing_near();
+    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), local_limit}, nullptr);
     const auto of_all = [&](const LeafFeatures& features) {
       return vertices_only ? features.vertices.count() : features.count();
     };

@@ -287,11 +287,14 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
     take(filter.maybe_pierced(row_of(segments, i), triangles.block(), found.out()));
   }
   const auto take_clipped = [&](const kernels::Block& block, kernels::Filter::Clip clip, float limit) {
-    std::vector<std::uint8_t> touches(block.count);
+    std::vector<std::uint32_t> others(block.count);
     kernels::BoxInFrame box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
-    const std::size_t count = clip(block, {frame.to_local(a.box), frame.to_local(b.box), limit},
-                                   {found.index.data(), touches.data(), &box});
-    for (std::size_t k = 0; k < count; ++k) words.push_back(found.index[k] * 2 + touches[k]);
+    const kernels::ClipCount count = clip(block, {frame.to_local(a.box), frame.to_local(b.box), limit},
+                                          {found.index.data(), others.data(), &box});
+    words.push_back(static_cast<std::uint32_t>(count.touching));
+    words.insert(words.end(), found.index.begin(),
+                 found.index.begin() + static_cast<std::ptrdiff_t>(count.touching));
+    words.insert(words.end(), others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count.others));
     std::array<std::uint32_t, sizeof box / sizeof(std::uint32_t)> bits{};
     std::memcpy(bits.data(), &box, sizeof box);
     words.insert(words.end(), bits.begin(), bits.end());
@@ -463,7 +466,7 @@ void check_clip(const FeatureBlock<Corners, Components>& block, const std::vecto
       {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
   FeatureBlock<Corners, Components> taken(block.part());
   const kernels::BoxInFrame local = frame.to_local(box);
-  taken.take(block, clip, {local, local, limit}, found);
+  taken.take(block, clip, {local, local, limit}, &found);
   std::vector<bool> is_kept(features.size(), false);
   for (std::size_t i = 0; i < taken.count(); ++i) {
     const std::uint32_t feature = taken.owner(i);

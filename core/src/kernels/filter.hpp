@@ -76,20 +76,25 @@ struct ClipBy {
   float limit;
 };
 
-/// What is kept: numbers into the block, ascending, whether each may touch, and the box of all of them. Room
-/// for a whole block each.
+/// What is kept: numbers into the block, ascending, of those that may touch and of the others, with room for
+/// a whole block each; or both null. And the box of all of them, which is extended; or null.
 struct Clipped {
-  std::uint32_t* index = nullptr;
-  std::uint8_t* touches = nullptr;
+  std::uint32_t* touching = nullptr;
+  std::uint32_t* others = nullptr;
   BoxInFrame* box = nullptr;
+};
+/// How many were listed.
+struct ClipCount {
+  std::size_t touching = 0;
+  std::size_t others = 0;
 };
 
 /// The kernels of one instruction set. `lay_out_…` fills blocks from vertices and the places of each
 /// feature's corners among them, one feature after the other; it reads corners and writes features up to a
 /// multiple of 4, of which those behind `count` may be any. `prepare_…` computes the rest. `near_…` discards
 /// what is certainly further than `limit`, `maybe_pierced` the triangles that the segment certainly does not
-/// touch; both, and `clip_…`, return how many are left. `clip_…`
-/// extend the box that they are given. `gather` copies the features of a block that are listed.
+/// touch; both, and `clip_…`, return how many are left. `gather` copies the features of a block that are
+/// listed; the list goes on up to a multiple of 4, with anything of the block.
 struct Filter {
   using LayOut = void (*)(const Point* vertices, const std::uint32_t* corners, std::size_t count, float* data,
                           std::size_t stride);
@@ -104,7 +109,7 @@ struct Filter {
   std::size_t (*near_triangles)(const Point& point, const Block& triangles, float limit,
                                 const Survivors& out);
   std::size_t (*maybe_pierced)(const Segment& segment, const Block& triangles, const Survivors& out);
-  using Clip = std::size_t (*)(const Block& features, const ClipBy& by, const Clipped& out);
+  using Clip = ClipCount (*)(const Block& features, const ClipBy& by, const Clipped& out);
   Clip clip_points;
   Clip clip_segments;
   Clip clip_triangles;
