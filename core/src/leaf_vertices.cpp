@@ -5,12 +5,23 @@ namespace graze {
 void LeafVertices::take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
   local_.clear();
   if (place_of_.size() < surface.mesh().vertex_count()) place_of_.resize(surface.mesh().vertex_count());
-  for (const std::uint32_t vertex : surface.mesh().regions().vertices(leaf)) add(surface, vertex, frame);
+  add(surface, surface.mesh().regions().vertices(leaf), frame);
 }
 
 void LeafVertices::take(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
   take_own(surface, leaf, frame);
-  for (const std::uint32_t vertex : surface.mesh().regions().border(leaf)) add(surface, vertex, frame);
+  add(surface, surface.mesh().regions().border(leaf), frame);
+}
+
+void LeafVertices::add(const Surface& surface, std::span<const std::uint32_t> vertices,
+                       const FilterFrame& given_frame) {
+  const FilterFrame frame = given_frame;  // so that it stays in registers
+  const std::size_t first = local_.size();
+  local_.resize(first + vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    place_of_[vertices[i]] = static_cast<std::uint32_t>(first + i);
+    local_[first + i] = local_vertex(frame, surface.position(vertices[i]));
+  }
 }
 
 void LeafVertices::reserve_as(const LeafVertices& other) {

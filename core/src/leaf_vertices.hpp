@@ -5,6 +5,7 @@
 #include <graze/pair_query.hpp>
 #include <graze/surface.hpp>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "filter_frame.hpp"
@@ -73,10 +74,7 @@ class LeafVertices {
   void reserve(const PairRoom& room);
 
  private:
-  void add(const Surface& surface, std::uint32_t vertex, const FilterFrame& frame) {
-    place_of_[vertex] = static_cast<std::uint32_t>(local_.size());
-    local_.push_back(local_vertex(frame, surface.position(vertex)));
-  }
+  void add(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame);
 
   std::vector<kernels::Point> local_;
   std::vector<std::uint32_t> place_of_;  ///< by vertex; means something for those taken up last
