@@ -28,8 +28,8 @@ struct SearchScratch {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.leaf_pairs, self.sweep, self.features, self.nearest_of_leaves, self.paper, self.lowest,
-                    self.parallel, self.measure);
+    return std::tie(self.leaf_pairs, self.sweep, self.features, self.nearest_of_leaves, self.paper,
+                    self.lowest, self.parallel, self.measure);
   }
 };
 

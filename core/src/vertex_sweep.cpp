@@ -1,6 +1,7 @@
 #include "vertex_sweep.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -16,19 +17,21 @@ Box LocalVertices::take(const Surface& surface, std::span<const std::uint32_t> v
                         const FilterFrame& frame, float size) {
   begin(vertices.size());
   vertices_.assign(vertices.begin(), vertices.end());
-  Box box;
+  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array3d high = -low;
   float* at = data_.data();
   for (const std::uint32_t vertex : vertices) {
     const Eigen::Vector3d position = surface.position(vertex);
-    box.add(position);
-    const Eigen::Vector3f local = frame.to_local(position).cast<float>();
-    at[0] = local.x();
-    at[stride_] = local.y();
-    at[2 * stride_] = local.z();
+    low = low.min(position.array());
+    high = high.max(position.array());
+    const Eigen::Vector3d local = frame.to_local(position);
+    at[0] = static_cast<float>(local.x());
+    at[stride_] = static_cast<float>(local.y());
+    at[2 * stride_] = static_cast<float>(local.z());
     ++at;
   }
-  std::fill_n(at + 2 * stride_ + stride_ - vertices.size(), vertices.size(), size);
-  return box;
+  std::fill_n(data_.data() + 3 * stride_, vertices.size(), size);
+  return {low, high};
 }
 
 void LocalVertices::take(const LocalVertices& all, std::span<const std::uint32_t> places) {
