@@ -50,6 +50,11 @@ struct ContactName {
   [[nodiscard]] bool same_features(const ContactName& other) const {
     return a.feature == other.a.feature && b.feature == other.b.feature;
   }
+  /// Its upper bits depend on all of the name.
+  [[nodiscard]] std::uint64_t hash() const {
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // 2^64 / the golden ratio
+    return (high_key() * odd ^ low_key()) * odd;
+  }
 
  private:
   /// What names are ordered by, as two numbers.

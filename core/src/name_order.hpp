@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contact_name.hpp"
+#include "working_memory.hpp"
+
+namespace graze {
+
+/// Sorts names. Long lists are sorted digit by digit as numbers that hold all of a name, which takes the same
+/// few steps for each whatever their order.
+class NameOrder {
+ public:
+  void sort(std::vector<ContactName>& names);
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.keys_, self.spare_);
+  }
+  void reserve(const PairRoom& room) {
+    constexpr std::size_t finds_of_contact = 8;  // once for each of the features about it
+    for (auto* const keys : {&keys_, &spare_}) keys->reserve(finds_of_contact * room.contacts);
+  }
+
+ private:
+  void sort_keys();
+
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint64_t> spare_;
+};
+
+}  // namespace graze

@@ -1,0 +1,41 @@
+// NameOrder sorts as comparing does.
+
+#include "name_order.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+namespace {
+
+FeaturePiece random_piece(oracle::Random& random, std::uint32_t largest) {
+  // Now and then the largest itself, so that the list needs all of its bits.
+  const std::uint32_t index = random.chance(0.1) ? largest : random.below(largest);
+  return {{static_cast<FeatureKind>(random.below(3)), index}, static_cast<Piece>(random.below(3))};
+}
+
+}  // namespace
+
+TEST_CASE("names are sorted as by comparing, however many and however large") {
+  NameOrder order;
+  for (std::uint64_t seed = 0; seed < 90; ++seed) {
+    oracle::Random random(seed);
+    // The sum of the bits of both indices decides whether a name is a number of 64 bits.
+    const std::uint32_t largest_a = 1U << random.below(32);
+    const std::uint32_t largest_b = 1U << random.below(32);
+    std::vector<ContactName> names;
+    const std::uint32_t count = random.below(seed % 2 == 0 ? 100 : 2000);
+    for (std::uint32_t i = 0; i < count; ++i)
+      names.push_back(ContactName::of(random_piece(random, largest_a), random_piece(random, largest_b),
+                                      static_cast<Meeting>(random.below(3))));
+    std::vector<ContactName> expected = names;
+    std::sort(expected.begin(), expected.end());
+    order.sort(names);
+    CHECK(names == expected);
+  }
+}
+
+}  // namespace graze::tests
