@@ -4,11 +4,13 @@
 #include <limits>
 
 #include "ratio.hpp"
+#include "wide.hpp"
 
 namespace graze {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <typename Number>
 Ratio<Number> squared(const SurfacePair& pair, const ContactName& name) {
@@ -30,10 +32,33 @@ double approximate_root(const Ratio<Exact>& square) {
   return std::ldexp(std::sqrt(fraction), exponent / 2);
 }
 
+/// The same, or not a number, of which nothing is sure, where double is too narrow for that.
+double approximate_root(const Ratio<Wide>& square) {
+  const double quotient = square.numerator.high / square.denominator.high;
+  return quotient > 0x1p-900 && quotient < 0x1p900 ? std::sqrt(quotient) : not_a_number;
+}
+
 /// The sign of value² − square.
-int compare_square(double value, const Ratio<Exact>& square) {
-  const Exact exact(value);
-  return (exact * exact * square.denominator - square.numerator).sign();
+template <typename Number>
+int compare_square(double value, const Ratio<Number>& square, bool& unsure) {
+  const Number number(value);
+  return sign(number * number * square.denominator - square.numerator, unsure);
+}
+
+/// The root of a quotient rounded down and up. Means nothing, but ends, where it becomes unsure.
+template <typename Number>
+DistanceBounds rounded_root(const Ratio<Number>& square, bool& unsure) {
+  if (sign(square.numerator, unsure) == 0) return {0, 0};
+  DistanceBounds bounds;
+  bounds.lower = approximate_root(square);
+  while (compare_square(bounds.lower, square, unsure) > 0) bounds.lower = std::nextafter(bounds.lower, 0);
+  bounds.upper = bounds.lower;
+  while (compare_square(bounds.upper, square, unsure) < 0) {
+    bounds.lower = bounds.upper;
+    bounds.upper = std::nextafter(bounds.upper, infinity);
+  }
+  if (compare_square(bounds.upper, square, unsure) == 0) bounds.lower = bounds.upper;
+  return bounds;
 }
 
 }  // namespace
@@ -73,18 +98,11 @@ double upper_distance(const SurfacePair& pair, const ContactName& name) {
 }
 
 DistanceBounds rounded_distance(const SurfacePair& pair, const ContactName& name) {
-  const Ratio<Exact> square = squared<Exact>(pair, name);
-  if (square.numerator.sign() == 0) return {0, 0};
-  DistanceBounds bounds;
-  bounds.lower = approximate_root(square);
-  while (compare_square(bounds.lower, square) > 0) bounds.lower = std::nextafter(bounds.lower, 0);
-  bounds.upper = bounds.lower;
-  while (compare_square(bounds.upper, square) < 0) {
-    bounds.lower = bounds.upper;
-    bounds.upper = std::nextafter(bounds.upper, infinity);
-  }
-  if (compare_square(bounds.upper, square) == 0) bounds.lower = bounds.upper;
-  return bounds;
+  bool unsure = false;
+  const DistanceBounds bounds = rounded_root(squared<Wide>(pair, name), unsure);
+  if (!unsure) return bounds;
+  ++pair.count.exact;
+  return rounded_root(squared<Exact>(pair, name), unsure);
 }
 
 }  // namespace graze

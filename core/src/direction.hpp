@@ -2,16 +2,18 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "arithmetic.hpp"
+#include "wide.hpp"
 
 namespace graze {
 
-/// The unit vector along an exact vector, each component to a relative error of some 2^-50; nothing for zero.
-inline std::optional<Eigen::Vector3d> unit(const Vector<Exact>& vector) {
-  const std::array scaled{vector.x.scaled(), vector.y.scaled(), vector.z.scaled()};
+/// The unit vector along a vector of which the leading bits are given, each component to a relative error of
+/// some 2^-50; nothing for zero.
+inline std::optional<Eigen::Vector3d> unit(const std::array<Exact::Scaled, 3>& scaled) {
   std::optional<int> exponent;
   for (const Exact::Scaled& part : scaled)
     if (part.fraction != 0) exponent = std::max(exponent.value_or(part.exponent), part.exponent);
@@ -36,8 +38,14 @@ std::optional<Eigen::Vector3d> unit_direction(DecisionCount& count, const Vector
       std::sqrt((middle.x() * middle.x() + middle.y() * middle.y()) + middle.z() * middle.z());
   const double radius = ball.x.radius + ball.y.radius + ball.z.radius;
   if (size > 0x1p-450 && size < 0x1p450 && radius <= size * 0x1p-44) return middle / size;
+  const Vector<Wide> wide = vector.template operator()<Wide>();
+  const auto x = scaled(wide.x);
+  const auto y = scaled(wide.y);
+  const auto z = scaled(wide.z);
+  if (x && y && z) return unit({*x, *y, *z});
   ++count.exact;
-  return unit(vector.template operator()<Exact>());
+  const Vector<Exact> exact = vector.template operator()<Exact>();
+  return unit({exact.x.scaled(), exact.y.scaled(), exact.z.scaled()});
 }
 
 }  // namespace graze

@@ -9,6 +9,7 @@
 #include "normals.hpp"
 #include "piercing.hpp"
 #include "ratio.hpp"
+#include "wide.hpp"
 
 namespace graze {
 namespace {
@@ -47,7 +48,7 @@ ClosestPoints<Number> closest_points(const Simplex& low, const Simplex& high) {
           normal * dot(normal, to_high), dot(normal, normal)};
 }
 
-/// The closest points in whichever arithmetic they are asked for, made once.
+/// The closest points in whichever arithmetic they are asked for, made once in each.
 class ClosestOf {
  public:
   ClosestOf(const Simplex& low, const Simplex& high)
@@ -55,18 +56,25 @@ class ClosestOf {
 
   template <typename Number>
   const ClosestPoints<Number>& in() {
-    if constexpr (std::is_same_v<Number, Ball>) {
+    if constexpr (std::is_same_v<Number, Ball>)
       return ball_;
-    } else {
-      if (!exact_) exact_.emplace(closest_points<Exact>(low_, high_));
-      return *exact_;
-    }
+    else if constexpr (std::is_same_v<Number, Wide>)
+      return made(wide_);
+    else
+      return made(exact_);
   }
 
  private:
+  template <typename Number>
+  const ClosestPoints<Number>& made(std::optional<ClosestPoints<Number>>& points) const {
+    if (!points) points.emplace(closest_points<Number>(low_, high_));
+    return *points;
+  }
+
   const Simplex& low_;
   const Simplex& high_;
   ClosestPoints<Ball> ball_;
+  std::optional<ClosestPoints<Wide>> wide_;
   std::optional<ClosestPoints<Exact>> exact_;
 };
 
@@ -88,7 +96,7 @@ bool quotient(const Ball& numerator, const Ball& denominator, double error, doub
   return std::isfinite(result) && off * Ball::slack <= error;
 }
 
-/// base + offset / denominator, from double where that is within `error`, else from exact arithmetic.
+/// base + offset / denominator, from double where that is within `error`, else exactly rounded.
 class PointRounder {
  public:
   PointRounder(DecisionCount& count, double error) : count_(count), error_(error) {}
@@ -101,6 +109,11 @@ class PointRounder {
         quotient(ball.y, ball_denominator, error_, offset.y()) &&
         quotient(ball.z, ball_denominator, error_, offset.z()))
       return base + offset;
+    const auto [wide, wide_denominator] = offset_of.template operator()<Wide>();
+    const auto x = rounded_quotient(base.x(), wide.x, wide_denominator);
+    const auto y = rounded_quotient(base.y(), wide.y, wide_denominator);
+    const auto z = rounded_quotient(base.z(), wide.z, wide_denominator);
+    if (x && y && z) return {*x, *y, *z};
     ++count_.exact;
     const auto [exact, denominator] = offset_of.template operator()<Exact>();
     return {Exact::quotient(Exact(base.x()) * denominator + exact.x, denominator),
@@ -132,11 +145,10 @@ double distance_of(const SurfacePair& pair, const ContactName& name, const Hulls
     if (square.numerator.value > 0x1p-900 && (high - low) * Ball::slack <= size * allowed_error)
       return middle;
   }
-  ++pair.count.exact;
   return rounded_distance(pair, name).upper;
 }
 
-/// Fills in distance, normal and sides of a contact whose points are known.
+/// Fills in distance and normal of a contact whose points are known.
 void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hulls, ClosestOf& closest,
               Contact& contact) {
   const bool a_is_low = hulls.a.size <= hulls.b.size;
@@ -144,12 +156,16 @@ void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hul
   const Simplex& high = a_is_low ? hulls.b : hulls.a;
   contact.distance = distance_of(pair, name, hulls, extent(low, high));
   const auto normal = unit_direction(pair.count, [&]<typename Number>() { return closest.in<Number>().gap; });
-  if (!normal) {
+  if (normal) {
+    contact.normal = a_is_low ? *normal : Eigen::Vector3d(-*normal);
+  } else {
     contact.distance = 0;
     contact.normal = touching_normal(pair.a, name.a, pair.b, name.b, pair.count);
-    return;
   }
-  contact.normal = a_is_low ? *normal : Eigen::Vector3d(-*normal);
+}
+
+void add_sides(const SurfacePair& pair, const ContactName& name, Contact& contact) {
+  if (contact.distance == 0) return;
   contact.side_a = side_of(pair.a, name.a, contact.normal, pair.count);
   contact.side_b = side_of(pair.b, name.b, -contact.normal, pair.count);
 }
@@ -182,7 +198,7 @@ Contact measure_piercing(const SurfacePair& pair, const ContactName& name) {
 
 }  // namespace
 
-Contact measure(const SurfacePair& pair, const ContactName& name) {
+Contact measure_without_sides(const SurfacePair& pair, const ContactName& name) {
   if (name.meeting == Meeting::pierced) return measure_piercing(pair, name);
   const Hulls hulls = hulls_of(pair, name);
   const bool a_is_low = hulls.a.size <= hulls.b.size;
@@ -207,6 +223,12 @@ Contact measure(const SurfacePair& pair, const ContactName& name) {
   return contact;
 }
 
+Contact measure(const SurfacePair& pair, const ContactName& name) {
+  Contact contact = measure_without_sides(pair, name);
+  add_sides(pair, name, contact);
+  return contact;
+}
+
 Contact measure_parallel(const SurfacePair& pair, const ContactName& name, const Eigen::Vector3d& point_a,
                          const Eigen::Vector3d& point_b) {
   Contact contact = named(name);
@@ -216,6 +238,7 @@ Contact measure_parallel(const SurfacePair& pair, const ContactName& name, const
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   ClosestOf closest(a_is_low ? hulls.a : hulls.b, a_is_low ? hulls.b : hulls.a);
   complete(pair, name, hulls, closest, contact);
+  add_sides(pair, name, contact);
   return contact;
 }
 

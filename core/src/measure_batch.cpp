@@ -60,6 +60,10 @@ class Batch {
     put(a_is_low ? pair_.b : pair_.a, a_is_low ? name.b : name.a, shape.high, scratch_.batch.high);
     contact_[count_++] = contact;
   }
+  void measure_alone(std::size_t contact) {
+    contacts_[contact] = measure_without_sides(pair_, names_[contact]);
+    add_sides(names_[contact], contacts_[contact]);
+  }
   void finish() {
     if (count_ == 0) return;
     kernel()(scratch_.batch);
@@ -87,13 +91,10 @@ class Batch {
   }
 
   void take(std::size_t lane) {
+    const kernels::ContactBatch& batch = scratch_.batch;
+    if (batch.certain[lane] == 0) return measure_alone(contact_[lane]);
     const ContactName& name = names_[contact_[lane]];
     Contact& contact = contacts_[contact_[lane]];
-    const kernels::ContactBatch& batch = scratch_.batch;
-    if (batch.certain[lane] == 0) {
-      contact = measure(pair_, name);
-      return;
-    }
     const bool a_is_low = is_a_low(name);
     const Eigen::Vector3d normal = at(batch.normal, lane);
     contact = {};
@@ -104,6 +105,10 @@ class Batch {
     contact.point_b = at(a_is_low ? batch.high_point : batch.low_point, lane);
     contact.distance = batch.distance[lane];
     contact.normal = a_is_low ? normal : Eigen::Vector3d(-normal);
+    add_sides(name, contact);
+  }
+  void add_sides(const ContactName& name, Contact& contact) {
+    if (contact.distance == 0) return;
     contact.side_a = scratch_.sides_a.of(pair_.a, name.a, contact.normal, pair_.count);
     contact.side_b = scratch_.sides_b.of(pair_.b, name.b, -contact.normal, pair_.count);
   }

@@ -106,11 +106,13 @@ namespace {
 /// Adds triangles' normals in plain double; the weights are those of WeightedSum.
 class RoughSum {
  public:
-  /// By the angle at a corner, or by `weight` where that is not 0.
-  void add(const Simplex& triangle, std::size_t corner, double weight) {
-    const Eigen::Vector3d& at = triangle.point[corner];
-    const auto u = difference<double>(triangle.point[(corner + 1) % 3], at);
-    const auto v = difference<double>(triangle.point[(corner + 2) % 3], at);
+  explicit RoughSum(const Surface& surface) : surface_(surface) {}
+
+  /// By the angle at the first of the corners, which go around, or by `weight` where that is not 0.
+  void add(const std::array<std::uint32_t, 3>& corner, double weight) {
+    const Eigen::Vector3d at = surface_.position(corner[0]);
+    const auto u = difference<double>(surface_.position(corner[1]), at);
+    const auto v = difference<double>(surface_.position(corner[2]), at);
     const auto across = cross(u, v);
     const double squared = dot(across, across);
     const double length = std::sqrt(squared);
@@ -124,14 +126,17 @@ class RoughSum {
   [[nodiscard]] RoughNormal normal() const { return is_known_ ? normal_ : RoughNormal{}; }
 
  private:
+  const Surface& surface_;
   RoughNormal normal_;
   bool is_known_ = true;
 };
 
-/// Which corner of a triangle `vertex` is, if any.
-std::optional<std::size_t> corner_at(const Simplex& triangle, std::uint32_t vertex) {
-  for (std::size_t i = 0; i < 3; ++i)
-    if (triangle.vertex[i] == vertex) return i;
+/// A triangle's corners from `first` around, where that is one of them.
+std::optional<std::array<std::uint32_t, 3>> corners_from(std::uint32_t first,
+                                                         const std::array<std::uint32_t, 3>& corner) {
+  if (corner[0] == first) return corner;
+  if (corner[1] == first) return std::array{corner[1], corner[2], corner[0]};
+  if (corner[2] == first) return std::array{corner[2], corner[0], corner[1]};
   return std::nullopt;
 }
 
@@ -140,21 +145,25 @@ std::optional<std::size_t> corner_at(const Simplex& triangle, std::uint32_t vert
 RoughNormal rough_normal(const Surface& surface, const FeaturePiece& piece) {
   const Mesh& mesh = surface.mesh();
   const std::uint32_t index = piece.feature.index;
-  RoughSum sum;
+  RoughSum sum(surface);
   if (piece.feature.kind == FeatureKind::face) {
     if (piece.piece == Piece::fold) return {};
-    sum.add(simplex_of(surface, piece), 0, 1);
+    sum.add(simplex_of(surface, piece).vertex, 1);
     return sum.normal();
   }
   const bool is_vertex = piece.feature.kind == FeatureKind::vertex;
-  const auto ends = is_vertex ? std::array{index, index} : mesh.edge(index);
-  for (const std::uint32_t face : is_vertex ? mesh.vertex_faces(index) : mesh.edge_faces(index))
-    for (std::uint32_t i = 0; i < triangle_count(mesh, face); ++i) {
-      const Simplex triangle = simplex_of(surface, face_piece(face, i == 0 ? Piece::first : Piece::second));
-      const auto corner = corner_at(triangle, ends[0]);
-      if (!corner || !corner_at(triangle, ends[1])) continue;
-      sum.add(triangle, *corner, is_vertex ? 0 : pi);
+  const auto [first, other] = is_vertex ? std::array{index, index} : mesh.edge(index);
+  for (const std::uint32_t face : is_vertex ? mesh.vertex_faces(index) : mesh.edge_faces(index)) {
+    const auto corner = mesh.face(face);
+    for (std::size_t last = 2; last < corner.size(); ++last) {
+      const auto triangle = corners_from(first, {corner[0], corner[last - 1], corner[last]});
+      if (!triangle) continue;
+      if (is_vertex)
+        sum.add(*triangle, 0);
+      else if ((*triangle)[1] == other || (*triangle)[2] == other)
+        sum.add(*triangle, pi);
     }
+  }
   return sum.normal();
 }
 

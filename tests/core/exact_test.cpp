@@ -1,5 +1,5 @@
-// The exact numbers against GMP's rationals, and that balls hold the true value, on doubles of wild
-// exponents.
+// The exact numbers against GMP's rationals, that balls and wide numbers hold the true value, and that what
+// wide numbers are rounded to is what exact ones are, on doubles of wild exponents.
 
 #include "exact.hpp"
 
@@ -14,6 +14,7 @@
 #include "support/catch.hpp"
 #include "support/exact.hpp"
 #include "support/random_scenes.hpp"
+#include "wide.hpp"
 
 namespace graze::tests {
 namespace {
@@ -35,23 +36,24 @@ double wild(Random& random) {
 }
 
 /// The same number in all arithmetics.
-struct Trio {
+struct Number {
   Exact exact;
   mpq_class truth;
   Ball ball;
+  Wide wide;
 
-  explicit Trio(double value) : exact(value), truth(value), ball(value) {}
-  Trio(Exact e, mpq_class t, Ball b) : exact(e), truth(std::move(t)), ball(b) {}
+  explicit Number(double value) : exact(value), truth(value), ball(value), wide(value) {}
+  Number(Exact e, mpq_class t, Ball b, Wide w) : exact(e), truth(std::move(t)), ball(b), wide(w) {}
 };
 
-Trio operator+(const Trio& left, const Trio& right) {
-  return {left.exact + right.exact, left.truth + right.truth, left.ball + right.ball};
+Number operator+(const Number& left, const Number& right) {
+  return {left.exact + right.exact, left.truth + right.truth, left.ball + right.ball, left.wide + right.wide};
 }
-Trio operator-(const Trio& left, const Trio& right) {
-  return {left.exact - right.exact, left.truth - right.truth, left.ball - right.ball};
+Number operator-(const Number& left, const Number& right) {
+  return {left.exact - right.exact, left.truth - right.truth, left.ball - right.ball, left.wide - right.wide};
 }
-Trio operator*(const Trio& left, const Trio& right) {
-  return {left.exact * right.exact, left.truth * right.truth, left.ball * right.ball};
+Number operator*(const Number& left, const Number& right) {
+  return {left.exact * right.exact, left.truth * right.truth, left.ball * right.ball, left.wide * right.wide};
 }
 
 mpq_class times_power_of_two(mpq_class value, int exponent) {
@@ -68,7 +70,7 @@ bool is_near(const mpq_class& value, const mpq_class& truth, int bits) {
 }
 
 /// The exact number's sign and leading bits are those of the truth.
-void check_exact(const Trio& number) {
+void check_exact(const Number& number) {
   CHECK(number.exact.sign() == sgn(number.truth));
   const Exact::Scaled scaled = number.exact.scaled();
   const double size = std::abs(scaled.fraction);
@@ -77,7 +79,7 @@ void check_exact(const Trio& number) {
 }
 
 /// The ball holds the truth, and a sign that it is sure of is right.
-void check_ball(const Trio& number) {
+void check_ball(const Number& number) {
   bool unsure = false;
   const int sign_of_ball = sign(number.ball, unsure);
   if (!unsure) CHECK(sign_of_ball == sgn(number.truth));
@@ -86,9 +88,24 @@ void check_ball(const Trio& number) {
   CHECK(off <= mpq_class(number.ball.radius) * mpq_class(Ball::slack));
 }
 
+/// The wide number holds the truth, and what it is sure of is right.
+void check_wide(const Number& number) {
+  bool unsure = false;
+  const int sign_of_wide = sign(number.wide, unsure);
+  if (!unsure) CHECK(sign_of_wide == sgn(number.truth));
+  if (const auto leading = scaled(number.wide)) {
+    CHECK(leading->fraction == number.exact.scaled().fraction);
+    CHECK(leading->exponent == number.exact.scaled().exponent);
+  }
+  if (!std::isfinite(number.wide.high) || !std::isfinite(number.wide.radius)) return;
+  const mpq_class middle = mpq_class(number.wide.high) + mpq_class(number.wide.low);
+  CHECK(abs(mpq_class(middle - number.truth)) <= mpq_class(number.wide.radius) * mpq_class(Wide::slack));
+  CHECK(number.wide.high + number.wide.low == number.wide.high);
+}
+
 /// A random sum, difference or product of what there is, of at most ten coordinate differences.
 struct Expression {
-  Trio value;
+  Number value;
   int degree;
 };
 
@@ -104,10 +121,10 @@ Expression combined(Random& random, const Expression& left, const Expression& ri
 
 TEST_CASE("exact: every double is itself") {
   Random random(1);
-  for (int i = 0; i < 2000; ++i) check_exact(Trio(wild(random)));
+  for (int i = 0; i < 2000; ++i) check_exact(Number(wild(random)));
   for (const double value :
        {0.0, -0.0, smallest, -smallest, 0x1p-1022, 0x1p120, -0x1p120, 0x1.fffffffffffffp119})
-    check_exact(Trio(value));
+    check_exact(Number(value));
 }
 
 TEST_CASE("exact: sums, differences and products are those of rationals") {
@@ -116,14 +133,15 @@ TEST_CASE("exact: sums, differences and products are those of rationals") {
   int expressions = 0;
   for (int round = 0; round < 400; ++round) {
     std::vector<Expression> pool;
-    for (int i = 0; i < 4; ++i) pool.push_back({Trio(wild(random)) - Trio(wild(random)), 1});
+    for (int i = 0; i < 4; ++i) pool.push_back({Number(wild(random)) - Number(wild(random)), 1});
     for (int i = 0; i < 12; ++i) {
       const Expression& left = pool[random.below(static_cast<std::uint32_t>(pool.size()))];
       const Expression& right = pool[random.below(static_cast<std::uint32_t>(pool.size()))];
       const Expression next = combined(random, left, right);
       check_exact(next.value);
-      check_exact({-next.value.exact, -next.value.truth, -next.value.ball});
+      check_exact({-next.value.exact, -next.value.truth, -next.value.ball, -next.value.wide});
       check_ball(next.value);
+      check_wide(next.value);
       const int order = (left.value.exact - right.value.exact).sign();
       CHECK(order == sgn(mpq_class(left.value.truth - right.value.truth)));
       zeros += next.value.exact.sign() == 0 ? 1 : 0;
@@ -137,12 +155,12 @@ TEST_CASE("exact: sums, differences and products are those of rationals") {
 
 TEST_CASE("exact: ten factors from the smallest denormal to 2^121 fit") {
   for (const double size : {smallest, 0x1p120}) {
-    const Trio spread = Trio(0x1.fffffffffffffp120) - Trio(-smallest);
-    Trio product(1);
-    Trio power(1);
+    const Number spread = Number(0x1.fffffffffffffp120) - Number(-smallest);
+    Number product(1);
+    Number power(1);
     for (int i = 0; i < 10; ++i) {
       product = product * spread;
-      power = power * Trio(size);
+      power = power * Number(size);
     }
     check_exact(product);
     check_exact(power);
@@ -155,8 +173,8 @@ TEST_CASE("exact: quotients are rounded to nearest") {
   Random random(3);
   int compared = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Trio left = Trio(wild(random)) * Trio(wild(random)) - Trio(wild(random));
-    const Trio right = Trio(wild(random)) - Trio(wild(random)) * Trio(wild(random));
+    const Number left = Number(wild(random)) * Number(wild(random)) - Number(wild(random));
+    const Number right = Number(wild(random)) - Number(wild(random)) * Number(wild(random));
     if (right.truth == 0) continue;
     const mpq_class truth = left.truth / right.truth;
     const mpq_class size = abs(truth);
@@ -207,6 +225,53 @@ TEST_CASE("exact: a decision goes to exact arithmetic only where doubles are uns
   CHECK(count.exact == 2);
   CHECK(compare_products(3, 4, 2, 6) == 0);  // equal is never certain of rounded numbers
   CHECK(count.exact == 3);
+}
+
+namespace {
+
+/// A number of ordinary size, now and then on a grid.
+double ordinary(Random& random) {
+  return random.chance(0.2) ? random.below(9) / 4.0 - 1 : random.between(-2, 2);
+}
+
+/// The product of two and the difference of two such products: much of it cancels where they are alike.
+Number nearly_cancelled(Random& random) {
+  const Number x(ordinary(random));
+  const Number y(ordinary(random));
+  const double off = std::ldexp(ordinary(random), -static_cast<int>(random.below(60)));
+  return (x * y - Number(x.ball.value + off) * Number(y.ball.value - off)) * Number(ordinary(random));
+}
+
+}  // namespace
+
+TEST_CASE("wide: what is rounded is what exact arithmetic rounds to") {
+  Random random(4);
+  int rounded = 0;
+  int leading = 0;
+  constexpr int rounds = 20000;
+  for (int round = 0; round < rounds; ++round) {
+    const Number top = nearly_cancelled(random);
+    const Number bottom = nearly_cancelled(random);
+    const double base = random.chance(0.3) ? 0 : ordinary(random);
+    check_wide(top);
+    leading += scaled(top.wide) ? 1 : 0;
+    if (bottom.exact.sign() == 0) continue;
+    const auto quotient = rounded_quotient(base, top.wide, bottom.wide);
+    if (!quotient) continue;
+    CHECK(*quotient == Exact::quotient(Exact(base) * bottom.exact + top.exact, bottom.exact));
+    ++rounded;
+  }
+  CHECK(rounded > rounds / 2);
+  CHECK(leading > rounds / 2);
+  std::cout << "rounded " << rounded << " quotients and " << leading << " numbers of " << rounds << '\n';
+}
+
+TEST_CASE("wide: a quotient halfway between two doubles is left to exact arithmetic") {
+  const double half_way = 0x1p-53;
+  CHECK_FALSE(rounded_quotient(1, Wide(half_way), Wide(1)).has_value());
+  CHECK(rounded_quotient(1, Wide(half_way) * Wide(1 + 0x1p-30), Wide(1)) == 1 + 0x1p-52);
+  CHECK(rounded_quotient(1, Wide(half_way) * Wide(1 - 0x1p-30), Wide(1)) == 1.0);
+  CHECK_FALSE(rounded_quotient(1, Wide(-1), Wide(1)).has_value());
 }
 
 }  // namespace graze::tests
