@@ -221,4 +221,37 @@ bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Ei
   return false;
 }
 
+Passing certain_passing(const std::array<Eigen::Vector3d, 2>& segment,
+                        const std::array<Eigen::Vector3d, 3>& corner) {
+  const Plain u = difference<double>(corner[1], corner[0]);
+  const Plain v = difference<double>(corner[2], corner[0]);
+  const Plain along = difference<double>(segment[1], segment[0]);
+  const Plain to_second = difference<double>(segment[1], corner[0]);
+  const std::array<Plain, 3> to{difference<double>(corner[0], segment[0]),
+                                difference<double>(corner[1], segment[0]),
+                                difference<double>(corner[2], segment[0])};
+  const double sides = std::max(dot(u, u), dot(v, v));
+  const double furthest = std::max(std::max(dot(to[0], to[0]), dot(to[1], to[1])),
+                                   std::max(dot(to[2], to[2]), dot(to_second, to_second)));
+  const double length_squared = dot(along, along);
+  if (!is_in_range(sides) || !is_in_range(furthest) || !is_in_range(length_squared)) return Passing::unsure;
+  const double off_side = 16 * unit * sides * std::sqrt(furthest);
+  const double off_turn = 16 * unit * furthest * std::sqrt(length_squared);
+
+  const Plain normal = cross(u, v);
+  const double first = -dot(normal, to[0]);
+  const double second = dot(normal, to_second);
+  if (!(std::abs(first) > off_side && std::abs(second) > off_side)) return Passing::unsure;
+  if ((first > 0) == (second > 0)) return Passing::no;
+  Passing passing = Passing::yes;
+  for (std::size_t side = 0; side < 3; ++side) {
+    const double turn = dot(along, cross(to[side], to[(side + 1) % 3]));
+    if (!(std::abs(turn) > off_turn))
+      passing = Passing::unsure;
+    else if ((turn > 0) != (second > 0))
+      return Passing::no;
+  }
+  return passing;
+}
+
 }  // namespace graze

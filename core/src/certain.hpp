@@ -36,4 +36,9 @@ enum class Along : std::uint8_t { first, second, inside };
 bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
                     std::array<Along, 2>& places, SquaredRange& squared);
 
+/// Whether a segment passes through the inside of a triangle, from one side of its plane to the other.
+enum class Passing : std::uint8_t { unsure, no, yes };
+Passing certain_passing(const std::array<Eigen::Vector3d, 2>& segment,
+                        const std::array<Eigen::Vector3d, 3>& corner);
+
 }  // namespace graze

@@ -44,6 +44,17 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
+Shape shape_of(const ContactName& name) {
+  const auto [low, high] = std::minmax({corner_count(name.a), corner_count(name.b)});
+  return {low, high};
+}
+
+/// A piercing fold is left out since its normal is not the triangle's.
+bool is_for_kernels(const ContactName& name, const Shape& shape) {
+  if (name.meeting == Meeting::pierced) return name.kind == ContactKind::EF;
+  return name.meeting == Meeting::closest && shape.low + shape.high <= 4;
+}
+
 /// Measures contacts of one shape, as many at once as the kernels take.
 class Batch {
  public:
@@ -83,7 +94,7 @@ class Batch {
   [[nodiscard]] kernels::Measure::Kernel kernel() const {
     const kernels::Measure& measure = kernels::measure();
     if (shape_.high == 1) return measure.points;
-    if (shape_.high == 3) return measure.point_and_plane;
+    if (shape_.high == 3) return shape_.low == 1 ? measure.point_and_plane : measure.piercing;
     return shape_.low == 1 ? measure.point_and_line : measure.lines;
   }
   static Eigen::Vector3d at(const kernels::Points& points, std::size_t lane) {
@@ -130,11 +141,11 @@ void measure(const SurfacePair& pair, std::span<const ContactName> names, std::s
   scratch.sides_b.begin();
   Batch batch(pair, names, contacts, scratch);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto [low, high] = std::minmax({corner_count(names[i].a), corner_count(names[i].b)});
-    if (names[i].meeting != Meeting::closest || low + high > 4)
-      contacts[i] = measure(pair, names[i]);
+    const Shape shape = shape_of(names[i]);
+    if (is_for_kernels(names[i], shape))
+      batch.add(i, shape);
     else
-      batch.add(i, {low, high});
+      batch.measure_alone(i);
   }
   batch.finish();
 }

@@ -1,5 +1,7 @@
 #include "piercing.hpp"
 
+#include "certain.hpp"
+
 namespace graze {
 namespace {
 
@@ -38,6 +40,11 @@ std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeatureP
   const bool has_fold = is_quad && diagonal_of(other.mesh(), face).feature.kind == FeatureKind::face;
   const auto cross_triangle = [&](Piece piece, std::size_t open_side) {
     const Simplex triangle = simplex_of(other, face_piece(face, piece));
+    const Passing passing = certain_passing({ends.point[0], ends.point[1]}, triangle.point);
+    if (passing != Passing::unsure) {
+      ++count.in_double;
+      return passing == Passing::yes ? Crossing::inside : Crossing::none;
+    }
     return decide(count, [&]<typename Number>(bool& unsure) {
       return crossing<Number>(ends, triangle, open_side, unsure);
     });

@@ -127,6 +127,19 @@ std::optional<SegmentPair> nearest_on_segments(const std::array<Point, 2>& a, co
   return best;
 }
 
+/// Whether a segment goes from one side of a triangle's plane to the other, through its inside.
+bool passes(const std::array<Point, 2>& segment, const std::array<Point, 3>& c) {
+  const Point normal = cross(c[1] - c[0], c[2] - c[0]);
+  const Rational first = dot(normal, segment[0] - c[0]);
+  const Rational second = dot(normal, segment[1] - c[0]);
+  if (first * second >= 0) return false;
+  const Point crossing = on_segment(segment[0], segment[1], first / (first - second));
+  bool inside = true;
+  for (std::size_t i = 0; i < 3; ++i)
+    inside = inside && dot(normal, cross(c[(i + 1) % 3] - c[i], crossing - c[i])) > 0;
+  return inside;
+}
+
 struct Tally {
   std::size_t compared = 0;
   std::size_t certain = 0;
@@ -208,6 +221,34 @@ TEST_CASE("certain: the places of two segments' closest points") {
   }
   for (const std::size_t count : all.places) CHECK(count > 100);
   std::cout << "compared " << all.certain << " certain places of segments of " << all.compared << "\n";
+}
+
+TEST_CASE("certain: whether a segment passes through a triangle") {
+  std::size_t compared = 0;
+  std::array<std::size_t, 3> answers{};
+  for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
+    Generator generator(static_cast<Generator::Family>(family), family + 40);
+    std::size_t certain = 0;
+    constexpr std::size_t cases = 1500;
+    for (std::size_t i = 0; i < cases; ++i) {
+      const std::array segment{generator.point(), generator.point()};
+      const std::array corner{generator.point(), generator.point(), generator.point()};
+      const Passing passing = certain_passing(segment, corner);
+      ++answers[static_cast<std::size_t>(passing)];
+      if (passing == Passing::unsure) continue;
+      ++certain;
+      INFO("family " << family << ", case " << i);
+      REQUIRE((passing == Passing::yes) ==
+              passes({oracle::exact(segment[0]), oracle::exact(segment[1])},
+                     {oracle::exact(corner[0]), oracle::exact(corner[1]), oracle::exact(corner[2])}));
+    }
+    INFO("family " << family << ": " << certain << " of " << cases);
+    // The volumes of needles are hardly larger than their bounds.
+    CHECK(certain * 100 >= cases * (family == Generator::needles ? 5 : least_percent(family)));
+    compared += certain;
+  }
+  for (const std::size_t count : answers) CHECK(count > 100);
+  std::cout << "compared " << compared << " certain passings\n";
 }
 
 TEST_CASE("certain: a range of squared distances is below or beyond a limit, or neither") {

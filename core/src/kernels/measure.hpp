@@ -13,7 +13,7 @@ inline constexpr std::size_t contact_lanes = 8;
 using Points = double[3][contact_lanes];
 
 /// Pairs of simplices of the same sizes, `low` with at most as many corners as `high`, and their closest
-/// points, which are inside both.
+/// points, which are inside both, or where a segment pierces a triangle.
 struct ContactBatch {
   Points low[2];
   Points high[3];
@@ -32,6 +32,7 @@ struct Measure {
   Kernel point_and_line;
   Kernel point_and_plane;
   Kernel lines;
+  Kernel piercing;  ///< the distance is 0, the normal minus the triangle's
 };
 
 /// The kernels in use, chosen once; see graze/instruction_set.hpp.
