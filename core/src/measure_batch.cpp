@@ -31,11 +31,6 @@ Side Sides::of(const Surface& surface, const FeaturePiece& piece, const Eigen::V
 
 namespace {
 
-std::uint32_t corner_count(const FeaturePiece& piece) {
-  if (piece.feature.kind == FeatureKind::face) return piece.piece == Piece::fold ? 2 : 3;
-  return piece.feature.kind == FeatureKind::vertex ? 1 : 2;
-}
-
 /// How many corners the simplices of a contact have, the lower number first.
 struct Shape {
   std::uint32_t low = 0;
@@ -87,9 +82,11 @@ class Batch {
 
   void put(const Surface& surface, const FeaturePiece& piece, std::uint32_t corners,
            kernels::Points* points) const {
-    const Simplex simplex = simplex_of(surface, piece);
-    for (std::uint32_t corner = 0; corner < corners; ++corner)
-      for (int axis = 0; axis < 3; ++axis) points[corner][axis][count_] = simplex.point[corner][axis];
+    const auto vertex = corners_of(surface.mesh(), piece);
+    for (std::uint32_t corner = 0; corner < corners; ++corner) {
+      const Eigen::Vector3d point = surface.position(vertex[corner]);
+      for (int axis = 0; axis < 3; ++axis) points[corner][axis][count_] = point[axis];
+    }
   }
   [[nodiscard]] kernels::Measure::Kernel kernel() const {
     const kernels::Measure& measure = kernels::measure();

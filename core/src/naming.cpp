@@ -226,28 +226,9 @@ FeaturePiece diagonal_of(const Mesh& mesh, std::uint32_t face) {
 }
 
 Simplex simplex_of(const Surface& surface, const FeaturePiece& piece) {
-  const Mesh& mesh = surface.mesh();
-  const std::uint32_t index = piece.feature.index;
   Simplex simplex;
-  switch (piece.feature.kind) {
-    case FeatureKind::vertex:
-      simplex.size = 1;
-      simplex.vertex[0] = index;
-      break;
-    case FeatureKind::edge:
-      simplex.size = 2;
-      std::copy_n(mesh.edge(index).begin(), 2, simplex.vertex.begin());
-      break;
-    case FeatureKind::face: {
-      const auto corner = mesh.face(index);
-      simplex.size = piece.piece == Piece::fold ? 2 : 3;
-      if (piece.piece == Piece::first)
-        simplex.vertex = {corner[0], corner[1], corner[2]};
-      else
-        simplex.vertex = {corner[0], corner[2], piece.piece == Piece::second ? corner[3] : 0};
-      break;
-    }
-  }
+  simplex.size = corner_count(piece);
+  simplex.vertex = corners_of(surface.mesh(), piece);
   for (std::uint32_t i = 0; i < simplex.size; ++i) simplex.point[i] = surface.position(simplex.vertex[i]);
   return simplex;
 }

@@ -32,6 +32,21 @@ inline FeaturePiece face_piece(std::uint32_t index, Piece piece) {
   return {{FeatureKind::face, index}, piece};
 }
 
+/// How many corners a piece has: 1, 2 or 3.
+inline std::uint32_t corner_count(const FeaturePiece& piece) {
+  if (piece.feature.kind == FeatureKind::face) return piece.piece == Piece::fold ? 2 : 3;
+  return piece.feature.kind == FeatureKind::vertex ? 1 : 2;
+}
+/// Their vertices, and 0 for those that it has not.
+inline std::array<std::uint32_t, 3> corners_of(const Mesh& mesh, const FeaturePiece& piece) {
+  const std::uint32_t index = piece.feature.index;
+  if (piece.feature.kind == FeatureKind::vertex) return {index, 0, 0};
+  if (piece.feature.kind == FeatureKind::edge) return {mesh.edge(index)[0], mesh.edge(index)[1], 0};
+  const auto corner = mesh.face(index);
+  if (piece.piece == Piece::first) return {corner[0], corner[1], corner[2]};
+  return {corner[0], corner[2], piece.piece == Piece::second ? corner[3] : 0};
+}
+
 /// The corners of a piece: 1, 2 or 3 points of the surface.
 struct Simplex {
   std::uint32_t size = 0;

@@ -148,7 +148,7 @@ RoughNormal rough_normal(const Surface& surface, const FeaturePiece& piece) {
   RoughSum sum(surface);
   if (piece.feature.kind == FeatureKind::face) {
     if (piece.piece == Piece::fold) return {};
-    sum.add(simplex_of(surface, piece).vertex, 1);
+    sum.add(corners_of(mesh, piece), 1);
     return sum.normal();
   }
   const bool is_vertex = piece.feature.kind == FeatureKind::vertex;

@@ -25,10 +25,11 @@ std::optional<Exact::Scaled> scaled(const Wide& number) {
   const double off = number.off() + std::abs(number.low) * Wide::ulp;
   if (!std::isfinite(number.high) || !std::isfinite(off)) return std::nullopt;
   // Leading bits never fall as a number grows, so that those of both ends are those of all between.
-  const Exact::Scaled low = (Exact(number.high) + Exact(number.low - off)).scaled();
-  const Exact::Scaled high = (Exact(number.high) + Exact(number.low + off)).scaled();
-  if (low.fraction != high.fraction || low.exponent != high.exponent) return std::nullopt;
-  return low;
+  const Exact high(number.high);
+  const Exact::Scaled least = (high + Exact(number.low - off)).scaled();
+  const Exact::Scaled most = (high + Exact(number.low + off)).scaled();
+  if (least.fraction != most.fraction || least.exponent != most.exponent) return std::nullopt;
+  return least;
 }
 
 }  // namespace graze
