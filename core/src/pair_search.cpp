@@ -292,9 +292,11 @@ auto PairSearch::may_touch_within_slack() const {
   return [this](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); };
 }
 
-/// Vertices near each other are mostly in one place of their surfaces, where no walk is needed.
+/// Vertices near each other are mostly in one place of their surfaces, where no walk is needed; where a walk
+/// has left a front, they were not.
 void PairSearch::begin_contact(Worker& worker) {
-  if (query_.detail != ContactDetail::vertices) return begin_reach(worker);
+  const bool has_front = front_->beyond_now(*a_, *b_) > query_.threshold;
+  if (query_.detail != ContactDetail::vertices || has_front) return begin_reach(worker);
   const Swept swept =
       sweep_close_vertices(worker.pair, query_.threshold, worker.scratch.sweep, worker.meter, names_);
   if (swept == Swept::out_of_budget) return give_up();
