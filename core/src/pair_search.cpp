@@ -301,7 +301,7 @@ void PairSearch::begin_contact(Worker& worker) {
       sweep_close_vertices(worker.pair, query_.threshold, worker.scratch.sweep, worker.meter, names_);
   if (swept == Swept::out_of_budget) return give_up();
   if (swept == Swept::too_many) return begin_reach(worker);
-  std::sort(names_.begin(), names_.end());
+  worker.scratch.measure.order.sort(names_);
   begin_measuring(worker);
 }
 
@@ -346,7 +346,7 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
     ++worker.meter.counters().leaf_pairs_tested;
     add_contacts(leaves.pair, slice, worker);
   }
-  std::sort(slice.names.begin(), slice.names.end());
+  worker.scratch.measure.order.sort(slice.names);
   if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, slice.names);
 }
 
