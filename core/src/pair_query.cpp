@@ -21,7 +21,6 @@ void PairRoom::include(const Mesh& mesh) {
   const auto all = mesh.regions().regions();
   vertices = std::max<std::size_t>(vertices, mesh.vertex_count());
   regions = std::max(regions, all.size());
-  vertices = std::max<std::size_t>(vertices, mesh.vertex_count());
   for (const Region& region : all) {
     if (!region.is_leaf()) continue;
     leaf_vertices = std::max<std::size_t>(leaf_vertices, region.vertex_count);
