@@ -198,7 +198,8 @@ class VertexSweep {
       ++begin[slab_of[i]];
     }
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    make_room(a.count());
+    make_room(a.count() + LocalVertices::padding);
+    std::fill_n(scratch_.found.begin() + static_cast<std::ptrdiff_t>(a.count()), LocalVertices::padding, 0U);
     for (std::size_t i = a.count(); i-- > 0;)
       scratch_.found[--begin[slab_of[i]]] = static_cast<std::uint32_t>(i);
     scratch_.sorted.take(a, std::span(scratch_.found).first(a.count()));
@@ -260,7 +261,8 @@ Swept sweep_close_vertices(const SurfacePair& pair, double limit, VertexSweepScr
 
 void VertexSweepScratch::reserve(const PairRoom& room) {
   const std::size_t most = std::min(most_vertices, room.vertices);
-  if (found.size() < most_vertices) found.resize(most_vertices);
+  if (found.size() < most_vertices + LocalVertices::padding)
+    found.resize(most_vertices + LocalVertices::padding);
   constexpr std::size_t children_left = 7 * std::size_t{RegionTree::max_level} + 1;
   regions.reserve(std::min(children_left, room.regions));
   for (LocalVertices* const vertices : {&a, &b, &sorted}) vertices->reserve(most);

@@ -20,7 +20,8 @@ class LocalVertices {
   /// Takes the listed vertices, of which none is of a greater size in the frame, and gives their box.
   Box take(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
            float size);
-  /// Takes some of another's, in that order.
+  /// Takes some of another's, in that order; behind the places there are as many more as the padding says.
+  static constexpr std::size_t padding = 3;
   void take(const LocalVertices& all, std::span<const std::uint32_t> places);
 
   [[nodiscard]] std::size_t count() const { return vertices_.size(); }
