@@ -15,7 +15,8 @@ void LeafVertices::take(const Surface& surface, const Region& leaf, const Filter
 
 void LeafVertices::add(const Surface& surface, std::span<const std::uint32_t> vertices,
                        const FilterFrame& given_frame) {
-  const FilterFrame frame = given_frame;  // so that it stays in registers
+  // A copy stays in registers.
+  const FilterFrame frame = given_frame;  // NOLINT(performance-unnecessary-copy-initialization)
   const std::size_t first = local_.size();
   local_.resize(first + vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {

@@ -31,7 +31,7 @@ class Packing {
   [[nodiscard]] int bits() const { return 3 + 2 + index_a_bits_ + 2 + index_b_bits_ + 3 * 2; }
 
   [[nodiscard]] std::uint64_t key(const ContactName& name) const {
-    std::uint64_t key = static_cast<std::uint64_t>(name.kind);
+    auto key = static_cast<std::uint64_t>(name.kind);
     key = key << 2 | static_cast<std::uint64_t>(name.a.feature.kind);
     key = key << index_a_bits_ | name.a.feature.index;
     key = key << 2 | static_cast<std::uint64_t>(name.b.feature.kind);

@@ -126,7 +126,7 @@ class GRAZE_API Surface {
   [[nodiscard]] Box face_box_now(const Region& leaf) const;
 
   /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices.
-  std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
+  [[nodiscard]] std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
 
   /// Of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
