@@ -29,6 +29,9 @@ enum class Meeting : std::uint8_t {
   parallel,  ///< their closest points are a stretch or an area
 };
 
+/// How often about a contact is found: once for each of the features about it.
+inline constexpr std::size_t names_of_contact = 8;
+
 /// What a contact is called, and which pieces of its features realise it. Ordered as contacts are.
 struct ContactName {
   ContactKind kind = ContactKind::VV;

@@ -6,7 +6,6 @@
 
 #include "contact_name.hpp"
 #include "kernels/measure.hpp"
-#include "name_order.hpp"
 #include "normals.hpp"
 #include "working_memory.hpp"
 
@@ -43,11 +42,10 @@ struct MeasureScratch {
   kernels::ContactBatch batch{};
   Sides sides_a;
   Sides sides_b;
-  NameOrder order;  ///< of names that are to be measured
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.sides_a, self.sides_b, self.order);
+    return std::tie(self.sides_a, self.sides_b);
   }
 };
 

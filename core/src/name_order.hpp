@@ -19,8 +19,7 @@ class NameOrder {
     return std::tie(self.keys_, self.spare_);
   }
   void reserve(const PairRoom& room) {
-    constexpr std::size_t finds_of_contact = 8;  // once for each of the features about it
-    for (auto* const keys : {&keys_, &spare_}) keys->reserve(finds_of_contact * room.contacts);
+    for (auto* const keys : {&keys_, &spare_}) keys->reserve(names_of_contact * room.contacts);
   }
 
  private:

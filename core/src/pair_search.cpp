@@ -170,8 +170,6 @@ void PairSearch::reserve_as(const PairSearch& other) {
 
 void PairSearch::reserve(const PairRoom& room) {
   if (slices_.empty()) slices_.emplace_back();
-  // A contact is found once for each of the features about it.
-  constexpr std::size_t names_of_contact = 8;
   for (auto* const leaves : {&found_.leaves, &slices_.front().found.leaves}) leaves->reserve(room.leaf_pairs);
   for (auto* const names : {&names_, &slices_.front().names})
     names->reserve(names_of_contact * room.contacts);
@@ -301,7 +299,7 @@ void PairSearch::begin_contact(Worker& worker) {
       sweep_close_vertices(worker.pair, query_.threshold, worker.scratch.sweep, worker.meter, names_);
   if (swept == Swept::out_of_budget) return give_up();
   if (swept == Swept::too_many) return begin_reach(worker);
-  worker.scratch.measure.order.sort(names_);
+  worker.scratch.order.sort(names_);
   begin_measuring(worker);
 }
 
@@ -346,7 +344,7 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
     ++worker.meter.counters().leaf_pairs_tested;
     add_contacts(leaves.pair, slice, worker);
   }
-  worker.scratch.measure.order.sort(slice.names);
+  worker.scratch.order.sort(slice.names);
   if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, slice.names);
 }
 

@@ -9,6 +9,7 @@
 #include "leaf_names.hpp"
 #include "leaf_pairs.hpp"
 #include "measure_batch.hpp"
+#include "name_order.hpp"
 #include "paper.hpp"
 #include "parallel.hpp"
 #include "vertex_sweep.hpp"
@@ -24,12 +25,13 @@ struct SearchScratch {
   PaperScratch paper;
   Closest lowest;
   ParallelScratch parallel;
+  NameOrder order;
   MeasureScratch measure;
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.leaf_pairs, self.sweep, self.features, self.nearest_of_leaves, self.paper,
-                    self.lowest, self.parallel, self.measure);
+                    self.lowest, self.parallel, self.order, self.measure);
   }
 };
 

@@ -29,10 +29,6 @@ void require_each_once(std::span<const std::uint32_t> values, std::size_t count,
   require(values.size() == count, what, values.size());
 }
 
-bool contains(const Box& box, const Eigen::Vector3d& point) {
-  return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
-}
-
 /// The corners of what a leaf owns, where they are now.
 std::vector<Eigen::Vector3d> corners_of(const Surface& surface, const Region& leaf) {
   const Mesh& mesh = surface.mesh();

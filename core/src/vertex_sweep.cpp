@@ -60,17 +60,6 @@ constexpr std::uint32_t small_region = 64;
 constexpr std::size_t few_pairs = 2048;
 constexpr std::size_t most_slabs = 256;
 
-Box common(const Box& a, const Box& b) {
-  const Box box{a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
-  return (box.min.array() <= box.max.array()).all() ? box : Box{};
-}
-bool overlap(const Box& a, const Box& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
-}
-bool contains(const Box& box, const Eigen::Vector3d& point) {
-  return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
-}
-
 /// Cuts a box into slabs along its longest side, none thinner than what is looked for.
 class Slabs {
  public:
@@ -163,7 +152,7 @@ class VertexSweep {
       const std::uint32_t index = scratch_.regions.back();
       scratch_.regions.pop_back();
       if (!meter_.spend()) return give_up(Swept::out_of_budget);
-      if (!overlap(boxes[index], reached)) continue;
+      if (common(boxes[index], reached).empty()) continue;
       const Region& region = tree.region(index);
       if (region.is_leaf() || region.vertex_count <= small_region) {
         for (const std::uint32_t vertex : tree.vertices(region)) {

@@ -11,8 +11,8 @@ namespace {
 /// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
 constexpr double stale_leaf_sizes = 0.25;
 
-/// A small object of whose faces as many jobs want boxes is refitted whenever it moved: otherwise each of them
-/// makes boxes of its leaves for itself. Vertices are mostly found without.
+/// A small object of whose faces as many jobs want boxes is refitted whenever it moved: otherwise each of
+/// them makes boxes of its leaves for itself. Vertices are mostly found without.
 constexpr std::size_t jobs_worth_a_refit = 3;
 
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.

@@ -45,6 +45,16 @@ inline Box grown(const Box& box, double by) {
   return result;
 }
 
+/// Where two boxes overlap; empty where they do not.
+inline Box common(const Box& a, const Box& b) {
+  const Box box{a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
+  return (box.min.array() <= box.max.array()).all() ? box : Box{};
+}
+
+inline bool contains(const Box& box, const Eigen::Vector3d& point) {
+  return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
+}
+
 /// At most the distance of any two points of the boxes; 0 where they overlap.
 inline double lower_distance(const Box& a, const Box& b) {
   double squared = 0;
