@@ -7,28 +7,6 @@
 
 namespace graze {
 
-void Sides::begin() {
-  entries_.resize(size);
-  if (++generation_ == 0) {  // after 2^32 uses
-    std::fill(entries_.begin(), entries_.end(), Entry{});
-    generation_ = 1;
-  }
-}
-
-Side Sides::of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& direction,
-               DecisionCount& count) {
-  const std::size_t place =
-      std::size_t{piece.feature.index} * 3 + static_cast<std::size_t>(piece.feature.kind);
-  Entry& entry = entries_[place % size];
-  if (entry.generation != generation_ || entry.piece != piece) {
-    entry.piece = piece;
-    entry.generation = generation_;
-    entry.normal = rough_normal(surface, piece);
-  }
-  const auto side = certain_side(entry.normal, direction);
-  return side ? *side : side_of(surface, piece, direction, count);
-}
-
 namespace {
 
 /// How many corners the simplices of a contact have, the lower number first.
@@ -68,7 +46,7 @@ class Batch {
   }
   void measure_alone(std::size_t contact) {
     contacts_[contact] = measure_without_sides(pair_, names_[contact]);
-    add_sides(names_[contact], contacts_[contact]);
+    scratch_.sides.add(pair_, names_[contact], contacts_[contact]);
   }
   void finish() {
     if (count_ == 0) return;
@@ -113,12 +91,7 @@ class Batch {
     contact.point_b = at(a_is_low ? batch.high_point : batch.low_point, lane);
     contact.distance = batch.distance[lane];
     contact.normal = a_is_low ? normal : Eigen::Vector3d(-normal);
-    add_sides(name, contact);
-  }
-  void add_sides(const ContactName& name, Contact& contact) {
-    if (contact.distance == 0) return;
-    contact.side_a = scratch_.sides_a.of(pair_.a, name.a, contact.normal, pair_.count);
-    contact.side_b = scratch_.sides_b.of(pair_.b, name.b, -contact.normal, pair_.count);
+    scratch_.sides.add(pair_, name, contact);
   }
 
   const SurfacePair& pair_;
@@ -134,8 +107,7 @@ class Batch {
 
 void measure(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
              MeasureScratch& scratch) {
-  scratch.sides_a.begin();
-  scratch.sides_b.begin();
+  scratch.sides.begin();
   Batch batch(pair, names, contacts, scratch);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Shape shape = shape_of(names[i]);
@@ -145,6 +117,7 @@ void measure(const SurfacePair& pair, std::span<const ContactName> names, std::s
       batch.measure_alone(i);
   }
   batch.finish();
+  scratch.sides.finish(pair);
 }
 
 }  // namespace graze

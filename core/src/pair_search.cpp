@@ -275,7 +275,7 @@ void PairSearch::give_up() {
 
 void PairSearch::set_distance(Worker& worker, const ContactName& nearest) {
   answer_->distance = rounded_distance(worker.pair, nearest);
-  answer_->witness = witness_of(measure(worker.pair, nearest));
+  answer_->witness = witness_of(measure_without_sides(worker.pair, nearest));
 }
 
 // ---- All contacts of a detail; where there are none, the closest points

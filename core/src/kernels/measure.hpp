@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-/// Kernels that measure several contacts at once. They are compiled once for each instruction set, so this
-/// header has no inline function that another translation unit might share with them. They do what
-/// measure.cpp does in Ball arithmetic, operation by operation, so that their results are the same bits.
+/// Kernels that measure several contacts or triangles at once. They are compiled once for each instruction
+/// set, so this header has no inline function that another translation unit might share with them. They do
+/// what measure.cpp does in Ball arithmetic, operation by operation, so that their results are the same bits.
 namespace graze::kernels {
 
 inline constexpr std::size_t contact_lanes = 8;
@@ -25,6 +25,14 @@ struct ContactBatch {
   double certain[contact_lanes];  ///< 1, or 0 where double is not good enough, and the rest means nothing
 };
 
+/// Triangles that are parts of weighted normals.
+struct NormalBatch {
+  Points corner[3];
+  double weight[contact_lanes];  ///< or 0 where it is the angle at the first corner; the kernel puts in what
+                                 ///< it took, or infinity where double is not good enough
+  Points part;  ///< filled in: the unit normal by its weight
+};
+
 /// The kernels of one instruction set. All lanes are worked on, whatever is in them.
 struct Measure {
   using Kernel = void (*)(ContactBatch& batch);
@@ -33,6 +41,7 @@ struct Measure {
   Kernel point_and_plane;
   Kernel lines;
   Kernel piercing;  ///< the distance is 0, the normal minus the triangle's
+  void (*normals)(NormalBatch& batch);
 };
 
 /// The kernels in use, chosen once; see graze/instruction_set.hpp.

@@ -1,0 +1,123 @@
+#include "sides.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+constexpr double half_turn = 3.14159265358979323846;
+
+/// A triangle's corners from `first` around, where that is one of them.
+std::optional<std::array<std::uint32_t, 3>> corners_from(std::uint32_t first,
+                                                         const std::array<std::uint32_t, 3>& corner) {
+  if (corner[0] == first) return corner;
+  if (corner[1] == first) return std::array{corner[1], corner[2], corner[0]};
+  if (corner[2] == first) return std::array{corner[2], corner[0], corner[1]};
+  return std::nullopt;
+}
+
+}  // namespace
+
+void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNormal& normal) {
+  normal = {};
+  const Mesh& mesh = surface.mesh();
+  const std::uint32_t index = piece.feature.index;
+  if (piece.feature.kind == FeatureKind::face) {
+    if (piece.piece != Piece::fold) add_triangle(surface, corners_of(mesh, piece), 1, normal);
+    return;
+  }
+  const bool is_vertex = piece.feature.kind == FeatureKind::vertex;
+  const auto [first, other] = is_vertex ? std::array{index, index} : mesh.edge(index);
+  for (const std::uint32_t face : is_vertex ? mesh.vertex_faces(index) : mesh.edge_faces(index)) {
+    const auto corner = mesh.face(face);
+    for (std::size_t last = 2; last < corner.size(); ++last) {
+      const auto triangle = corners_from(first, {corner[0], corner[last - 1], corner[last]});
+      if (!triangle) continue;
+      if (is_vertex)
+        add_triangle(surface, *triangle, 0, normal);
+      else if ((*triangle)[1] == other || (*triangle)[2] == other)
+        add_triangle(surface, *triangle, half_turn, normal);
+    }
+  }
+}
+
+void NormalSums::add_triangle(const Surface& surface, const std::array<std::uint32_t, 3>& corner,
+                              double weight, RoughNormal& normal) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d point = surface.position(corner[i]);
+    for (int axis = 0; axis < 3; ++axis) batch_.corner[i][axis][count_] = point[axis];
+  }
+  batch_.weight[count_] = weight;
+  normal_[count_] = &normal;
+  if (++count_ == normal_.size()) finish();
+}
+
+void NormalSums::finish() {
+  if (count_ == 0) return;
+  kernels::measure().normals(batch_);
+  for (std::size_t i = 0; i < count_; ++i) {
+    normal_[i]->sum += Eigen::Vector3d(batch_.part[0][i], batch_.part[1][i], batch_.part[2][i]);
+    normal_[i]->weights += batch_.weight[i];
+  }
+  count_ = 0;
+}
+
+void NormalCache::begin() {
+  entries_.resize(size);
+  first_round_ = ++round_;
+}
+
+NormalCache::Found NormalCache::find(const FeaturePiece& piece) {
+  const std::size_t place =
+      std::size_t{piece.feature.index} * 3 + static_cast<std::size_t>(piece.feature.kind);
+  Entry& entry = entries_[place % size];
+  const bool is_known = entry.round >= first_round_ && entry.piece == piece;
+  if (!is_known) {
+    if (entry.round == round_) return {nullptr, false};
+    entry.piece = piece;
+  }
+  entry.round = round_;
+  return {&entry.normal, !is_known};
+}
+
+void Sides::begin() {
+  normals_a_.begin();
+  normals_b_.begin();
+}
+
+void Sides::add(const SurfacePair& pair, const ContactName& name, Contact& contact) {
+  if (contact.distance == 0) return;
+  if (count_ < asked_.size() && take(pair, name, contact)) return;
+  finish(pair);
+  take(pair, name, contact);
+}
+
+/// False where a normal is to be kept in the place of another one.
+bool Sides::take(const SurfacePair& pair, const ContactName& name, Contact& contact) {
+  const auto [normal_a, is_new_a] = normals_a_.find(name.a);
+  if (normal_a == nullptr) return false;
+  if (is_new_a) sums_.add(pair.a, name.a, *normal_a);
+  const auto [normal_b, is_new_b] = normals_b_.find(name.b);
+  if (normal_b == nullptr) return false;
+  if (is_new_b) sums_.add(pair.b, name.b, *normal_b);
+  asked_[count_++] = {name.a, name.b, &contact, normal_a, normal_b};
+  return true;
+}
+
+void Sides::finish(const SurfacePair& pair) {
+  sums_.finish();
+  for (const Asked& asked : std::span(asked_).first(count_)) {
+    const Eigen::Vector3d& direction = asked.contact->normal;
+    const auto side_a = certain_side(*asked.normal_a, direction);
+    const auto side_b = certain_side(*asked.normal_b, -direction);
+    asked.contact->side_a = side_a ? *side_a : side_of(pair.a, asked.a, direction, pair.count);
+    asked.contact->side_b = side_b ? *side_b : side_of(pair.b, asked.b, -direction, pair.count);
+  }
+  count_ = 0;
+  normals_a_.begin_round();
+  normals_b_.begin_round();
+}
+
+}  // namespace graze
