@@ -52,8 +52,7 @@ class LeafBoxes {
     if (made_in_[leaf] != query_) {
       made_in_[leaf] = query_;
       const Region& region = surface_->mesh().regions().region(leaf);
-      boxes_[leaf] =
-          what_ == RefitOf::vertices ? surface_->vertex_box_now(region) : surface_->face_box_now(region);
+      boxes_[leaf] = surface_->box_now(region, what_);
     }
     return boxes_[leaf];
   }

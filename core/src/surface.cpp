@@ -30,7 +30,7 @@ Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), ser
   const std::uint32_t count = mesh_->vertex_count();
   all_used_ = true;
   for (std::uint32_t vertex = 0; vertex < count; ++vertex) all_used_ = all_used_ && mesh_->is_used(vertex);
-  in_double_.assign(count, Eigen::Vector3d::Zero());
+  in_double_.assign(count + padding, Eigen::Vector3d::Zero());
   set_positions(mesh_->rest());
 }
 
@@ -101,7 +101,7 @@ Surface::ReadResult Surface::take(const PartSeen& all) {
   if (!result.taken()) return result;
   result.changed = all.changed || version_ == 0;
   if (result.changed) {
-    const std::uint32_t count = mesh_->vertex_count();
+    const std::size_t count = mesh_->vertex_count() + padding;
     if (all.in_double != in_float_.empty()) {
       in_double_ = std::vector<Eigen::Vector3d>(all.in_double ? count : 0, Eigen::Vector3d::Zero());
       in_float_ = std::vector<Eigen::Vector3f>(all.in_double ? 0 : count, Eigen::Vector3f::Zero());
@@ -229,16 +229,46 @@ void Surface::write_pose(const std::array<double, 12>& rows, std::uint32_t begin
   write(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
 }
 
-Box Surface::vertex_box_now(const Region& region) const {
-  Box box;
-  for (const std::uint32_t vertex : mesh_->regions().vertices(region)) box.add(position(vertex));
-  return box;
+namespace {
+
+/// The box of points, of which one register holds the coordinates and the number that follows them in memory.
+template <typename Number>
+class PointExtent {
+ public:
+  explicit PointExtent(const Number* numbers) : numbers_(numbers) {}
+
+  void add(std::span<const std::uint32_t> vertices) {
+    for (const std::uint32_t vertex : vertices) {
+      Four x;
+      std::memcpy(&x, numbers_ + std::size_t{3} * vertex, sizeof x);
+      low_ = x < low_ ? x : low_;
+      high_ = x > high_ ? x : high_;
+    }
+  }
+  [[nodiscard]] Box box() const { return {{low_[0], low_[1], low_[2]}, {high_[0], high_[1], high_[2]}}; }
+
+ private:
+  using Four [[gnu::vector_size(4 * sizeof(Number))]] = Number;
+  static constexpr Number beyond = std::numeric_limits<Number>::infinity();
+  const Number* numbers_;
+  Four low_{beyond, beyond, beyond, beyond};
+  Four high_ = -low_;
+};
+
+template <typename Number>
+Box box_of(const Number* numbers, const RegionTree& tree, const Region& region, RefitOf what) {
+  PointExtent<Number> extent(numbers);
+  extent.add(tree.vertices(region));
+  if (what == RefitOf::faces) extent.add(tree.border(region));
+  return extent.box();
 }
 
-Box Surface::face_box_now(const Region& leaf) const {
-  Box box = vertex_box_now(leaf);
-  for (const std::uint32_t vertex : mesh_->regions().border(leaf)) box.add(position(vertex));
-  return box;
+}  // namespace
+
+Box Surface::box_now(const Region& region, RefitOf what) const {
+  const RegionTree& tree = mesh_->regions();
+  return in_double_.empty() ? box_of(in_float_.front().data(), tree, region, what)
+                            : box_of(in_double_.front().data(), tree, region, what);
 }
 
 namespace {
@@ -299,7 +329,7 @@ void Surface::refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end
     if (what == RefitOf::radii)
       radii_[index] = radius_now(region);
     else if (region.is_leaf())
-      boxes_to_write(what)[index] = what == RefitOf::vertices ? vertex_box_now(region) : face_box_now(region);
+      boxes_to_write(what)[index] = box_now(region, what);
   }
 }
 

@@ -113,7 +113,9 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   for (std::uint32_t i = 0; i < regions_a.size(); ++i)
     for (std::uint32_t j = 0; j < regions_b.size(); ++j) {
       if (!regions_a[i].is_leaf() || !regions_b[j].is_leaf() || listed.count({i, j}) != 0) continue;
-      if (lower_distance(a.face_box_now(regions_a[i]), b.face_box_now(regions_b[j])) >= beyond) continue;
+      if (lower_distance(a.box_now(regions_a[i], RefitOf::faces), b.box_now(regions_b[j], RefitOf::faces)) >=
+          beyond)
+        continue;
       const auto corners_b = corners_of(b, regions_b[j]);
       for (const Eigen::Vector3d& corner_a : corners_of(a, regions_a[i]))
         for (const Eigen::Vector3d& corner_b : corners_b)

@@ -120,10 +120,8 @@ class GRAZE_API Surface {
   [[nodiscard]] double motion_since_vertex_refit() const { return motion_since_refit(RefitOf::vertices); }
   [[nodiscard]] double motion_since_face_refit() const { return motion_since_refit(RefitOf::faces); }
   [[nodiscard]] double motion_since_refit(RefitOf what) const;
-  /// The box of a region at the present positions, made from its vertices; of a leaf, from those and what is
-  /// on its border.
-  [[nodiscard]] Box vertex_box_now(const Region& region) const;
-  [[nodiscard]] Box face_box_now(const Region& leaf) const;
+  /// The box of a region's vertices at the present positions, or of a leaf's faces.
+  [[nodiscard]] Box box_now(const Region& region, RefitOf what) const;
 
   /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices.
   [[nodiscard]] std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
@@ -166,7 +164,9 @@ class GRAZE_API Surface {
 
   std::shared_ptr<const Mesh> mesh_;
   bool all_used_;  ///< every vertex is
-  // Positions in the precision in which they came; the other is empty.
+  /// Behind the last position, so that four numbers can be read where each begins.
+  static constexpr std::size_t padding = 1;
+  // Positions in the precision in which they came, padded; the other is empty.
   std::vector<Eigen::Vector3f> in_float_;
   std::vector<Eigen::Vector3d> in_double_;
   Box box_;
