@@ -237,13 +237,14 @@ class PointExtent {
  public:
   explicit PointExtent(const Number* numbers) : numbers_(numbers) {}
 
+  void add(std::uint32_t vertex) {
+    Four x;
+    std::memcpy(&x, numbers_ + std::size_t{3} * vertex, sizeof x);
+    low_ = x < low_ ? x : low_;
+    high_ = x > high_ ? x : high_;
+  }
   void add(std::span<const std::uint32_t> vertices) {
-    for (const std::uint32_t vertex : vertices) {
-      Four x;
-      std::memcpy(&x, numbers_ + std::size_t{3} * vertex, sizeof x);
-      low_ = x < low_ ? x : low_;
-      high_ = x > high_ ? x : high_;
-    }
+    for (const std::uint32_t vertex : vertices) add(vertex);
   }
   [[nodiscard]] Box box() const { return {{low_[0], low_[1], low_[2]}, {high_[0], high_[1], high_[2]}}; }
 
@@ -293,17 +294,50 @@ struct FloatBox {
 
 }  // namespace
 
-std::size_t Surface::find_inside(const Box& box, std::span<std::uint32_t> found) const {
-  const std::size_t count = mesh_->vertex_count();
+namespace {
+
+/// Vertices whose boxes `find_inside` looks at first; a multiple of what its kernels take at once.
+constexpr std::uint32_t stretch = 64;
+
+}  // namespace
+
+void Surface::box_stretches() {
+  if (stretches_version_ == version_) return;
+  stretches_version_ = version_;
   const kernels::PositionPasses& passes = kernels::position_passes();
+  const std::uint32_t count = mesh_->vertex_count();
+  stretches_.clear();
+  for (std::uint32_t begin = 0; begin < count; begin += stretch) {
+    const std::uint32_t end = std::min(begin + stretch, count);
+    Box& box = stretches_.emplace_back();
+    if (in_double_.empty()) {
+      Eigen::Vector3f low;
+      Eigen::Vector3f high;
+      passes.extent_of_floats(in_float_.front().data(), begin, end, low.data(), high.data());
+      box = {low.cast<double>(), high.cast<double>()};
+    } else {
+      passes.extent_of_doubles(in_double_.front().data(), begin, end, box.min.data(), box.max.data());
+    }
+  }
+}
+
+std::size_t Surface::find_inside(const Box& box, std::span<std::uint32_t> found) const {
+  const std::uint32_t count = mesh_->vertex_count();
+  const kernels::PositionPasses& passes = kernels::position_passes();
+  const FloatBox in_float(box);
   std::size_t inside = 0;
-  if (in_double_.empty()) {
-    const FloatBox in_float(box);
-    inside = passes.floats_inside(in_float_.front().data(), count, in_float.low.data(), in_float.high.data(),
-                                  found.data());
+  const auto pass = [&](std::uint32_t begin, std::uint32_t end) {
+    std::uint32_t* const places = found.data() + inside;
+    inside += in_double_.empty() ? passes.floats_inside(in_float_.front().data(), begin, end,
+                                                        in_float.low.data(), in_float.high.data(), places)
+                                 : passes.doubles_inside(in_double_.front().data(), begin, end,
+                                                         box.min.data(), box.max.data(), places);
+  };
+  if (stretches_version_ != version_) {
+    pass(0, count);
   } else {
-    inside =
-        passes.doubles_inside(in_double_.front().data(), count, box.min.data(), box.max.data(), found.data());
+    for (std::uint32_t i = 0; i < stretches_.size(); ++i)
+      if (!common(stretches_[i], box).empty()) pass(i * stretch, std::min((i + 1) * stretch, count));
   }
   if (all_used_) return inside;
   const auto unused = [this](std::uint32_t vertex) { return !mesh_->is_used(vertex); };
@@ -373,7 +407,7 @@ void Surface::box_inner_regions(std::vector<Box>& boxes) const {
 
 std::size_t Surface::byte_count() const {
   return sizeof(Surface) + bytes_of(in_float_) + bytes_of(in_double_) + bytes_of(radii_) +
-         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_);
+         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) + bytes_of(stretches_);
 }
 
 }  // namespace graze

@@ -12,7 +12,7 @@ namespace {
 constexpr double stale_leaf_sizes = 0.25;
 
 /// A small object of whose faces as many jobs want boxes is refitted whenever it moved: otherwise each of
-/// them makes boxes of its leaves for itself. Vertices are mostly found without.
+/// them makes boxes of its leaves for itself. Vertices are mostly found by stretches.
 constexpr std::size_t jobs_worth_a_refit = 3;
 
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
@@ -107,8 +107,10 @@ void RegionRefit::list_parts(Object& object, RefitOf what) {
 
 void RegionRefit::refit_small(const Small& small, RefitOf what) const {
   const AccessScope access({AccessRight::write(small.object), {}});
-  const bool is_asked_often = what == RefitOf::faces && small.jobs >= jobs_worth_a_refit;
-  if (is_asked_often || is_stale(small.object->surface(), what)) small.object->surface_to_write().refit(what);
+  Surface& surface = small.object->surface_to_write();
+  const bool is_asked_often = small.jobs >= jobs_worth_a_refit;
+  if (is_asked_often && what == RefitOf::vertices) surface.box_stretches();
+  if ((is_asked_often && what == RefitOf::faces) || is_stale(surface, what)) surface.refit(what);
 }
 
 }  // namespace graze

@@ -125,6 +125,9 @@ class GRAZE_API Surface {
 
   /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices.
   [[nodiscard]] std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
+  /// Makes boxes of stretches of vertices, as they follow one another in memory, of which `find_inside`
+  /// passes over those that are not in its box, until the surface moves. Worth it from the third search on.
+  void box_stretches();
 
   /// Of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
@@ -179,6 +182,8 @@ class GRAZE_API Surface {
   Travel travel_;
   double displacement_ = 0;
   std::array<Refit, 3> refits_;  ///< by RefitOf
+  std::vector<Box> stretches_;
+  std::uint64_t stretches_version_ = 0;  ///< when they were made
 };
 
 }  // namespace graze

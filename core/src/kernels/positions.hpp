@@ -16,17 +16,23 @@ struct PositionsSeen {
   bool bad;            ///< some coordinate is beyond the limit or NaN; then the rest means nothing
 };
 
-/// The passes of one instruction set, over `count` > 0 points of three numbers each.
+/// The passes of one instruction set, over points of three numbers each, of which there is one at least.
 struct PositionPasses {
   void (*floats)(const float* now, const float* before, std::size_t count, float limit,
                  PositionsSeen<float>& seen);
   void (*doubles)(const double* now, const double* before, std::size_t count, double limit,
                   PositionsSeen<double>& seen);
-  /// Numbers of the points that no coordinate leads out of a box, ascending; how many. Room for `count`.
-  std::size_t (*floats_inside)(const float* points, std::size_t count, const float* low, const float* high,
-                               std::uint32_t* index);
-  std::size_t (*doubles_inside)(const double* points, std::size_t count, const double* low,
-                                const double* high, std::uint32_t* index);
+  /// Numbers of the points from `begin` to `end` that no coordinate leads out of a box, ascending; how many.
+  /// Room for all of them.
+  std::size_t (*floats_inside)(const float* points, std::uint32_t begin, std::uint32_t end, const float* low,
+                               const float* high, std::uint32_t* index);
+  std::size_t (*doubles_inside)(const double* points, std::uint32_t begin, std::uint32_t end,
+                                const double* low, const double* high, std::uint32_t* index);
+  /// The box of the points from `begin` to `end`; x, y and z.
+  void (*extent_of_floats)(const float* points, std::uint32_t begin, std::uint32_t end, float* low,
+                           float* high);
+  void (*extent_of_doubles)(const double* points, std::uint32_t begin, std::uint32_t end, double* low,
+                            double* high);
 };
 
 /// The passes in use, of the set that `filter()` is of.
