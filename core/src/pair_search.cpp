@@ -24,25 +24,6 @@ constexpr std::size_t closest_each = 64;
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t contacts_each = 128;
 
-/// Merges sorted runs that stand one after the other; `ends` are where they end.
-void merge_runs(std::vector<ContactName>& names, std::vector<std::size_t>& ends,
-                std::vector<ContactName>& spare) {
-  while (ends.size() > 1) {
-    spare.clear();
-    std::size_t kept = 0;
-    std::size_t begin = 0;
-    for (std::size_t run = 0; run < ends.size(); run += 2) {
-      const std::size_t middle = ends[run];
-      const std::size_t end = run + 1 < ends.size() ? ends[run + 1] : middle;
-      const auto at = [&](std::size_t place) { return names.begin() + static_cast<std::ptrdiff_t>(place); };
-      std::merge(at(begin), at(middle), at(middle), at(end), std::back_inserter(spare));
-      ends[kept++] = begin = end;
-    }
-    ends.resize(kept);
-    names.swap(spare);
-  }
-}
-
 }  // namespace
 
 /// One thread's view of the search.
@@ -178,7 +159,7 @@ void PairSearch::reserve(const PairRoom& room) {
 
 std::size_t PairSearch::byte_count() const {
   std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
-                      bytes_of(run_ends_) + bytes_of(merged_) + bytes_of(closest_.closest);
+                      bytes_of(closest_.closest);
   for (const Slice& slice : slices_)
     bytes += bytes_of(slice.found.leaves) + bytes_of(slice.names) + bytes_of(slice.closest.closest);
   return bytes;
@@ -344,8 +325,9 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
     ++worker.meter.counters().leaf_pairs_tested;
     add_contacts(leaves.pair, slice, worker);
   }
+  if (query_.detail != ContactDetail::features) return;
   worker.scratch.order.sort(slice.names);
-  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, slice.names);
+  keep_nearest_of_each(worker.pair, slice.names);
 }
 
 void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const {
@@ -379,17 +361,16 @@ void PairSearch::begin_measuring(Worker& worker) {
 }
 
 void PairSearch::gather_names(Worker& worker) {
+  const bool is_one = slice_count_ == 1;
+  const bool with_features = query_.detail == ContactDetail::features;
   names_.clear();
-  if (slice_count_ == 1) return names_.swap(slices_.front().names);
-  run_ends_.clear();
-  for (std::size_t i = 0; i < slice_count_; ++i) {
-    const auto& names = slices_[i].names;
-    names_.insert(names_.end(), names.begin(), names.end());
-    if (!names.empty()) run_ends_.push_back(names_.size());
-  }
-  merge_runs(names_, run_ends_, merged_);
+  if (is_one) names_.swap(slices_.front().names);
+  for (std::size_t i = 0; !is_one && i < slice_count_; ++i)
+    names_.insert(names_.end(), slices_[i].names.begin(), slices_[i].names.end());
+  if (is_one && with_features) return;
+  worker.scratch.order.sort(names_);
   // An edge between two slices' faces is met in both.
-  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, names_);
+  if (with_features) keep_nearest_of_each(worker.pair, names_);
 }
 
 void PairSearch::finish_measuring(Worker& worker) {

@@ -135,8 +135,6 @@ class PairSearch {
   std::vector<RegionPair> roots_;  ///< where the slices walk from
   LeafPairList found_;
   std::vector<ContactName> names_;
-  std::vector<std::size_t> run_ends_;  ///< of the slices' names in names_
-  std::vector<ContactName> merged_;
   ClosestFound closest_;
 };
 
