@@ -9,42 +9,53 @@ namespace {
 
 constexpr double half_turn = 3.14159265358979323846;
 
-/// A triangle's corners from `first` around, where that is one of them.
-std::optional<std::array<std::uint32_t, 3>> corners_from(std::uint32_t first,
-                                                         const std::array<std::uint32_t, 3>& corner) {
-  if (corner[0] == first) return corner;
-  if (corner[1] == first) return std::array{corner[1], corner[2], corner[0]};
-  if (corner[2] == first) return std::array{corner[2], corner[0], corner[1]};
-  return std::nullopt;
+using Corners = std::array<std::uint32_t, 3>;
+
+/// The corners of each of a face's triangles that has the vertex, from it around.
+template <typename Use>
+void for_each_triangle_from(std::uint32_t vertex, std::span<const std::uint32_t> face, Use use) {
+  for (std::size_t last = 2; last < face.size(); ++last) {
+    const Corners corner{face[0], face[last - 1], face[last]};
+    if (corner[0] == vertex)
+      use(corner);
+    else if (corner[1] == vertex)
+      use(Corners{corner[1], corner[2], corner[0]});
+    else if (corner[2] == vertex)
+      use(Corners{corner[2], corner[0], corner[1]});
+  }
 }
 
 }  // namespace
 
 void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNormal& normal) {
   normal = {};
-  const Mesh& mesh = surface.mesh();
   const std::uint32_t index = piece.feature.index;
-  if (piece.feature.kind == FeatureKind::face) {
-    if (piece.piece != Piece::fold) add_triangle(surface, corners_of(mesh, piece), 1, normal);
-    return;
-  }
-  const bool is_vertex = piece.feature.kind == FeatureKind::vertex;
-  const auto [first, other] = is_vertex ? std::array{index, index} : mesh.edge(index);
-  for (const std::uint32_t face : is_vertex ? mesh.vertex_faces(index) : mesh.edge_faces(index)) {
-    const auto corner = mesh.face(face);
-    for (std::size_t last = 2; last < corner.size(); ++last) {
-      const auto triangle = corners_from(first, {corner[0], corner[last - 1], corner[last]});
-      if (!triangle) continue;
-      if (is_vertex)
-        add_triangle(surface, *triangle, 0, normal);
-      else if ((*triangle)[1] == other || (*triangle)[2] == other)
-        add_triangle(surface, *triangle, half_turn, normal);
-    }
+  switch (piece.feature.kind) {
+    case FeatureKind::vertex:
+      return add_vertex(surface, index, normal);
+    case FeatureKind::edge:
+      return add_edge(surface, index, normal);
+    case FeatureKind::face:
+      if (piece.piece != Piece::fold) add_triangle(surface, corners_of(surface.mesh(), piece), 1, normal);
   }
 }
 
-void NormalSums::add_triangle(const Surface& surface, const std::array<std::uint32_t, 3>& corner,
-                              double weight, RoughNormal& normal) {
+void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal) {
+  for (const std::uint32_t face : surface.mesh().vertex_faces(vertex))
+    for_each_triangle_from(vertex, surface.mesh().face(face),
+                           [&](const Corners& corner) { add_triangle(surface, corner, 0, normal); });
+}
+
+void NormalSums::add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal) {
+  const auto [first, other] = surface.mesh().edge(edge);
+  for (const std::uint32_t face : surface.mesh().edge_faces(edge))
+    for_each_triangle_from(first, surface.mesh().face(face), [&](const Corners& corner) {
+      if (corner[1] == other || corner[2] == other) add_triangle(surface, corner, half_turn, normal);
+    });
+}
+
+void NormalSums::add_triangle(const Surface& surface, const Corners& corner, double weight,
+                              RoughNormal& normal) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Eigen::Vector3d point = surface.position(corner[i]);
     for (int axis = 0; axis < 3; ++axis) batch_.corner[i][axis][count_] = point[axis];

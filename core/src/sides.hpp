@@ -22,8 +22,10 @@ class NormalSums {
   void finish();
 
  private:
-  void add_triangle(const Surface& surface, const std::array<std::uint32_t, 3>& corner, double weight,
-                    RoughNormal& normal);
+  using Corners = std::array<std::uint32_t, 3>;
+  void add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal);
+  void add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal);
+  void add_triangle(const Surface& surface, const Corners& corner, double weight, RoughNormal& normal);
 
   kernels::NormalBatch batch_{};
   std::array<RoughNormal*, kernels::contact_lanes> normal_{};  ///< to which a triangle is added
