@@ -22,8 +22,8 @@ Eigen::Vector3d weighted_normal(const Surface& surface, const FeaturePiece& piec
 Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& gap,
              DecisionCount& count);
 
-/// A weighted normal to 2^-28 of the sum of its weights, which is 0 or infinite where plain double does not give
-/// that. Made by NormalSums (sides.hpp).
+/// A weighted normal to 2^-28 of the sum of its weights, which is 0 or infinite where plain double does not
+/// give that. Made by NormalSums (sides.hpp).
 struct RoughNormal {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = 0;

@@ -47,10 +47,10 @@ void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughN
 }
 
 void NormalSums::add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal) {
-  const auto [first, other] = surface.mesh().edge(edge);
+  const std::array<std::uint32_t, 2> end = surface.mesh().edge(edge);
   for (const std::uint32_t face : surface.mesh().edge_faces(edge))
-    for_each_triangle_from(first, surface.mesh().face(face), [&](const Corners& corner) {
-      if (corner[1] == other || corner[2] == other) add_triangle(surface, corner, half_turn, normal);
+    for_each_triangle_from(end[0], surface.mesh().face(face), [&](const Corners& corner) {
+      if (corner[1] == end[1] || corner[2] == end[1]) add_triangle(surface, corner, half_turn, normal);
     });
 }
 

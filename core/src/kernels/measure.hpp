@@ -30,7 +30,7 @@ struct NormalBatch {
   Points corner[3];
   double weight[contact_lanes];  ///< or 0 where it is the angle at the first corner; the kernel puts in what
                                  ///< it took, or infinity where double is not good enough
-  Points part;  ///< filled in: the unit normal by its weight
+  Points part;                   ///< filled in: the unit normal by its weight
 };
 
 /// The kernels of one instruction set. All lanes are worked on, whatever is in them.
