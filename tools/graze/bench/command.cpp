@@ -27,7 +27,7 @@ struct BenchOptions {
   std::size_t frames = 0;
   std::vector<std::string> peers = {"all"};
   bool evict = false;
-  std::string instruction_set;
+  std::vector<std::string> instruction_sets;
   std::string data = GRAZE_SHARED_DATA;
   std::filesystem::path csv, json, figures;
 };
@@ -52,14 +52,24 @@ std::vector<std::string_view> peers_of(const BenchOptions& options, const bench:
   return names;
 }
 
-void choose_instruction_set(const std::string& name) {
-  if (name.empty()) return;
+InstructionSet instruction_set_of(const std::string& name) {
   std::string known;
   for (const InstructionSet set : available_instruction_sets()) {
-    if (to_string(set) == name) return use_instruction_set(set);
+    if (to_string(set) == name) return set;
     known += (known.empty() ? "" : ", ") + std::string(to_string(set));
   }
   throw io::InputError("no instruction set \"" + name + "\" here; there are " + known);
+}
+
+/// By default AVX2, which the peers are compiled for, and what is better.
+std::vector<InstructionSet> instruction_sets_of(const std::vector<std::string>& names) {
+  std::vector<InstructionSet> sets;
+  for (const std::string& name : names) sets.push_back(instruction_set_of(name));
+  if (!sets.empty()) return sets;
+  for (const InstructionSet set : available_instruction_sets())
+    if (set >= InstructionSet::avx2) sets.push_back(set);
+  if (sets.empty()) sets.push_back(available_instruction_sets().back());
+  return sets;
 }
 
 void check_scenes(const std::vector<std::string>& wanted) {
@@ -88,7 +98,8 @@ void print(const std::string& text) {
   std::fflush(stdout);
 }
 
-std::vector<bench::Run> run_all(const BenchOptions& options, const bench::PeerModule& module) {
+std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
+                                const bench::PeerModule& module) {
   std::vector<bench::Run> runs;
   for (const std::string_view name : bench::scene_names()) {
     if (!is_asked_for(name, options.scenes)) continue;
@@ -105,6 +116,7 @@ std::vector<bench::Run> run_all(const BenchOptions& options, const bench::PeerMo
         run.frames = options.frames;
         run.evict = options.evict;
         run.peers = peers_of(options, module);
+        run.instruction_sets = sets;
         runs.push_back(bench::run_scene(scene, run, module));
         print(bench::table_of(runs.back()));
       }
@@ -123,11 +135,11 @@ void run(const BenchOptions& options) {
   check_scenes(options.scenes);
   check_writable(options.csv);
   check_writable(options.json);
-  choose_instruction_set(options.instruction_set);
+  const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);
   const bench::PeerModule module;
-  const bench::Surroundings surroundings = bench::surroundings(module);
+  const bench::Surroundings surroundings = bench::surroundings(module, sets);
   print(bench::heading(surroundings));
-  const std::vector<bench::Run> runs = run_all(options, module);
+  const std::vector<bench::Run> runs = run_all(options, sets, module);
   const std::vector<bench::Aim> aims = bench::aims_of(runs);
   print(bench::table_of(aims));
   write(options.csv, bench::csv_of(runs));
@@ -164,7 +176,12 @@ void add_bench_command(CLI::App& app) {
       ->delimiter(',')
       ->capture_default_str();
   command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
-  command->add_option("--instruction-set", options->instruction_set, "What graze's kernels use");
+  command
+      ->add_option(
+          "--instruction-set", options->instruction_sets,
+          "What graze's kernels use; of several, the first is compared with the aims. By default avx2 "
+          "and what is better")
+      ->delimiter(',');
   command->add_option("--data", options->data, "The folder of real meshes, for S7")->capture_default_str();
   command->add_option("--csv", options->csv, "Write a line for each contender of each run into this file");
   command->add_option("--json", options->json, "Write all figures into this file");

@@ -22,8 +22,8 @@ FeaturePair::Feature feature_of(const Feature& feature) {
 }  // namespace
 
 GrazeContender::GrazeContender(const BenchScene& scene, const World& world, Task task, unsigned threads,
-                               Telling telling)
-    : world_(world), task_(task), telling_(telling), scene_(settings_of(world, task, threads)) {
+                               Telling telling, InstructionSet set)
+    : world_(world), task_(task), telling_(telling), set_(set), scene_(settings_of(world, task, threads)) {
   const BindPolicy policy = telling == Telling::motion ? BindPolicy::when_told : BindPolicy::every_step;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
@@ -36,6 +36,7 @@ GrazeContender::GrazeContender(const BenchScene& scene, const World& world, Task
 }
 
 void GrazeContender::frame() {
+  use_instruction_set(set_);  // no other scene steps meanwhile
   if (telling_ == Telling::motion) {
     moved_.clear();
     displacements_.clear();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <graze/graze.hpp>
+#include <graze/instruction_set.hpp>
 #include <vector>
 
 #include "bench/contender.hpp"
@@ -16,7 +17,8 @@ enum class Telling : std::uint8_t { nothing, motion };
 
 class GrazeContender final : public Contender {
  public:
-  GrazeContender(const BenchScene& scene, const World& world, Task task, unsigned threads, Telling telling);
+  GrazeContender(const BenchScene& scene, const World& world, Task task, unsigned threads, Telling telling,
+                 InstructionSet set);
 
   void frame() override;
   void collect(Found& found) const override;
@@ -33,6 +35,7 @@ class GrazeContender final : public Contender {
   const World& world_;
   Task task_;
   Telling telling_;
+  InstructionSet set_;
   Scene scene_;
   std::vector<ObjectId> ids_;
   std::vector<ObjectId> moved_;

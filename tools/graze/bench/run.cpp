@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "bench/graze_contender.hpp"
@@ -68,6 +69,7 @@ class Entrant {
     timing_.name = name;
   }
 
+  void leave(std::string complaint) { timing_.complaint = std::move(complaint); }
   [[nodiscard]] bool is_out() const { return !timing_.complaint.empty(); }
 
   /// The first turn makes it, too.
@@ -126,14 +128,19 @@ class Entrant {
 std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& options,
                                  const PeerModule& module) {
   std::vector<Entrant> entrants;
-  const auto add_graze = [&](std::string_view name, Telling telling) {
-    entrants.emplace_back(name, nullptr, options.threads, [&moving, &options, telling] {
+  const auto add_graze = [&](std::string_view name, Telling telling, InstructionSet set) {
+    entrants.emplace_back(name, nullptr, options.threads, [&moving, &options, telling, set] {
       return std::make_unique<GrazeContender>(moving.scene(), moving.world(), options.task, options.threads,
-                                              telling);
+                                              telling, set);
     });
   };
-  add_graze(graze_name, moving.scene().is_told ? Telling::motion : Telling::nothing);
-  if (moving.scene().tries_telling) add_graze(told_name, Telling::motion);
+  for (const InstructionSet set : options.instruction_sets) {
+    const bool is_first = entrants.empty();
+    add_graze(
+        is_first ? std::string(graze_name) : std::string(graze_name) + ", " + std::string(to_string(set)),
+        moving.scene().is_told ? Telling::motion : Telling::nothing, set);
+  }
+  if (moving.scene().tries_telling) add_graze(told_name, Telling::motion, options.instruction_sets.front());
   const auto add_peer = [&](const PeerEntry& entry) {
     entrants.emplace_back(entry.name, &entry, options.threads, [&moving, &options, make = entry.make] {
       return make(moving.world(), options.task, options.threads);
@@ -147,6 +154,14 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
     if (entry.tasks.find(static_cast<char>(options.task)) != std::string_view::npos) add_peer(entry);
   }
   return entrants;
+}
+
+/// Every instruction set gives the same bits; those of the others come right after the first.
+void compare_reports(std::span<Entrant> of_sets) {
+  const std::uint64_t hash = of_sets.front().figures().hash;
+  for (Entrant& entrant : of_sets.subspan(1))
+    if (entrant.figures().hash != hash)
+      entrant.leave("its reports are not those of the first instruction set");
 }
 
 }  // namespace
@@ -210,6 +225,7 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
       if (is_verified) entrant.verify(verification);
     }
   }
+  compare_reports(std::span(entrants).first(options.instruction_sets.size()));
   for (const Entrant& entrant : entrants) run.timings.push_back(entrant.timing());
   run.graze = entrants.front().figures();
   return run;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <graze/instruction_set.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct RunOptions {
   std::size_t frames = 0;               ///< that are timed; 0: as many as the scene says
   bool evict = false;                   ///< 64 MB of other memory are touched before each contender's turn
   std::vector<std::string_view> peers;  ///< those that cannot do the task are left out
+  /// Graze takes part with each; the name alone stands for the first, which is what the aims are about.
+  std::vector<InstructionSet> instruction_sets;
 };
 
 /// What one contender needed for the frames of a run, in ms.

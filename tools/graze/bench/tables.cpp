@@ -2,7 +2,6 @@
 
 #include <cinttypes>
 #include <fstream>
-#include <graze/instruction_set.hpp>
 
 #include "text_format.hpp"
 
@@ -33,16 +32,17 @@ std::string row_of(const Timing& timing, double read, double box) {
 
 }  // namespace
 
-Surroundings surroundings(const PeerModule& module) {
-  return {processor_name(), GRAZE_BENCH_COMPILER, GRAZE_BENCH_FLAGS, module.compiled_for(),
-          std::string(to_string(instruction_set()))};
+Surroundings surroundings(const PeerModule& module, std::span<const InstructionSet> sets) {
+  std::string names;
+  for (const InstructionSet set : sets) names += (names.empty() ? "" : ", ") + std::string(to_string(set));
+  return {processor_name(), GRAZE_BENCH_COMPILER, GRAZE_BENCH_FLAGS, module.compiled_for(), names};
 }
 
 std::string heading(const Surroundings& s) {
   return format(
       "%s; %s; graze: %s, kernels for %s; its peers' code: %s.\n"
       "Times of a frame in ms, with one thread without what other processes took meanwhile.\n",
-      s.processor.c_str(), s.compiler.c_str(), s.flags.c_str(), s.instruction_set.c_str(),
+      s.processor.c_str(), s.compiler.c_str(), s.flags.c_str(), s.instruction_sets.c_str(),
       s.peer_flags.c_str());
 }
 
@@ -66,7 +66,7 @@ nlohmann::ordered_json figures_of(const Surroundings& s) {
   return {{"processor", s.processor},
           {"compiler", s.compiler},
           {"flags", s.flags},
-          {"instruction_set", s.instruction_set},
+          {"instruction_sets", s.instruction_sets},
           {"peer_flags", s.peer_flags}};
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <graze/instruction_set.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,9 +12,10 @@ namespace graze::bench {
 
 /// Where and how it was measured.
 struct Surroundings {
-  std::string processor, compiler, flags, peer_flags, instruction_set;
+  std::string processor, compiler, flags, peer_flags;
+  std::string instruction_sets;  ///< graze's, that of the name alone first
 };
-Surroundings surroundings(const PeerModule& module);
+Surroundings surroundings(const PeerModule& module, std::span<const InstructionSet> sets);
 
 std::string heading(const Surroundings& surroundings);
 std::string table_of(const Run& run);
