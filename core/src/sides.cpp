@@ -1,7 +1,6 @@
 #include "sides.hpp"
 
-#include <algorithm>
-#include <optional>
+#include <span>
 
 namespace graze {
 
@@ -94,6 +93,8 @@ NormalCache::Found NormalCache::find(const FeaturePiece& piece) {
 }
 
 void Sides::begin() {
+  count_ = 0;
+  sums_.begin();
   normals_a_.begin();
   normals_b_.begin();
 }

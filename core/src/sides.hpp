@@ -17,15 +17,17 @@ namespace graze {
 /// Makes rough normals of features, several triangles at once.
 class NormalSums {
  public:
+  /// Forgets what was not finished.
+  void begin() { count_ = 0; }
   /// `normal`, which stays where it is until finish(), becomes that of the feature.
   void add(const Surface& surface, const FeaturePiece& piece, RoughNormal& normal);
   void finish();
 
  private:
-  using Corners = std::array<std::uint32_t, 3>;
   void add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal);
   void add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal);
-  void add_triangle(const Surface& surface, const Corners& corner, double weight, RoughNormal& normal);
+  void add_triangle(const Surface& surface, const std::array<std::uint32_t, 3>& corner, double weight,
+                    RoughNormal& normal);
 
   kernels::NormalBatch batch_{};
   std::array<RoughNormal*, kernels::contact_lanes> normal_{};  ///< to which a triangle is added
@@ -68,6 +70,7 @@ class NormalCache {
 /// Says on which sides of two surfaces the points of contacts lie.
 class Sides {
  public:
+  /// For another pair; forgets what was not finished.
   void begin();
   /// Fills in the contact's sides, at the latest by finish(), until when it stays where it is.
   void add(const SurfacePair& pair, const ContactName& name, Contact& contact);

@@ -237,14 +237,13 @@ class PointExtent {
  public:
   explicit PointExtent(const Number* numbers) : numbers_(numbers) {}
 
-  void add(std::uint32_t vertex) {
-    Four x;
-    std::memcpy(&x, numbers_ + std::size_t{3} * vertex, sizeof x);
-    low_ = x < low_ ? x : low_;
-    high_ = x > high_ ? x : high_;
-  }
   void add(std::span<const std::uint32_t> vertices) {
-    for (const std::uint32_t vertex : vertices) add(vertex);
+    for (const std::uint32_t vertex : vertices) {
+      Four x;
+      std::memcpy(&x, numbers_ + std::size_t{3} * vertex, sizeof x);
+      low_ = x < low_ ? x : low_;
+      high_ = x > high_ ? x : high_;
+    }
   }
   [[nodiscard]] Box box() const { return {{low_[0], low_[1], low_[2]}, {high_[0], high_[1], high_[2]}}; }
 

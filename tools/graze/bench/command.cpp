@@ -64,6 +64,7 @@ InstructionSet instruction_set_of(const std::string& name) {
 /// By default AVX2, which the peers are compiled for, and what is better.
 std::vector<InstructionSet> instruction_sets_of(const std::vector<std::string>& names) {
   std::vector<InstructionSet> sets;
+  sets.reserve(names.size());
   for (const std::string& name : names) sets.push_back(instruction_set_of(name));
   if (!sets.empty()) return sets;
   for (const InstructionSet set : available_instruction_sets())
