@@ -301,10 +301,10 @@ constexpr std::uint32_t stretch = 64;
 }  // namespace
 
 void Surface::box_stretches() {
-  if (stretches_version_ == version_) return;
+  const std::uint32_t count = mesh_->vertex_count();
+  if (count > most_searched || stretches_version_ == version_) return;
   stretches_version_ = version_;
   const kernels::PositionPasses& passes = kernels::position_passes();
-  const std::uint32_t count = mesh_->vertex_count();
   stretches_.clear();
   for (std::uint32_t begin = 0; begin < count; begin += stretch) {
     const std::uint32_t end = std::min(begin + stretch, count);

@@ -52,8 +52,6 @@ namespace {
 /// More vertices of one surface, or pairs of vertices to be compared, are too many.
 constexpr std::size_t most_vertices = 4096;
 constexpr std::size_t most_pairs = std::size_t{1} << 18;
-/// Surfaces of no more vertices are gone through in memory order.
-constexpr std::size_t small_surface = 2048;
 /// Regions of no more vertices are not gone into further.
 constexpr std::uint32_t small_region = 64;
 /// So few pairs are all compared.
@@ -131,7 +129,7 @@ class VertexSweep {
   /// The surface's vertices in the box, and their box; false where they are too many or the budget is spent.
   bool collect(const Surface& surface, const Box& box, LocalVertices& vertices, Box& found_box) {
     std::size_t count = 0;
-    if (surface.mesh().vertex_count() <= small_surface) {
+    if (surface.mesh().vertex_count() <= Surface::most_searched) {
       if (!meter_.spend()) return give_up(Swept::out_of_budget);
       make_room(surface.mesh().vertex_count());
       count = surface.find_inside(box, scratch_.found);

@@ -58,6 +58,7 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
 
 void RegionRefit::make_ready(Surface& surface) const {
   surface.refit(boxes_);
+  if (boxes_ == RefitOf::vertices) surface.box_stretches();
   if (with_radii()) surface.refit(RefitOf::radii);
 }
 

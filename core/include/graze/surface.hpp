@@ -125,8 +125,11 @@ class GRAZE_API Surface {
 
   /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices.
   [[nodiscard]] std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
+  /// So many vertices are searched in memory order; of larger surfaces the regions are quicker.
+  static constexpr std::uint32_t most_searched = 2048;
   /// Makes boxes of stretches of vertices, as they follow one another in memory, of which `find_inside`
-  /// passes over those that are not in its box, until the surface moves. Worth it from the third search on.
+  /// passes over those that are not in its box, until the surface moves. Worth it from the third search on;
+  /// not for more than `most_searched` vertices, of which none are made.
   void box_stretches();
 
   /// Of the last refits, one for each region.
