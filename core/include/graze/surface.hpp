@@ -129,7 +129,7 @@ class GRAZE_API Surface {
   static constexpr std::uint32_t most_searched = 2048;
   /// Makes boxes of stretches of vertices, as they follow one another in memory, of which `find_inside`
   /// passes over those that are not in its box, until the surface moves. Worth it from the third search on;
-  /// not for more than `most_searched` vertices, of which none are made.
+  /// none are made where there are few vertices, or more than `most_searched`.
   void box_stretches();
 
   /// Of the last refits, one for each region.
@@ -170,9 +170,7 @@ class GRAZE_API Surface {
 
   std::shared_ptr<const Mesh> mesh_;
   bool all_used_;  ///< every vertex is
-  /// Behind the last position, so that four numbers can be read where each begins.
-  static constexpr std::size_t padding = 1;
-  // Positions in the precision in which they came, padded; the other is empty.
+  // Positions in the precision in which they came; the other is empty.
   std::vector<Eigen::Vector3f> in_float_;
   std::vector<Eigen::Vector3d> in_double_;
   Box box_;
