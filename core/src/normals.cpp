@@ -3,13 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "direction.hpp"
 
 namespace graze {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::optional<Eigen::Vector3d> triangle_normal(const std::array<Eigen::Vector3d, 3>& point,
                                                DecisionCount& count) {
@@ -55,7 +54,7 @@ class WeightedSum {
     std::size_t found = 0;
     for (const std::uint32_t vertex : triangle.vertex)
       if (vertex == ends[0] || vertex == ends[1]) ++found;
-    return found == 2 ? pi : 0;
+    return found == 2 ? std::numbers::pi : 0;
   }
 
   const Surface& surface_;
@@ -98,13 +97,6 @@ Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vec
   // Unit normals and the direction are within 2^-44 of the true ones, angles nearly so; a vertex has at most
   // a few thousand triangles before the sum of its weights exceeds 2^-36 / 2^-44.
   if (!(std::abs(along) > 0x1p-36)) return Side::none;
-  return along > 0 ? Side::front : Side::back;
-}
-
-std::optional<Side> certain_side(const RoughNormal& normal, const Eigen::Vector3d& direction) {
-  const double along = normal.sum.dot(direction);
-  if (!(std::abs(along) > std::max(normal.weights * 0x1p-20, 0x1p-34)) || normal.weights == 0)
-    return std::nullopt;
   return along > 0 ? Side::front : Side::back;
 }
 

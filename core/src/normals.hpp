@@ -22,16 +22,6 @@ Eigen::Vector3d weighted_normal(const Surface& surface, const FeaturePiece& piec
 Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vector3d& gap,
              DecisionCount& count);
 
-/// A weighted normal to 2^-28 of the sum of its weights, which is 0 or infinite where plain double does not
-/// give that. Made by NormalSums (sides.hpp).
-struct RoughNormal {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double weights = 0;
-};
-
-/// What `side_of` says of a unit vector, where a rough normal is enough to know; otherwise nothing.
-std::optional<Side> certain_side(const RoughNormal& normal, const Eigen::Vector3d& direction);
-
 /// The normal of a contact whose points are one, from positions alone: a's face normal; else minus b's face
 /// normal; else for two edges their cross product, signed to agree with a's averaged vertex normal; else a's
 /// averaged normal, else minus b's, else +z.

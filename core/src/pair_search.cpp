@@ -361,13 +361,15 @@ void PairSearch::begin_measuring(Worker& worker) {
 }
 
 void PairSearch::gather_names(Worker& worker) {
-  const bool is_one = slice_count_ == 1;
   const bool with_features = query_.detail == ContactDetail::features;
   names_.clear();
-  if (is_one) names_.swap(slices_.front().names);
-  for (std::size_t i = 0; !is_one && i < slice_count_; ++i)
-    names_.insert(names_.end(), slices_[i].names.begin(), slices_[i].names.end());
-  if (is_one && with_features) return;
+  if (slice_count_ == 1) {
+    names_.swap(slices_.front().names);
+    if (with_features) return;
+  } else {
+    for (std::size_t i = 0; i < slice_count_; ++i)
+      names_.insert(names_.end(), slices_[i].names.begin(), slices_[i].names.end());
+  }
   worker.scratch.order.sort(names_);
   // An edge between two slices' faces is met in both.
   if (with_features) keep_nearest_of_each(worker.pair, names_);

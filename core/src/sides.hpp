@@ -8,31 +8,10 @@
 #include <vector>
 
 #include "contact_name.hpp"
-#include "kernels/measure.hpp"
-#include "normals.hpp"
+#include "rough_normals.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
-
-/// Makes rough normals of features, several triangles at once.
-class NormalSums {
- public:
-  /// Forgets what was not finished.
-  void begin() { count_ = 0; }
-  /// `normal`, which stays where it is until finish(), becomes that of the feature.
-  void add(const Surface& surface, const FeaturePiece& piece, RoughNormal& normal);
-  void finish();
-
- private:
-  void add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal);
-  void add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal);
-  void add_triangle(const Surface& surface, const std::array<std::uint32_t, 3>& corner, double weight,
-                    RoughNormal& normal);
-
-  kernels::NormalBatch batch_{};
-  std::array<RoughNormal*, kernels::contact_lanes> normal_{};  ///< to which a triangle is added
-  std::size_t count_ = 0;
-};
 
 /// Normals of one surface by feature. Neighbouring contacts ask about the same features, so those that were
 /// asked about last are kept.

@@ -3,8 +3,9 @@
 #include <cstddef>
 
 /// Kernels that measure several contacts or triangles at once. They are compiled once for each instruction
-/// set, so this header has no inline function that another translation unit might share with them. They do
-/// what measure.cpp does in Ball arithmetic, operation by operation, so that their results are the same bits.
+/// set, so this header has no inline function that another translation unit might share with them. Those of
+/// contacts do what measure.cpp does in Ball arithmetic, operation by operation, so that their results are
+/// the same bits.
 namespace graze::kernels {
 
 inline constexpr std::size_t contact_lanes = 8;

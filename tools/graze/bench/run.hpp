@@ -22,7 +22,7 @@ struct RunOptions {
   bool evict = false;                   ///< 64 MB of other memory are touched before each contender's turn
   std::vector<std::string_view> peers;  ///< those that cannot do the task are left out
   /// Graze takes part with each; the name alone stands for the first, which is what the aims are about.
-  std::vector<InstructionSet> instruction_sets;
+  std::vector<InstructionSet> instruction_sets;  ///< at least one
 };
 
 /// What one contender needed for the frames of a run, in ms.

@@ -1,13 +1,11 @@
-// Rough normals, from which sides are told: beside the same sums in long double, with every instruction set.
-// Whole contacts' sides are in normals_test.cpp.
+// Beside the same sums in long double, with every instruction set. The sides of whole contacts are in
+// normals_test.cpp.
 
-#include "sides.hpp"
+#include "rough_normals.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <graze/instruction_set.hpp>
-#include <iostream>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -57,12 +55,11 @@ struct Sum {
   Real weights = 0;
 };
 
-/// Of a triangle from its corner `at`, or of an edge's triangle.
-void add(const Shape& shape, const std::array<std::uint32_t, 3>& corner, std::size_t at, bool is_of_edge,
-         Sum& sum) {
-  const auto point = [&](std::size_t i) -> Vector { return shape.positions[corner[i % 3]].cast<Real>(); };
-  const Vector u = point(at + 1) - point(at);
-  const Vector v = point(at + 2) - point(at);
+/// A triangle by its angle at the first corner, or that of an edge.
+void add(const Shape& shape, const std::array<std::uint32_t, 3>& corner, bool is_of_edge, Sum& sum) {
+  const auto point = [&](std::size_t i) -> Vector { return shape.positions[corner[i]].cast<Real>(); };
+  const Vector u = point(1) - point(0);
+  const Vector v = point(2) - point(0);
   const Vector across = u.cross(v);
   const Real weight = is_of_edge ? std::numbers::pi_v<Real> : std::atan2(across.norm(), u.dot(v));
   sum.sum += across / across.norm() * weight;
@@ -78,9 +75,9 @@ Sum expected(const Shape& shape, std::uint32_t other) {
       // A quad's fold is no edge of it.
       const bool is_inner = face.size() == 4 && corner[last == 2 ? 2 : 1] == other;
       if (other == 0)
-        add(shape, corner, 0, false, sum);
+        add(shape, corner, false, sum);
       else if (!is_inner && (corner[1] == other || corner[2] == other))
-        add(shape, corner, 0, true, sum);
+        add(shape, corner, true, sum);
     }
   return sum;
 }
@@ -104,7 +101,7 @@ std::vector<RoughNormal> rough_normals(const Surface& surface, const std::vector
 
 }  // namespace
 
-TEST_CASE("sides: rough normals are within 2^-28 of their weights") {
+TEST_CASE("rough normals: they are within 2^-28 of their weights") {
   std::array<std::size_t, family_count> known{};
   constexpr std::size_t fans = 500;
   for (std::uint64_t family = 0; family < family_count; ++family) {
@@ -140,7 +137,7 @@ TEST_CASE("sides: rough normals are within 2^-28 of their weights") {
   CHECK(known[nearly_straight] > fans / 2);
 }
 
-TEST_CASE("sides: a normal without area or of a fold is not known") {
+TEST_CASE("rough normals: one without area or of a fold is not known") {
   const Surface flat =
       surface_of(Shape{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
   const auto normals = rough_normals(flat, {vertex_piece(0), vertex_piece(1), face_piece(0, Piece::first),

@@ -1,0 +1,83 @@
+// Looks for the vertices in a box by going through all of them, without any hierarchy.
+
+#include <algorithm>
+#include <cmath>
+#include <graze/surface.hpp>
+#include <limits>
+
+#include "kernels/positions.hpp"
+
+namespace graze {
+
+namespace {
+
+/// A box whose bounds are floats and between which the same floats lie; coordinates are within limits.
+struct FloatBox {
+  std::array<float, 3> low;
+  std::array<float, 3> high;
+
+  explicit FloatBox(const Box& box) {
+    constexpr float most = std::numeric_limits<float>::max();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double from = std::clamp<double>(box.min[static_cast<int>(axis)], -most, most);
+      const double to = std::clamp<double>(box.max[static_cast<int>(axis)], -most, most);
+      low[axis] = static_cast<float>(from);
+      high[axis] = static_cast<float>(to);
+      if (static_cast<double>(low[axis]) < from) low[axis] = std::nextafter(low[axis], most);
+      if (static_cast<double>(high[axis]) > to) high[axis] = std::nextafter(high[axis], -most);
+    }
+  }
+};
+
+/// Vertices whose boxes `find_inside` looks at first; a multiple of what its kernels take at once.
+constexpr std::uint32_t stretch = 64;
+/// Fewer vertices are gone through as quickly as their boxes are made.
+constexpr std::uint32_t least_in_stretches = 8 * stretch;
+
+}  // namespace
+
+void Surface::box_stretches() {
+  const std::uint32_t count = mesh_->vertex_count();
+  if (count < least_in_stretches || count > most_searched || stretches_version_ == version_) return;
+  stretches_version_ = version_;
+  const kernels::PositionPasses& passes = kernels::position_passes();
+  stretches_.clear();
+  for (std::uint32_t begin = 0; begin < count; begin += stretch) {
+    const std::uint32_t end = std::min(begin + stretch, count);
+    Box& box = stretches_.emplace_back();
+    if (in_double_.empty()) {
+      Eigen::Vector3f low;
+      Eigen::Vector3f high;
+      passes.extent_of_floats(in_float_.front().data(), begin, end, low.data(), high.data());
+      box = {low.cast<double>(), high.cast<double>()};
+    } else {
+      passes.extent_of_doubles(in_double_.front().data(), begin, end, box.min.data(), box.max.data());
+    }
+  }
+}
+
+std::size_t Surface::find_inside(const Box& box, std::span<std::uint32_t> found) const {
+  const std::uint32_t count = mesh_->vertex_count();
+  const kernels::PositionPasses& passes = kernels::position_passes();
+  const FloatBox in_float(box);
+  std::size_t inside = 0;
+  const auto pass = [&](std::uint32_t begin, std::uint32_t end) {
+    std::uint32_t* const places = found.data() + inside;
+    inside += in_double_.empty() ? passes.floats_inside(in_float_.front().data(), begin, end,
+                                                        in_float.low.data(), in_float.high.data(), places)
+                                 : passes.doubles_inside(in_double_.front().data(), begin, end,
+                                                         box.min.data(), box.max.data(), places);
+  };
+  if (stretches_version_ != version_) {
+    pass(0, count);
+  } else {
+    for (std::uint32_t i = 0; i < stretches_.size(); ++i)
+      if (!common(stretches_[i], box).empty()) pass(i * stretch, std::min((i + 1) * stretch, count));
+  }
+  if (all_used_) return inside;
+  const auto unused = [this](std::uint32_t vertex) { return !mesh_->is_used(vertex); };
+  const auto listed = found.first(inside);
+  return static_cast<std::size_t>(std::remove_if(listed.begin(), listed.end(), unused) - listed.begin());
+}
+
+}  // namespace graze
