@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kernels/filter.hpp"
+#include "leaf_slab.hpp"
 
 namespace graze {
 
@@ -60,6 +61,23 @@ class FilterFrame {
       local.max[axis] = clamped(high[axis]);
     }
     return local;
+  }
+  /// The slab of a leaf with this middle vertex.
+  [[nodiscard]] kernels::SlabInFrame to_local(const LeafSlab& slab, const Eigen::Vector3d& middle) const {
+    if (!slab.is_known()) return {{0, 0, 0}, 0, 0};
+    const Eigen::Vector3d local = to_local(middle);
+    const double along = slab.normal.cast<double>().dot(local);
+    const double rounding = local.cwiseAbs().sum() * 0x1p-22;
+    const auto height = [&](float of_slab, double slack) {
+      return static_cast<float>(
+          std::clamp(along + static_cast<double>(of_slab) * scale_ + slack, -0x1p100, 0x1p100));
+    };
+    const float low = height(slab.low, -rounding);
+    const float high = height(slab.high, rounding);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {{slab.normal.x(), slab.normal.y(), slab.normal.z()},
+            std::nextafter(low, -infinity),
+            std::nextafter(high, infinity)};
   }
   /// Local units for one of the scene.
   [[nodiscard]] double scale() const { return scale_; }

@@ -6,6 +6,7 @@
 #include "contact_name.hpp"
 #include "leaf_cache.hpp"
 #include "leaf_features.hpp"
+#include "leaf_slab.hpp"
 #include "piercing.hpp"
 
 namespace graze {
@@ -14,6 +15,8 @@ namespace graze {
 struct LeafScratch {
   LeafCache all_a;
   LeafCache all_b;
+  LeafSlabs slabs_a;
+  LeafSlabs slabs_b;
   LeafVertices corners;
   LeafFeatures a;
   LeafFeatures b;
@@ -40,34 +43,46 @@ struct LeafScratch {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.all_a, self.all_b, self.corners, self.a, self.b, self.folds_a, self.folds_b,
-                    self.filter);
+    return std::tie(self.all_a, self.all_b, self.slabs_a, self.slabs_b, self.corners, self.a, self.b,
+                    self.folds_a, self.folds_b, self.filter);
   }
 
  private:
   template <typename Range, typename BoxOfNear, typename Take>
   bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
             bool vertices_only, const BoxOfNear& box_of_near, const Take& take_near) {
+    const double limit = range.limit();
+    const auto nothing_near = [&] {
+      range.left_out(limit);
+      return false;
+    };
+    const Eigen::Vector3d middle_a = pair.a.middle(leaf_a.region);
+    const Eigen::Vector3d middle_b = pair.b.middle(leaf_b.region);
+    LeafSlab slab_a;
+    LeafSlab slab_b;
+    if (are_worth_slabs(leaf_a.box, leaf_b.box, limit)) {
+      const RefitOf what = vertices_only ? RefitOf::vertices : RefitOf::faces;
+      slab_a = slabs_a.of(pair.a, leaf_a.region, what);
+      slab_b = slabs_b.of(pair.b, leaf_b.region, what);
+      if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
+    }
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
     all_a.begin(pair.a, frame, vertices_only);
     all_b.begin(pair.b, frame, vertices_only);
     const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
     const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region, corners);
-    const double limit = range.limit();
     const float local_limit = frame.to_local_limit(limit);
     // What of b is near those of a that are near b's leaf, and what of a is near that. Two features can only
     // touch where both sides' boxes overlap.
     const kernels::BoxInFrame box_b = frame.to_local(leaf_b.box);
-    const auto nothing_near = [&] {
-      range.left_out(limit);
-      return false;
-    };
-    const kernels::BoxInFrame near_a = (of_a.*box_of_near)({box_b, box_b, local_limit});
+    const kernels::SlabInFrame local_slab_a = frame.to_local(slab_a, middle_a);
+    const kernels::SlabInFrame local_slab_b = frame.to_local(slab_b, middle_b);
+    const kernels::BoxInFrame near_a = (of_a.*box_of_near)({box_b, box_b, local_slab_b, local_limit});
     if (is_empty(near_a)) return nothing_near();
     kernels::BoxInFrame near_b = empty_box();
-    (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), local_limit}, &near_b);
+    (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), local_slab_a, local_limit}, &near_b);
     if (is_empty(near_b)) return nothing_near();
-    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), local_limit}, nullptr);
+    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), local_slab_b, local_limit}, nullptr);
     const auto of_all = [&](const LeafFeatures& features) {
       return vertices_only ? features.vertices.count() : features.count();
     };

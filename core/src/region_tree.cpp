@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -154,6 +155,7 @@ RegionTree::RegionTree(const Mesh& mesh) {
   faces_ = std::move(owned_faces.order);
   edges_ = std::move(owned_edges.order);
   list_borders(mesh);
+  choose_spread(mesh);
   validate(*this, mesh);
 }
 
@@ -176,9 +178,35 @@ void RegionTree::list_borders(const Mesh& mesh) {
   border_.shrink_to_fit();
 }
 
+/// The second is the furthest from the first, the third the furthest from the line through both.
+void RegionTree::choose_spread(const Mesh& mesh) {
+  spread_.assign(regions_.size(), {});
+  for (std::uint32_t index = 0; index < region_count(); ++index) {
+    const Region& leaf = regions_[index];
+    if (!leaf.is_leaf()) continue;
+    const auto furthest = [&](const auto& measure) {
+      std::uint32_t found = vertices(leaf).front();
+      double most = 0;
+      for (const auto& list : {vertices(leaf), border(leaf)})
+        for (const std::uint32_t vertex : list)
+          if (const double here = measure(mesh.rest()[vertex]); here > most) {
+            most = here;
+            found = vertex;
+          }
+      return found;
+    };
+    auto& [first, second, third] = spread_[index];
+    first = vertices(leaf).front();
+    const Eigen::Vector3d from = mesh.rest()[first];
+    second = furthest([&](const Eigen::Vector3d& point) { return (point - from).squaredNorm(); });
+    const Eigen::Vector3d along = mesh.rest()[second] - from;
+    third = furthest([&](const Eigen::Vector3d& point) { return (point - from).cross(along).squaredNorm(); });
+  }
+}
+
 std::size_t RegionTree::byte_count() const {
   return bytes_of(regions_) + bytes_of(level_begin_) + bytes_of(vertices_) + bytes_of(faces_) +
-         bytes_of(edges_) + bytes_of(border_);
+         bytes_of(edges_) + bytes_of(border_) + bytes_of(spread_);
 }
 
 }  // namespace graze

@@ -12,6 +12,8 @@
 #include <string>
 
 #include "feature_block.hpp"
+#include "filter_frame.hpp"
+#include "leaf_slab.hpp"
 #include "leaf_vertices.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
@@ -53,6 +55,19 @@ struct Batch {
   std::vector<Corner<3>> triangles;
   Box box;
 };
+
+/// About three corners, a tenth of a side thick to either side of the first.
+LeafSlab slab_of(const Corner<3>& corner) {
+  const Vector3d u = corner[1] - corner[0];
+  const Vector3d across = u.stableNormalized().cross((corner[2] - corner[0]).stableNormalized());
+  LeafSlab slab;
+  if (across.norm() < 0x1p-20) return slab;
+  slab.normal = (across.normalized() * (1 - 0x1p-22)).cast<float>();
+  slab.radius = static_cast<float>(4 * u.stableNorm());
+  slab.high = static_cast<float>(u.stableNorm() / 10);
+  slab.low = -slab.high;
+  return slab;
+}
 
 class Generator {
  public:
@@ -289,7 +304,8 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
   const auto take_clipped = [&](const kernels::Block& block, kernels::Filter::Clip clip, float limit) {
     std::vector<std::uint32_t> others(block.count);
     kernels::BoxInFrame box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
-    const kernels::ClipCount count = clip(block, {frame.to_local(a.box), frame.to_local(b.box), limit},
+    const kernels::SlabInFrame slab = frame.to_local(slab_of(a.triangles.front()), a.triangles.front()[0]);
+    const kernels::ClipCount count = clip(block, {frame.to_local(a.box), frame.to_local(b.box), slab, limit},
                                           {found.index.data(), others.data(), &box});
     words.push_back(static_cast<std::uint32_t>(count.touching));
     words.insert(words.end(), found.index.begin(),
@@ -442,6 +458,7 @@ namespace {
 struct ClipTally {
   std::size_t kept = 0;
   std::size_t left_out = 0;
+  std::size_t left_out_by_slab = 0;  ///< and not by the box
   std::size_t touching = 0;
 };
 
@@ -456,17 +473,32 @@ Real gap_of(const Box& a, const Box& b) {
   return std::sqrt(squared);
 }
 
-/// Takes the features near a box, and compares what is left out, said not to touch, or outside the box that
-/// is found with the truth.
+/// How far corners are outside a slab, along its normal.
+template <std::size_t Corners>
+Real gap_of(const Corner<Corners>& corners, const LeafSlab& slab, const Vector3d& middle) {
+  Real least = std::numeric_limits<Real>::infinity();
+  Real most = -least;
+  for (const Vector3d& corner : corners) {
+    Real along = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      along += Real(slab.normal[axis]) * (Real(corner[axis]) - Real(middle[axis]));
+    least = std::min(least, along);
+    most = std::max(most, along);
+  }
+  return std::max<Real>({least - Real(slab.high), Real(slab.low) - most, 0});
+}
+
+/// Takes the features near a box and a slab, and compares what is left out, said not to touch, or outside the
+/// box that is found with the truth.
 template <std::size_t Corners, std::size_t Components>
 void check_clip(const FeatureBlock<Corners, Components>& block, const std::vector<Corner<Corners>>& features,
-                kernels::Filter::Clip clip, const FilterFrame& frame, const Box& box, float limit,
-                ClipTally& tally) {
+                kernels::Filter::Clip clip, const FilterFrame& frame, const Box& box, const LeafSlab& slab,
+                const Vector3d& middle, float limit, ClipTally& tally) {
   kernels::BoxInFrame found{
       {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
   FeatureBlock<Corners, Components> taken(block.part());
   const kernels::BoxInFrame local = frame.to_local(box);
-  taken.take(block, clip, {local, local, limit}, &found);
+  taken.take(block, clip, {local, local, frame.to_local(slab, middle), limit}, &found);
   std::vector<bool> is_kept(features.size(), false);
   for (std::size_t i = 0; i < taken.count(); ++i) {
     const std::uint32_t feature = taken.owner(i);
@@ -486,14 +518,19 @@ void check_clip(const FeatureBlock<Corners, Components>& block, const std::vecto
   for (std::size_t i = 0; i < features.size(); ++i) {
     Box own;
     for (const Vector3d& corner : features[i]) own.add(corner);
-    if (gap_of(own, box) * Real(frame.scale()) <= Real(limit)) REQUIRE(is_kept[i]);
+    const bool is_near_box = gap_of(own, box) * Real(frame.scale()) <= Real(limit);
+    if (is_near_box && gap_of(features[i], slab, middle) * Real(frame.scale()) <= Real(limit))
+      REQUIRE(is_kept[i]);
     ++(is_kept[i] ? tally.kept : tally.left_out);
+    if (is_near_box && !is_kept[i]) ++tally.left_out_by_slab;
   }
 }
 
 }  // namespace
 
-TEST_CASE("filter: clipping by a box leaves out nothing that is within the limit, and finds what touches") {
+TEST_CASE(
+    "filter: clipping by a box and a slab leaves out nothing that is within the limit, and finds what "
+    "touches") {
   ClipTally tally;
   for (std::size_t family = 0; family < family_count; ++family)
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -509,16 +546,22 @@ TEST_CASE("filter: clipping by a box leaves out nothing that is within the limit
         for (const auto& corners : b.triangles) {
           Box box;
           for (const Vector3d& corner : corners) box.add(corner);
-          check_clip(points, a.points, filter.clip_points, frame, box, limit, tally);
-          check_clip(segments, a.segments, filter.clip_segments, frame, box, limit, tally);
-          check_clip(triangles, a.triangles, filter.clip_triangles, frame, box, limit, tally);
+          for (const LeafSlab& slab : {LeafSlab{}, slab_of(corners)}) {
+            check_clip(points, a.points, filter.clip_points, frame, box, slab, corners[0], limit, tally);
+            check_clip(segments, a.segments, filter.clip_segments, frame, box, slab, corners[0], limit,
+                       tally);
+            check_clip(triangles, a.triangles, filter.clip_triangles, frame, box, slab, corners[0], limit,
+                       tally);
+          }
         }
     }
-  CHECK(tally.kept > 20'000);
-  CHECK(tally.left_out > 20'000);
-  CHECK(tally.touching > 2'000);
+  CHECK(tally.kept > 40'000);
+  CHECK(tally.left_out > 40'000);
+  CHECK(tally.left_out_by_slab > 2'000);
+  CHECK(tally.touching > 4'000);
   std::cout << "clipped " << tally.kept + tally.left_out << " features: " << tally.kept << " kept, "
-            << tally.left_out << " left out, " << tally.touching << " touch\n";
+            << tally.left_out << " left out, " << tally.left_out_by_slab << " of them by the slab, "
+            << tally.touching << " touch\n";
 }
 
 TEST_CASE("filter: a frame serves leaves of about its size near it, and no others") {

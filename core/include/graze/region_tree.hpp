@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <graze/export.hpp>
 #include <span>
@@ -77,11 +78,17 @@ class GRAZE_API RegionTree {
     return std::span(border_).subspan(leaf.first_border, leaf.border_count);
   }
 
+  /// Three corners of a leaf's features that are far apart at rest: about its plane, where it is nearly flat.
+  [[nodiscard]] const std::array<std::uint32_t, 3>& spread(const Region& leaf) const {
+    return spread_[static_cast<std::size_t>(&leaf - regions_.data())];
+  }
+
   /// Bytes held.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   void list_borders(const Mesh& mesh);
+  void choose_spread(const Mesh& mesh);
 
   std::vector<Region> regions_;
   std::uint32_t leaf_level_ = 0;
@@ -90,6 +97,7 @@ class GRAZE_API RegionTree {
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> edges_;
   std::vector<std::uint32_t> border_;
+  std::vector<std::array<std::uint32_t, 3>> spread_;  ///< by region; of leaves
 };
 
 }  // namespace graze

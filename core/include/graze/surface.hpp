@@ -41,6 +41,10 @@ class GRAZE_API Surface {
     if (in_double_.empty()) return in_float_[vertex].cast<double>();
     return in_double_[vertex];
   }
+  /// All of them, as they lie in memory; until they are set again.
+  [[nodiscard]] PositionView positions() const {
+    return in_double_.empty() ? PositionView(in_float_) : PositionView(in_double_);
+  }
   /// The box of the used vertices, and so of the faces.
   [[nodiscard]] const Box& box() const { return box_; }
 

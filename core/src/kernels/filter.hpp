@@ -68,11 +68,19 @@ struct BoxInFrame {
   float size;
 };
 
-/// Which features `clip_…` keep: those not certainly further than `limit` from `box`. Of these it says which
-/// may touch something in `touched`.
+/// What is between two planes: `low` and `high` are at most and at least the products of points with the
+/// normal, of length 1 to 2^-22. Without a normal everything is.
+struct SlabInFrame {
+  float normal[3];
+  float low, high;
+};
+
+/// Which features `clip_…` keep: those not certainly further than `limit` from `box` and from `slab`. Of
+/// these it says which may touch something in `touched`.
 struct ClipBy {
   BoxInFrame box;
   BoxInFrame touched;
+  SlabInFrame slab;
   float limit;
 };
 
