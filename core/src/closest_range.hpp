@@ -66,6 +66,11 @@ class ClosestRange {
     const double upper = upper_distance(pair_.a.position(a), pair_.b.position(b));
     if (upper > 0 && upper < set_.upper()) set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
   }
+  /// Where points of both surfaces are this far apart. Not at 0, as with middles; and not where a name must
+  /// be that near, since a search to a tolerance may leave it out.
+  void at_most(double upper) {
+    if (upper > 0 && query_.mode == AccuracyMode::exact) set_.at_most(upper);
+  }
   void offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_name(pair_, leaf_a, leaf_b, scratch, *this,
                   [&](const ContactName& name, const SquaredRange& squared) {

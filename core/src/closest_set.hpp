@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "contact_name.hpp"
@@ -13,7 +14,8 @@ enum class Ties : std::uint8_t { lowest, all };
 /// The names at the least distance among some, and a bound on that distance.
 struct Closest {
   NameSet names;
-  /// At least the least distance; infinite before the first offer.
+  /// At least the least distance; infinite before the first offer. It may be known from elsewhere, before a
+  /// name at that distance has been offered.
   double upper = std::numeric_limits<double>::infinity();
   /// Whether an edge pierces a face, among the names offered.
   bool pierced = false;
@@ -49,6 +51,8 @@ class ClosestSet {
     else if (name < names_.front())
       names_.assign(name);
   }
+  /// Nothing further than this is nearest.
+  void at_most(double distance) { closest_.upper = std::min(closest_.upper, distance); }
   /// Whether one name is enough, it is at distance 0, and that is contact.
   [[nodiscard]] bool is_settled(double threshold) const {
     return ties_ == Ties::lowest && closest_.upper == 0 && (closest_.pierced || threshold > 0);
@@ -64,7 +68,7 @@ class ClosestSet {
   static bool is_edge_through_face(const ContactName& name) { return name.kind == ContactKind::EF; }
   void replace(const ContactName& name) {
     names_.assign(name);
-    closest_.upper = upper_distance(pair_, name);
+    at_most(upper_distance(pair_, name));
   }
 
   const SurfacePair& pair_;

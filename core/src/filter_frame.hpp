@@ -67,17 +67,14 @@ class FilterFrame {
     if (!slab.is_known()) return {{0, 0, 0}, 0, 0};
     const Eigen::Vector3d local = to_local(middle);
     const double along = slab.normal.cast<double>().dot(local);
-    const double rounding = local.cwiseAbs().sum() * 0x1p-22;
+    const double rounding = (local.cwiseAbs().sum() + static_cast<double>(slab.radius) * scale_) * 0x1p-22;
     const auto height = [&](float of_slab, double slack) {
       return static_cast<float>(
           std::clamp(along + static_cast<double>(of_slab) * scale_ + slack, -0x1p100, 0x1p100));
     };
-    const float low = height(slab.low, -rounding);
-    const float high = height(slab.high, rounding);
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     return {{slab.normal.x(), slab.normal.y(), slab.normal.z()},
-            std::nextafter(low, -infinity),
-            std::nextafter(high, infinity)};
+            height(slab.low, -rounding),
+            height(slab.high, rounding)};
   }
   /// Local units for one of the scene.
   [[nodiscard]] double scale() const { return scale_; }

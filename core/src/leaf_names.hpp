@@ -60,10 +60,10 @@ struct LeafScratch {
     const Eigen::Vector3d middle_b = pair.b.middle(leaf_b.region);
     LeafSlab slab_a;
     LeafSlab slab_b;
-    if (are_worth_slabs(leaf_a.box, leaf_b.box, limit)) {
-      const RefitOf what = vertices_only ? RefitOf::vertices : RefitOf::faces;
-      slab_a = slabs_a.of(pair.a, leaf_a.region, what);
-      slab_b = slabs_b.of(pair.b, leaf_b.region, what);
+    // Vertices alone are laid out as soon as their slab is made.
+    if (!vertices_only && are_worth_slabs(leaf_a.box, leaf_b.box, limit)) {
+      slab_a = slabs_a.of(pair.a, leaf_a.region);
+      slab_b = slabs_b.of(pair.b, leaf_b.region);
       if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
     }
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);

@@ -87,31 +87,23 @@ class Reach {
   Four squared_{};
 };
 
-float rounded_down(double number) {
-  return std::nextafter(static_cast<float>(number), -LeafSlab::beyond);
-}
-float rounded_up(double number) {
-  return std::nextafter(static_cast<float>(number), LeafSlab::beyond);
-}
-
 template <typename Number>
-void measure(const Number* numbers, const Surface& surface, const Region& leaf, RefitOf what,
-             LeafSlab& slab) {
+void measure(const Number* numbers, const Surface& surface, const Region& leaf, LeafSlab& slab) {
   const RegionTree& tree = surface.mesh().regions();
   Reach<Number> reach(numbers, surface.mesh().vertex_count(), leaf.middle, slab.normal);
   reach.add(tree.vertices(leaf));
-  if (what == RefitOf::faces) reach.add(tree.border(leaf));
-  // Rounding is relative to the ways from the middle, but for what squares lose to underflow.
-  constexpr double lost = std::is_same_v<Number, float> ? 0x1p-70 : lost_to_underflow;
+  reach.add(tree.border(leaf));
+  // Rounding, that to float too, is relative to the ways from the middle, but for what underflow loses.
+  constexpr double lost = std::is_same_v<Number, float> ? 0x1p-70 : 0x1p-140;
   const double radius = std::sqrt(reach.squared()) * (1 + 0x1p-20) + lost;
-  slab.radius = rounded_up(radius);
-  slab.low = rounded_down(reach.low() - radius * 0x1p-20);
-  slab.high = rounded_up(reach.high() + radius * 0x1p-20);
+  slab.radius = static_cast<float>(radius);
+  slab.low = static_cast<float>(reach.low() - radius * 0x1p-20 - lost);
+  slab.high = static_cast<float>(reach.high() + radius * 0x1p-20 + lost);
 }
 
 }  // namespace
 
-LeafSlab slab_of(const Surface& surface, const Region& leaf, RefitOf what) {
+LeafSlab slab_of(const Surface& surface, const Region& leaf) {
   const auto [first, second, third] = surface.mesh().regions().spread(leaf);
   const Eigen::Vector3d corner = surface.position(first);
   const Eigen::Vector3d across = (surface.position(second) - corner).cross(surface.position(third) - corner);
@@ -121,9 +113,9 @@ LeafSlab slab_of(const Surface& surface, const Region& leaf, RefitOf what) {
   slab.normal = (across * ((1 - 0x1p-22) / std::sqrt(squared))).cast<float>();
   const PositionView positions = surface.positions();
   if (positions.is_double())
-    measure(static_cast<const double*>(positions.data()), surface, leaf, what, slab);
+    measure(static_cast<const double*>(positions.data()), surface, leaf, slab);
   else
-    measure(static_cast<const float*>(positions.data()), surface, leaf, what, slab);
+    measure(static_cast<const float*>(positions.data()), surface, leaf, slab);
   return slab;
 }
 

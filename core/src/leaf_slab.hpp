@@ -27,8 +27,8 @@ struct LeafSlab {
   [[nodiscard]] bool is_known() const { return high < beyond; }
 };
 
-/// The slab of the corners of a leaf's features, or of its own vertices alone.
-LeafSlab slab_of(const Surface& surface, const Region& leaf, RefitOf what);
+/// The slab of the corners of a leaf's features.
+LeafSlab slab_of(const Surface& surface, const Region& leaf);
 
 /// Whether what is in two slabs is certainly further apart than a distance; `between` is the way from a's
 /// middle vertex to b's.
@@ -45,12 +45,12 @@ inline bool are_worth_slabs(const Box& a, const Box& b, double distance) {
 class LeafSlabs {
  public:
   /// Stays until the next call. What was made for the same positions is kept.
-  const LeafSlab& of(const Surface& surface, const Region& leaf, RefitOf what) {
-    begin(surface, what);
+  const LeafSlab& of(const Surface& surface, const Region& leaf) {
+    begin(surface);
     const auto number = static_cast<std::size_t>(&leaf - surface.mesh().regions().regions().data());
     if (made_in_[number] != query_) {
       made_in_[number] = query_;
-      slabs_[number] = slab_of(surface, leaf, what);
+      slabs_[number] = slab_of(surface, leaf);
     }
     return slabs_[number];
   }
@@ -65,11 +65,10 @@ class LeafSlabs {
   }
 
  private:
-  void begin(const Surface& surface, RefitOf what) {
-    if (serial_ == surface.serial() && version_ == surface.version() && what_ == what) return;
+  void begin(const Surface& surface) {
+    if (serial_ == surface.serial() && version_ == surface.version()) return;
     serial_ = surface.serial();
     version_ = surface.version();
-    what_ = what;
     const std::size_t count = surface.mesh().regions().region_count();
     if (slabs_.size() < count) {
       slabs_.resize(count);
@@ -83,7 +82,6 @@ class LeafSlabs {
 
   std::uint64_t serial_ = 0;  ///< of the surface and the positions that the slabs are of
   std::uint64_t version_ = 0;
-  RefitOf what_ = RefitOf::faces;
   std::vector<LeafSlab> slabs_;
   std::vector<std::uint32_t> made_in_;  ///< in which query the slab was made
   std::uint32_t query_ = 0;

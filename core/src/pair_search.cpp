@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "feature_pairs.hpp"
+#include "last_witness.hpp"
 #include "measure.hpp"
 #include "measure_batch.hpp"
 #include "parallel.hpp"
@@ -409,7 +410,9 @@ void PairSearch::begin_approach(Worker& worker) {
   beyond_front_ = front_->beyond_now(*a_, *b_);
   from_front_ = beyond_front_ > 0;
   closest_.clear();
-  ClosestRange(worker.pair, query_, ties(), closest_).offer_middles({});
+  ClosestRange range(worker.pair, query_, ties(), closest_);
+  range.offer_middles({});
+  range.at_most(upper_distance(worker.pair, front_->witness, about_vertices()));
   approach(worker);
 }
 
@@ -516,6 +519,7 @@ void PairSearch::report_closest(Worker& worker) {
   answer_->listed = answer_->in_contact || in_reach;
   if (!answer_->listed) return;
   set_distance(worker, nearest);
+  front_->witness = last_witness_of(worker.pair, nearest, answer_->witness.point_a, answer_->witness.point_b);
   answer_->distance.lower = std::min(answer_->distance.lower, closest_.lower);
   if (query_.detail != ContactDetail::closest || !answer_->in_contact) return;
   answer_->contacts.push_back(

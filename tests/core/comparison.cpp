@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "support/catch.hpp"
+
 namespace graze::tests {
 namespace {
 
@@ -80,6 +82,18 @@ Comparison compare_vertices(const Body& a, const Body& b, double threshold) {
   check(ContactDetail::vertices, "vertices", vertices);
   check(ContactDetail::regions, "regions", regions);
   return comparison;
+}
+
+void check_same(const PairAnswer& answer, const PairAnswer& other) {
+  CHECK(answer.complete == other.complete);
+  CHECK(answer.in_contact == other.in_contact);
+  REQUIRE(answer.listed == other.listed);
+  if (!answer.listed) return;
+  CHECK(answer.distance.lower == other.distance.lower);
+  CHECK(answer.distance.upper == other.distance.upper);
+  CHECK(answer.witness.feature_a == other.witness.feature_a);
+  CHECK(answer.witness.feature_b == other.witness.feature_b);
+  CHECK(text_of(answer.contacts) == text_of(other.contacts));
 }
 
 }  // namespace graze::tests

@@ -59,18 +59,6 @@ void move_to(Surface& surface, const oracle::Shape& shape, bool refits) {
   surface.refit_faces();
 }
 
-void check_same(const PairAnswer& answer, const PairAnswer& whole) {
-  CHECK(answer.complete == whole.complete);
-  CHECK(answer.in_contact == whole.in_contact);
-  REQUIRE(answer.listed == whole.listed);
-  if (!answer.listed) return;
-  CHECK(answer.distance.lower == whole.distance.lower);
-  CHECK(answer.distance.upper == whole.distance.upper);
-  CHECK(answer.witness.feature_a == whole.witness.feature_a);
-  CHECK(answer.witness.feature_b == whole.witness.feature_b);
-  CHECK(text_of(answer.contacts) == text_of(whole.contacts));
-}
-
 /// Everything that is said of the regions, bit for bit.
 std::string text_of(std::span<const RegionDistance> distances) {
   std::ostringstream text;

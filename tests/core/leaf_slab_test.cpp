@@ -47,14 +47,13 @@ Shape shape_of(Family family, double height, std::uint64_t seed) {
   return shape;
 }
 
-std::vector<Vector> corners_of(const Surface& surface, const Region& leaf, RefitOf what) {
+std::vector<Vector> corners_of(const Surface& surface, const Region& leaf) {
   const RegionTree& tree = surface.mesh().regions();
   std::vector<Vector> corners;
   for (const std::uint32_t vertex : tree.vertices(leaf))
     corners.emplace_back(surface.position(vertex).cast<Real>());
-  if (what == RefitOf::faces)
-    for (const std::uint32_t vertex : tree.border(leaf))
-      corners.emplace_back(surface.position(vertex).cast<Real>());
+  for (const std::uint32_t vertex : tree.border(leaf))
+    corners.emplace_back(surface.position(vertex).cast<Real>());
   return corners;
 }
 
@@ -64,12 +63,11 @@ struct Leaf {
   std::vector<Vector> corners;
 };
 
-std::vector<Leaf> leaves_of(const Surface& surface, RefitOf what) {
+std::vector<Leaf> leaves_of(const Surface& surface) {
   std::vector<Leaf> leaves;
   for (const Region& region : surface.mesh().regions().regions())
     if (region.is_leaf())
-      leaves.push_back(
-          {slab_of(surface, region, what), surface.middle(region), corners_of(surface, region, what)});
+      leaves.push_back({slab_of(surface, region), surface.middle(region), corners_of(surface, region)});
   return leaves;
 }
 
@@ -132,23 +130,21 @@ TEST_CASE("leaf slabs: they hold the corners, and what they say to be apart is")
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       const Surface first = surface_of(shape_of(static_cast<Family>(family), 0, 2 * seed));
       const Surface second = surface_of(shape_of(static_cast<Family>(family), 1.6, 2 * seed + 1));
-      for (const RefitOf what : {RefitOf::vertices, RefitOf::faces})
-        for (const bool with_floats : {false, true}) {
-          const auto a = leaves_of(with_floats ? in_floats(first) : first, what);
-          const auto b = leaves_of(with_floats ? in_floats(second) : second, what);
-          for (const Leaf& leaf : a) known += check_holds(leaf) ? 1U : 0U;
-          for (const Leaf& leaf : b) known += check_holds(leaf) ? 1U : 0U;
-          const double unit = first.box().max.x() / 20;
-          for (const Leaf& leaf_a : a)
-            for (const Leaf& leaf_b : b)
-              for (const double distance : {0.0, 0.4 * unit, 1.2 * unit}) {
-                const bool is_apart = check_apart(leaf_a, leaf_b, distance);
-                if (family == plain && distance == 0) {
-                  ++all;
-                  apart += is_apart ? 1U : 0U;
-                }
-              }
-        }
+      for (const bool with_floats : {false, true}) {
+        const auto a = leaves_of(with_floats ? in_floats(first) : first);
+        const auto b = leaves_of(with_floats ? in_floats(second) : second);
+        for (const Leaf& leaf : a) known += check_holds(leaf) ? 1U : 0U;
+        for (const Leaf& leaf : b) known += check_holds(leaf) ? 1U : 0U;
+        const double unit = first.box().max.x() / 20;
+        for (const Leaf& leaf_a : a)
+          for (const Leaf& leaf_b : b)
+            for (const double distance : {0.0, 0.4 * unit, 1.2 * unit}) {
+              const bool is_apart = check_apart(leaf_a, leaf_b, distance);
+              if (family != plain || distance > 0) continue;
+              ++all;
+              apart += is_apart ? 1U : 0U;
+            }
+      }
     }
     INFO("family " << family);
     if (family == in_line)
@@ -165,18 +161,17 @@ TEST_CASE("leaf slabs: what is made for the same positions is kept, and made ane
   const auto leaf = std::find_if(tree.regions().begin(), tree.regions().end(),
                                  [](const Region& region) { return region.is_leaf(); });
   LeafSlabs slabs;
-  const float high = slabs.of(surface, *leaf, RefitOf::faces).high;
-  CHECK(slabs.of(surface, *leaf, RefitOf::faces).high == high);
-  CHECK(slabs.of(surface, *leaf, RefitOf::vertices).high < high);
+  const float high = slabs.of(surface, *leaf).high;
+  CHECK(slabs.of(surface, *leaf).high == high);
   std::vector<Vector3d> moved;
   for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex)
     moved.emplace_back(surface.position(vertex) * 4);
   REQUIRE(surface.set_positions(moved).taken());
-  CHECK(std::abs(slabs.of(surface, *leaf, RefitOf::faces).high - 4 * high) < 0x1p-10F);
+  CHECK(std::abs(slabs.of(surface, *leaf).high - 4 * high) < 0x1p-10F);
   const Surface other = surface_of(sheet(0, 1));
   const Region& same =
       other.mesh().regions().region(static_cast<std::uint32_t>(leaf - tree.regions().begin()));
-  CHECK(slabs.of(other, same, RefitOf::faces).high == high);
+  CHECK(slabs.of(other, same).high == high);
 }
 
 }  // namespace graze::tests

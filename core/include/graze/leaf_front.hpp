@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <graze/surface.hpp>
@@ -14,6 +15,21 @@ struct RegionPair {
   std::uint32_t b = 0;
 };
 
+/// A point of a surface that moves with it: of a vertex, an edge, a fold or a triangle, by its corners.
+struct SurfacePoint {
+  std::uint32_t size = 0;  ///< how many corners; 0 for no point
+  std::array<std::uint32_t, 3> corner{};
+  std::array<float, 2> share{};  ///< of the ways from the first corner to the others, not more than 1 in all
+};
+
+/// Points of two surfaces that were nearest to each other.
+struct LastWitness {
+  SurfacePoint on_a;
+  SurfacePoint on_b;
+
+  [[nodiscard]] bool is_known() const { return on_a.size > 0; }
+};
+
 /// Where DMV stopped for one pair of surfaces: every pair of leaves that may have been near, so that the next
 /// query, of a detail that is about surfaces or vertices as this one's was, can start there. It stays good
 /// while the surfaces move less than it was made loose.
@@ -24,10 +40,13 @@ struct LeafFront {
   double beyond = -1;
   Travel travel_a;
   Travel travel_b;
+  /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
+  LastWitness witness;
 
   void forget() {
     leaves.clear();
     beyond = -1;
+    witness = {};
   }
   /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
   [[nodiscard]] double beyond_now(const Surface& a, const Surface& b) const {
