@@ -42,7 +42,7 @@ class Reach {
  private:
   using Four [[gnu::vector_size(4 * sizeof(Number))]] = Number;
 
-  /// A point and any fourth number.
+  /// A point and any fourth number; not returned, since there is no register of four doubles everywhere.
   void load(std::uint32_t vertex, Four& point) const {
     const Number* const at = numbers_ + std::size_t{3} * vertex;
     if (vertex != last_)
