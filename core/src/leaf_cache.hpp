@@ -25,7 +25,7 @@ class LeafCache {
   /// All features of a leaf of that surface; stays until the next call. `corners` is working memory.
   const LeafFeatures& of(const Surface& surface, const Region& leaf, LeafVertices& corners) {
     make_room(leaf);
-    const auto number = static_cast<std::size_t>(&leaf - surface.mesh().regions().regions().data());
+    const std::size_t number = surface.mesh().regions().number(leaf);
     Slot& slot = slots_[number % slot_count];
     if (slot.leaf != &leaf) {
       slot.leaf = &leaf;

@@ -7,6 +7,7 @@
 #include "leaf_cache.hpp"
 #include "leaf_features.hpp"
 #include "leaf_slab.hpp"
+#include "made_of_leaves.hpp"
 #include "piercing.hpp"
 
 namespace graze {
@@ -15,8 +16,8 @@ namespace graze {
 struct LeafScratch {
   LeafCache all_a;
   LeafCache all_b;
-  LeafSlabs slabs_a;
-  LeafSlabs slabs_b;
+  MadeOfLeaves<LeafSlab> slabs_a;
+  MadeOfLeaves<LeafSlab> slabs_b;
   LeafVertices corners;
   LeafFeatures a;
   LeafFeatures b;
@@ -48,6 +49,12 @@ struct LeafScratch {
   }
 
  private:
+  static const LeafSlab& slab_now(MadeOfLeaves<LeafSlab>& slabs, const Surface& surface, const Region& leaf) {
+    slabs.begin(surface);
+    const std::size_t number = surface.mesh().regions().number(leaf);
+    return slabs.of(number, [&] { return slab_of(surface, leaf); });
+  }
+
   template <typename Range, typename BoxOfNear, typename Take>
   bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
             bool vertices_only, const BoxOfNear& box_of_near, const Take& take_near) {
@@ -62,8 +69,8 @@ struct LeafScratch {
     LeafSlab slab_b;
     // Vertices alone are laid out as soon as their slab is made.
     if (!vertices_only && are_worth_slabs(leaf_a.box, leaf_b.box, limit)) {
-      slab_a = slabs_a.of(pair.a, leaf_a.region);
-      slab_b = slabs_b.of(pair.b, leaf_b.region);
+      slab_a = slab_now(slabs_a, pair.a, leaf_a.region);
+      slab_b = slab_now(slabs_b, pair.b, leaf_b.region);
       if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
     }
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);

@@ -8,6 +8,7 @@
 
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
+#include "made_of_leaves.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 
@@ -155,23 +156,25 @@ TEST_CASE("leaf slabs: they hold the corners, and what they say to be apart is")
   CHECK(apart > all / 2);
 }
 
-TEST_CASE("leaf slabs: what is made for the same positions is kept, and made anew for others") {
+TEST_CASE("made of leaves: what is made of the same positions is kept, and made anew of others") {
   Surface surface = surface_of(sheet(0, 1));
-  const RegionTree& tree = surface.mesh().regions();
-  const auto leaf = std::find_if(tree.regions().begin(), tree.regions().end(),
-                                 [](const Region& region) { return region.is_leaf(); });
-  LeafSlabs slabs;
-  const float high = slabs.of(surface, *leaf).high;
-  CHECK(slabs.of(surface, *leaf).high == high);
-  std::vector<Vector3d> moved;
-  for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex)
-    moved.emplace_back(surface.position(vertex) * 4);
-  REQUIRE(surface.set_positions(moved).taken());
-  CHECK(std::abs(slabs.of(surface, *leaf).high - 4 * high) < 0x1p-10F);
   const Surface other = surface_of(sheet(0, 1));
-  const Region& same =
-      other.mesh().regions().region(static_cast<std::uint32_t>(leaf - tree.regions().begin()));
-  CHECK(slabs.of(other, same).high == high);
+  MadeOfLeaves<int> made;
+  int count = 0;
+  const auto value = [&](const Surface& of, std::size_t leaf) {
+    made.begin(of);
+    return made.of(leaf, [&] { return ++count; });
+  };
+  CHECK(value(surface, 3) == 1);
+  CHECK(value(surface, 4) == 2);
+  CHECK(value(surface, 3) == 1);
+  CHECK(value(other, 3) == 3);
+  CHECK(value(surface, 3) == 4);
+  CHECK(value(surface, 4) == 5);
+  REQUIRE(surface.set_positions(sheet(1, 1).positions).changed);
+  CHECK(value(surface, 3) == 6);
+  made.forget();
+  CHECK(value(surface, 3) == 7);
 }
 
 }  // namespace graze::tests

@@ -50,6 +50,10 @@ class GRAZE_API RegionTree {
 
   [[nodiscard]] std::span<const Region> regions() const { return regions_; }
   [[nodiscard]] const Region& region(std::uint32_t index) const { return regions_[index]; }
+  /// The number of one of them.
+  [[nodiscard]] std::size_t number(const Region& region) const {
+    return static_cast<std::size_t>(&region - regions_.data());
+  }
   /// The number of levels, L + 1: level 0 is the whole mesh, L the deepest.
   [[nodiscard]] std::uint32_t level_count() const {
     return static_cast<std::uint32_t>(level_begin_.size()) - 1;
@@ -80,7 +84,7 @@ class GRAZE_API RegionTree {
 
   /// Three corners of a leaf's features that are far apart at rest: about its plane, where it is nearly flat.
   [[nodiscard]] const std::array<std::uint32_t, 3>& spread(const Region& leaf) const {
-    return spread_[static_cast<std::size_t>(&leaf - regions_.data())];
+    return spread_[number(leaf)];
   }
 
   /// Bytes held.
