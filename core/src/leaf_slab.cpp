@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <graze/region_tree.hpp>
 #include <span>
 #include <type_traits>
+
+#include "point_registers.hpp"
 
 namespace graze {
 namespace {
@@ -16,10 +17,7 @@ template <typename Number>
 class Reach {
  public:
   Reach(const Number* numbers, std::uint32_t count, std::uint32_t from, const Eigen::Vector3f& direction)
-      : numbers_(numbers),
-        last_(count - 1),
-        from_(numbers + std::size_t{3} * from),
-        direction_(direction.cast<Number>()) {}
+      : points_(numbers, count), from_(points_.at(from)), direction_(direction.cast<Number>()) {}
 
   void add(std::span<const std::uint32_t> vertices) {
     std::size_t first = 0;
@@ -40,25 +38,17 @@ class Reach {
   }
 
  private:
-  using Four [[gnu::vector_size(4 * sizeof(Number))]] = Number;
+  using Four = typename PointRegisters<Number>::Four;
 
-  /// A point and any fourth number; not returned, since there is no register of four doubles everywhere.
-  void load(std::uint32_t vertex, Four& point) const {
-    const Number* const at = numbers_ + std::size_t{3} * vertex;
-    if (vertex != last_)
-      std::memcpy(&point, at, sizeof point);
-    else
-      point = Four{at[0], at[1], at[2]};
-  }
   void add(const std::uint32_t* vertex) {
     Four v0;
     Four v1;
     Four v2;
     Four v3;
-    load(vertex[0], v0);
-    load(vertex[1], v1);
-    load(vertex[2], v2);
-    load(vertex[3], v3);
+    points_.load(vertex[0], v0);
+    points_.load(vertex[1], v1);
+    points_.load(vertex[2], v2);
+    points_.load(vertex[3], v3);
     const Four xy01 = __builtin_shufflevector(v0, v1, 0, 4, 1, 5);
     const Four xy23 = __builtin_shufflevector(v2, v3, 0, 4, 1, 5);
     const Four z01 = __builtin_shufflevector(v0, v1, 2, 6, 2, 6);
@@ -78,8 +68,7 @@ class Reach {
   }
 
   static constexpr Number beyond = std::numeric_limits<Number>::infinity();
-  const Number* numbers_;
-  std::uint32_t last_;
+  PointRegisters<Number> points_;
   Eigen::Matrix<Number, 3, 1> from_;
   Eigen::Matrix<Number, 3, 1> direction_;
   Four low_{beyond, beyond, beyond, beyond};
@@ -88,7 +77,7 @@ class Reach {
 };
 
 template <typename Number>
-void measure(const Number* numbers, const Surface& surface, const Region& leaf, LeafSlab& slab) {
+void set_reach(const Number* numbers, const Surface& surface, const Region& leaf, LeafSlab& slab) {
   const RegionTree& tree = surface.mesh().regions();
   Reach<Number> reach(numbers, surface.mesh().vertex_count(), leaf.middle, slab.normal);
   reach.add(tree.vertices(leaf));
@@ -100,26 +89,6 @@ void measure(const Number* numbers, const Surface& surface, const Region& leaf, 
   slab.low = static_cast<float>(reach.low() - radius * 0x1p-20 - lost);
   slab.high = static_cast<float>(reach.high() + radius * 0x1p-20 + lost);
 }
-
-}  // namespace
-
-LeafSlab slab_of(const Surface& surface, const Region& leaf) {
-  const auto [first, second, third] = surface.mesh().regions().spread(leaf);
-  const Eigen::Vector3d corner = surface.position(first);
-  const Eigen::Vector3d across = (surface.position(second) - corner).cross(surface.position(third) - corner);
-  const double squared = across.squaredNorm();
-  LeafSlab slab;
-  if (!(squared > 0x1p-900) || !(squared < 0x1p900)) return slab;
-  slab.normal = (across * ((1 - 0x1p-22) / std::sqrt(squared))).cast<float>();
-  const PositionView positions = surface.positions();
-  if (positions.is_double())
-    measure(static_cast<const double*>(positions.data()), surface, leaf, slab);
-  else
-    measure(static_cast<const float*>(positions.data()), surface, leaf, slab);
-  return slab;
-}
-
-namespace {
 
 /// Whether b, which is `between` away, is further than a distance from a as seen along a's normal. A corner
 /// of b at a height h along its own normal is at `cosine` times h there, but for at most `sine` times its
@@ -135,6 +104,22 @@ bool is_apart(const LeafSlab& a, const LeafSlab& b, const Eigen::Vector3d& betwe
 }
 
 }  // namespace
+
+LeafSlab slab_of(const Surface& surface, const Region& leaf) {
+  const auto [first, second, third] = surface.mesh().regions().spread(leaf);
+  const Eigen::Vector3d corner = surface.position(first);
+  const Eigen::Vector3d across = (surface.position(second) - corner).cross(surface.position(third) - corner);
+  const double squared = across.squaredNorm();
+  LeafSlab slab;
+  if (!(squared > 0x1p-900) || !(squared < 0x1p900)) return slab;
+  slab.normal = (across * ((1 - 0x1p-22) / std::sqrt(squared))).cast<float>();
+  const PositionView positions = surface.positions();
+  if (positions.is_double())
+    set_reach(static_cast<const double*>(positions.data()), surface, leaf, slab);
+  else
+    set_reach(static_cast<const float*>(positions.data()), surface, leaf, slab);
+  return slab;
+}
 
 bool are_apart(const LeafSlab& a, const LeafSlab& b, const Eigen::Vector3d& between, double distance) {
   if (!a.is_known() || !b.is_known()) return false;

@@ -12,6 +12,7 @@
 
 #include "kernels/positions.hpp"
 #include "limits.hpp"
+#include "point_registers.hpp"
 #include "validate.hpp"
 
 namespace graze {
@@ -231,19 +232,16 @@ void Surface::write_pose(const std::array<double, 12>& rows, std::uint32_t begin
 
 namespace {
 
-/// The box of points, of which one register holds the coordinates and the number that follows them in memory.
-/// Behind the last point there is none: a number more in each array made S5's steps, which follow the arrays
-/// from object to object, a quarter slower where two arrays no longer fitted in the place of one.
+/// The box of points.
 template <typename Number>
 class PointExtent {
  public:
-  PointExtent(const Number* numbers, std::uint32_t count) : numbers_(numbers), last_(count - 1) {}
+  PointExtent(const Number* numbers, std::size_t count) : points_(numbers, count) {}
 
   void add(std::span<const std::uint32_t> vertices) {
     for (const std::uint32_t vertex : vertices) {
-      const Number* const at = numbers_ + std::size_t{3} * vertex;
-      Four x{at[0], at[1], at[2], at[2]};
-      if (vertex != last_) std::memcpy(&x, at, sizeof x);
+      Four x;
+      points_.load(vertex, x);
       low_ = x < low_ ? x : low_;
       high_ = x > high_ ? x : high_;
     }
@@ -251,10 +249,9 @@ class PointExtent {
   [[nodiscard]] Box box() const { return {{low_[0], low_[1], low_[2]}, {high_[0], high_[1], high_[2]}}; }
 
  private:
-  using Four [[gnu::vector_size(4 * sizeof(Number))]] = Number;
+  using Four = typename PointRegisters<Number>::Four;
   static constexpr Number beyond = std::numeric_limits<Number>::infinity();
-  const Number* numbers_;
-  std::uint32_t last_;
+  PointRegisters<Number> points_;
   Four low_{beyond, beyond, beyond, beyond};
   Four high_ = -low_;
 };
@@ -262,7 +259,7 @@ class PointExtent {
 template <typename Number>
 Box box_of(const std::vector<Eigen::Matrix<Number, 3, 1>>& points, const RegionTree& tree,
            const Region& region, RefitOf what) {
-  PointExtent<Number> extent(points.front().data(), static_cast<std::uint32_t>(points.size()));
+  PointExtent<Number> extent(points.front().data(), points.size());
   extent.add(tree.vertices(region));
   if (what == RefitOf::faces) extent.add(tree.border(region));
   return extent.box();

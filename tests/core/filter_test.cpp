@@ -18,13 +18,12 @@
 #include "support/catch.hpp"
 #include "support/exact.hpp"
 #include "support/random_scenes.hpp"
+#include "support/real.hpp"
 
 namespace graze::tests {
 namespace {
 
 using Eigen::Vector3d;
-using Real = long double;
-using Vector = Eigen::Matrix<Real, 3, 1>;
 using oracle::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();

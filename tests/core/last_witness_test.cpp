@@ -15,13 +15,12 @@
 #include "naming.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
+#include "support/real.hpp"
 
 namespace graze::tests {
 namespace {
 
 using Eigen::Vector3d;
-using Real = long double;
-using Vector = Eigen::Matrix<Real, 3, 1>;
 using oracle::Random;
 using oracle::Shape;
 
@@ -124,10 +123,10 @@ TEST_CASE("last witness: a point of a feature is found again where it was, and m
 
 TEST_CASE("last witness: what an earlier step left does not show in an answer") {
   const FloatingPointScope scope;
-  const Shape ball = random_soup(1, 40, 60);
+  const Shape soup = random_soup(1, 40, 60);
   const Shape sphere = shape_of(models::sphere(16, 12));
   const std::array all{Moves{"spheres", sphere, turned(sphere, 3)},
-                       Moves{"soups", ball, random_soup(4, 40, 60)},
+                       Moves{"soups", soup, random_soup(4, 40, 60)},
                        Moves{"sphere and soup", sphere, mapped(random_soup(7, 30, 40), 0.5, {0, 0, 0})}};
   std::size_t witnesses = 0;
   for (const Moves& moves : all)

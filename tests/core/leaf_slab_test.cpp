@@ -11,13 +11,12 @@
 #include "made_of_leaves.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
+#include "support/real.hpp"
 
 namespace graze::tests {
 namespace {
 
 using Eigen::Vector3d;
-using Real = long double;
-using Vector = Eigen::Matrix<Real, 3, 1>;
 using oracle::Random;
 using oracle::Shape;
 

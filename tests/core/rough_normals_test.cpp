@@ -13,12 +13,11 @@
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
+#include "support/real.hpp"
 
 namespace graze::tests {
 namespace {
 
-using Real = long double;
-using Vector = Eigen::Matrix<Real, 3, 1>;
 using oracle::Random;
 using oracle::Shape;
 

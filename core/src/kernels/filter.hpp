@@ -69,7 +69,8 @@ struct BoxInFrame {
 };
 
 /// What is between two planes: `low` and `high` are at most and at least the products of points with the
-/// normal, of length 1 to 2^-22. Without a normal everything is.
+/// normal, whose length is at most 1, so that these are no further apart than the points. All is between
+/// planes without a normal.
 struct SlabInFrame {
   float normal[3];
   float low, high;

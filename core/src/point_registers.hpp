@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace graze {
+
+/// Points of an array of coordinates, of which one register holds three and the number that follows them.
+/// Behind the last point there is none: a number more in each array made S5's steps, which follow the arrays
+/// from object to object, a quarter slower where two arrays no longer fitted in the place of one.
+template <typename Number>
+class PointRegisters {
+ public:
+  using Four [[gnu::vector_size(4 * sizeof(Number))]] = Number;
+
+  PointRegisters(const Number* numbers, std::size_t count)
+      : numbers_(numbers), last_(static_cast<std::uint32_t>(count - 1)) {}
+
+  [[nodiscard]] const Number* at(std::uint32_t point) const { return numbers_ + std::size_t{3} * point; }
+  /// Not returned, since there is no register of four doubles everywhere.
+  void load(std::uint32_t point, Four& loaded) const {
+    const Number* const xyz = at(point);
+    loaded = Four{xyz[0], xyz[1], xyz[2], xyz[2]};
+    if (point != last_) std::memcpy(&loaded, xyz, sizeof loaded);
+  }
+
+ private:
+  const Number* numbers_;
+  std::uint32_t last_;
+};
+
+}  // namespace graze
