@@ -86,7 +86,7 @@ ReportedContact read_contact(const json& value) {
   read.contact.normal = read_point(value.at("normal"));
   read.contact.side_a = named(sides, value.at("side").at(0));
   read.contact.side_b = named(sides, value.at("side").at(1));
-  if (value.contains("age")) read.contact.age = read_whole<std::uint32_t>(value.at("age"));
+  if (value.contains("since")) read.contact.since = read_whole<std::uint64_t>(value.at("since"));
   return read;
 }
 

@@ -74,7 +74,7 @@ void write_contact(JsonText& json, const Contact& contact, const Mesh& mesh_a, c
   json.key("point_a").point(contact.point_a).key("point_b").point(contact.point_b);
   json.key("normal").point(contact.normal);
   json.key("side").open('[').text(to_string(contact.side_a)).text(to_string(contact.side_b)).close(']');
-  json.key("age").whole(contact.age).close('}');
+  json.key("since").whole(contact.since).close('}');
 }
 
 void write_witness(JsonText& json, const Witness& witness, const Mesh& mesh_a, const Mesh& mesh_b) {

@@ -74,16 +74,18 @@ void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
 /// What came of looking at all vertices.
 struct Looked {
   bool to_write = false;  ///< all vertices, and then the read is to be finished
+  bool changed = false;   ///< the object stands elsewhere, or has begun or ceased to be frozen
   std::optional<Diagnostic> problem;
 };
 
 /// Takes what was seen of all vertices, or says why not.
 Looked take_seen(Object& object, const Surface::PartSeen& all) {
   const Surface::ReadResult result = object.surface_to_write().take(all);
-  Looked looked{result.changed, std::nullopt};
+  Looked looked{result.changed, result.changed, std::nullopt};
   if (object.pose) {
     if (!result.taken()) looked.problem = bad_vertex(object, result, "the pose was not taken");
   } else {
+    looked.changed = looked.changed || object.frozen == result.taken();
     object.frozen = !result.taken();
     looked.problem = object.frozen
                          ? bad_vertex(object, result, "it stands still until good positions are read")
@@ -106,12 +108,12 @@ void finish_read(Object& object) {
   object.box = object.surface().box();
 }
 
-std::optional<Diagnostic> read_whole(Object& object) {
+Looked read_whole(Object& object) {
   const std::uint32_t count = object.surface().mesh().vertex_count();
   Looked looked = take_seen(object, look_at_part(object, 0, count));
   if (looked.to_write) write_part(object, 0, count);
   finish_read(object);
-  return std::move(looked.problem);
+  return looked;
 }
 
 /// Surfaces of more vertices are read and refitted in parts, each of some tens of microseconds.
@@ -138,6 +140,7 @@ void ObjectStore::apply(AddObject& call) {
   by_index_[call.object.index] = object.get();
   serials_.push_back(object->serial);
   objects_.push_back(std::move(object));
+  will_have_changed_ = true;
 }
 
 void ObjectStore::apply(const RemoveObject& call) {
@@ -148,6 +151,7 @@ void ObjectStore::apply(const RemoveObject& call) {
   object->removed = true;
   const auto place = std::lower_bound(serials_.begin(), serials_.end(), object->serial) - serials_.begin();
   removed_.push_back(std::move(objects_[static_cast<std::size_t>(place)]));
+  will_have_changed_ = true;
 }
 
 void ObjectStore::apply(const SetPose& call) {
@@ -187,6 +191,7 @@ void ObjectStore::apply(const UnbindPositions& call) {
   object->unread = false;
   object->promised = 0;
   object->box = object->surface().box();
+  will_have_changed_ = true;
 }
 
 void ObjectStore::apply(const PositionsChanged& call) {
@@ -244,6 +249,7 @@ void ObjectStore::drop_removed() {
 }
 
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
+  changed_ = std::exchange(will_have_changed_, false);
   drop_removed();
   std::erase_if(with_input_, [](Object* object) {
     object->may_have_input = has_input(*object);
@@ -252,8 +258,10 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   begin_list();
   for (Object* const object : with_input_) {
     add_promise(*object);
+    const bool was_unread = object->unread;
     object->unread =
         !checks_every_promise && !object->pose && !object->frozen && std::isfinite(object->promised);
+    if (was_unread || object->unread) changed_ = true;
     if (object->unread)
       object->box = grown(object->surface().box(), object->promised);
     else
@@ -279,6 +287,8 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
     list_to_read(*object);
   }
   read_listed(tasks, diagnostics);
+  // The next step finds what pairs have come by this.
+  will_have_changed_ = true;
 }
 
 void ObjectStore::begin_list() {
@@ -307,7 +317,9 @@ void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnost
     } else {
       Object& object = *to_read_[item - parts_.size()];
       const AccessScope access({AccessRight::write(&object), {}});
-      read_problems_[item - parts_.size()] = read_whole(object);
+      Looked looked = read_whole(object);
+      if (looked.changed) changed_.store(true, std::memory_order_relaxed);
+      read_problems_[item - parts_.size()] = std::move(looked.problem);
     }
   });
   problems_.clear();
@@ -331,6 +343,7 @@ void ObjectStore::take_large(TaskPool& tasks) {
     const std::size_t begin = part;
     for (; part < end; ++part) all.add(parts_[part].seen);
     Looked looked = take_seen(*object, all);
+    if (looked.changed) changed_ = true;
     if (looked.problem) problems_.emplace_back(object->serial, std::move(*looked.problem));
     if (!looked.to_write) continue;
     for (std::size_t place = begin; place < end; ++place) parts_[to_write++] = parts_[place];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <graze/surface.hpp>
 #include <limits>
@@ -79,6 +80,9 @@ class ObjectStore {
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
+  /// Whether anything may be otherwise than the step before saw it: which objects there are, where one is,
+  /// and whether it is frozen or unread. After `read_positions`.
+  [[nodiscard]] bool changed() const { return changed_; }
   /// Those that are there after `read_positions`; ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
   [[nodiscard]] Object* find(ObjectId id);
@@ -124,6 +128,8 @@ class ObjectStore {
   std::uint64_t next_serial_ = 0;
   std::uint64_t first_unseen_ = 0;  ///< the serial of the first object that no step has seen
   std::size_t surface_bytes_ = 0;
+  std::atomic<bool> changed_ = false;
+  bool will_have_changed_ = false;  ///< at the next `read_positions`, whatever that sees
 };
 
 }  // namespace graze

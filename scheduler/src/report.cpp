@@ -2,6 +2,24 @@
 
 namespace graze {
 
+FrameReport::FrameReport(const FrameReport& other)
+    : frame_(other.frame_),
+      complete_(other.complete_),
+      rows_(*other.shown_),
+      diagnostics_(other.diagnostics_),
+      statistics_(other.statistics_) {}
+
+FrameReport& FrameReport::operator=(const FrameReport& other) {
+  if (this == &other) return *this;
+  frame_ = other.frame_;
+  complete_ = other.complete_;
+  rows_ = *other.shown_;
+  shown_ = &rows_;
+  diagnostics_ = other.diagnostics_;
+  statistics_ = other.statistics_;
+  return *this;
+}
+
 std::string_view to_string(DiagnosticKind kind) {
   switch (kind) {
     case DiagnosticKind::stale_id:

@@ -31,40 +31,48 @@ class ReportBuilder {
   void begin(std::uint64_t frame) {
     report_.frame_ = frame;
     report_.complete_ = true;
-    report_.pairs_.clear();
-    report_.contacts_.clear();
-    report_.region_distances_.clear();
+    report_.shown_ = &report_.rows_;
+    report_.rows_.pairs.clear();
+    report_.rows_.contacts.clear();
+    report_.rows_.region_distances.clear();
     report_.diagnostics_.clear();
     report_.statistics_ = {};
   }
   /// Appends a pair with what belongs to it, and gives its contacts back for what else is to be said of them.
   std::span<Contact> add(PairReport pair, std::span<const Contact> contacts,
                          std::span<const RegionDistance> region_distances) {
-    pair.first_region_distance = report_.region_distances_.size();
+    pair.first_region_distance = report_.rows_.region_distances.size();
     pair.region_distance_count = region_distances.size();
-    report_.region_distances_.insert(report_.region_distances_.end(), region_distances.begin(),
-                                     region_distances.end());
-    pair.first_contact = report_.contacts_.size();
+    report_.rows_.region_distances.insert(report_.rows_.region_distances.end(), region_distances.begin(),
+                                          region_distances.end());
+    pair.first_contact = report_.rows_.contacts.size();
     pair.contact_count = contacts.size();
-    report_.contacts_.insert(report_.contacts_.end(), contacts.begin(), contacts.end());
-    report_.pairs_.push_back(pair);
+    report_.rows_.contacts.insert(report_.rows_.contacts.end(), contacts.begin(), contacts.end());
+    report_.rows_.pairs.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
-    return std::span(report_.contacts_).subspan(pair.first_contact);
+    return std::span(report_.rows_.contacts).subspan(pair.first_contact);
   }
+  /// Shows the rows of another report, which must stay as it is while this one is read, in place of its own.
+  void show_rows_of(const FrameReport& other) {
+    report_.shown_ = other.shown_;
+    report_.complete_ = other.complete_;
+  }
+  [[nodiscard]] std::uint64_t frame() const { return report_.frame_; }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
 
   void reserve(const ReportRoom& room) {
-    report_.pairs_.reserve(room.pairs);
-    report_.contacts_.reserve(room.contacts);
-    report_.region_distances_.reserve(room.region_distances);
+    report_.rows_.pairs.reserve(room.pairs);
+    report_.rows_.contacts.reserve(room.contacts);
+    report_.rows_.region_distances.reserve(room.region_distances);
   }
   [[nodiscard]] ReportRoom room() const {
-    return {report_.pairs_.capacity(), report_.contacts_.capacity(), report_.region_distances_.capacity()};
+    return {report_.rows_.pairs.capacity(), report_.rows_.contacts.capacity(),
+            report_.rows_.region_distances.capacity()};
   }
   [[nodiscard]] std::size_t byte_count() const {
-    std::size_t bytes = bytes_of(report_.pairs_) + bytes_of(report_.contacts_) +
-                        bytes_of(report_.region_distances_) + bytes_of(report_.diagnostics_);
+    std::size_t bytes = bytes_of(report_.rows_.pairs) + bytes_of(report_.rows_.contacts) +
+                        bytes_of(report_.rows_.region_distances) + bytes_of(report_.diagnostics_);
     for (const Diagnostic& diagnostic : report_.diagnostics_) bytes += diagnostic.message.capacity();
     return bytes;
   }

@@ -27,6 +27,7 @@ ReportHandle ReportPool::latest() noexcept {
 }
 
 FrameReport& ReportPool::begin() {
+  end_loans();
   const std::uint32_t found = find_free();
   if (found == slot_limit && slot_count_ == slot_limit)
     throw Error("scene: " + std::to_string(slot_count_) +
@@ -39,6 +40,25 @@ FrameReport& ReportPool::begin() {
   }
   make_room(filling_);
   return slot(filling_).report;
+}
+
+void ReportPool::repeat_rows() {
+  const std::uint32_t last = published();
+  const std::uint32_t lender = slot(last).lender == no_slot ? last : slot(last).lender;
+  slot(filling_).lender = lender;
+  ++slot(lender).borrowers;
+  ++loan_count_;
+  ReportBuilder(slot(filling_).report).show_rows_of(slot(last).report);
+}
+
+/// Those of slots that nobody reads.
+void ReportPool::end_loans() {
+  for (std::uint32_t index = 0; loan_count_ > 0 && index < slot_count_; ++index) {
+    std::uint32_t& lender = slot(index).lender;
+    if (lender == no_slot || !is_unread(index)) continue;
+    --slot(std::exchange(lender, no_slot)).borrowers;
+    --loan_count_;
+  }
 }
 
 /// A slot that can be filled, better one that has room; slot_limit where there is none.
@@ -54,10 +74,14 @@ std::uint32_t ReportPool::find_free() {
   return found;
 }
 
-/// Whether nobody reads it.
+/// Whether nobody reads its report.
+bool ReportPool::is_unread(std::uint32_t index) {
+  return index != published() && slot(index).references.load(std::memory_order_acquire) == 0;
+}
+
+/// Whether nobody reads what it holds.
 bool ReportPool::is_free(std::uint32_t index) {
-  const auto published = static_cast<std::uint32_t>(current_.load(std::memory_order_relaxed) >> count_bits);
-  return index != published && slot(index).references.load(std::memory_order_acquire) == 0;
+  return slot(index).borrowers == 0 && is_unread(index);
 }
 
 bool ReportPool::has_room(std::uint32_t index) {

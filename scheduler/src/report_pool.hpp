@@ -19,6 +19,9 @@ namespace graze {
 /// left. Only the stepping thread looks for such slots and fills them again, so a reader that sleeps costs
 /// one slot and nobody waits for it.
 ///
+/// A report may show the rows of an earlier one, its lender, whose slot is filled again only when no report
+/// that can still be read shows them. The stepping thread alone keeps count of that.
+///
 /// The pool lives until its scene is gone and every handle is: `owners_` counts the scene and every retired
 /// slot that is still referenced.
 class ReportPool {
@@ -33,9 +36,11 @@ class ReportPool {
 
   /// A report that nobody reads, to be filled. Stepping thread only. Throws Error when all slots are held.
   [[nodiscard]] FrameReport& begin();
+  /// Has the report of the last `begin` show the rows of the published one. Stepping thread only, as is all
+  /// that follows.
+  void repeat_rows();
   /// Gives every report that nobody reads as much room as any has needed, the others as soon as they are let
-  /// go of: whichever is next, a step like an earlier one takes no memory. Stepping thread only, as is what
-  /// follows.
+  /// go of: whichever is next, a step like an earlier one takes no memory.
   void even_out();
   /// Makes room for so many reports held at once, beside the published one, of that size.
   void reserve(std::size_t held, const ReportRoom& room);
@@ -51,10 +56,13 @@ class ReportPool {
  private:
   friend class ReportHandle;
 
+  static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
   struct Slot {
     FrameReport report;
     std::atomic<std::int64_t> references{0};
-    std::size_t counted_bytes = 0;  ///< its part of byte_count_
+    std::size_t counted_bytes = 0;   ///< its part of byte_count_
+    std::uint32_t lender = no_slot;  ///< whose rows its report shows, where they are not its own
+    std::uint32_t borrowers = 0;     ///< slots whose lender it is
   };
   static constexpr std::uint32_t chunk_size = 64;
   static constexpr std::uint32_t chunk_capacity = 1024;
@@ -71,7 +79,12 @@ class ReportPool {
   void add_reference(std::uint32_t index) noexcept {
     slot(index).references.fetch_add(1, std::memory_order_relaxed);
   }
+  [[nodiscard]] std::uint32_t published() const noexcept {
+    return static_cast<std::uint32_t>(current_.load(std::memory_order_relaxed) >> count_bits);
+  }
+  [[nodiscard]] bool is_unread(std::uint32_t index);
   [[nodiscard]] bool is_free(std::uint32_t index);
+  void end_loans();
   [[nodiscard]] std::uint32_t find_free();
   [[nodiscard]] bool has_room(std::uint32_t index);
   std::uint32_t add_slot();
@@ -90,7 +103,8 @@ class ReportPool {
   std::array<std::unique_ptr<Chunk>, chunk_capacity> chunks_;
   std::uint32_t slot_count_ = 0;
   std::uint32_t filling_ = 0;
-  ReportRoom room_;  ///< that every report gets when nobody reads it
+  std::uint32_t loan_count_ = 0;  ///< slots that have a lender
+  ReportRoom room_;               ///< that every report gets when nobody reads it
   bool all_have_room_ = true;
   std::size_t byte_count_ = sizeof(ReportPool);
 };

@@ -35,7 +35,7 @@ std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer) {
   return std::nullopt;
 }
 
-void set_ages(std::span<const Contact> last, std::span<Contact> contacts) {
+void set_since(std::span<const Contact> last, std::span<Contact> contacts, std::uint64_t frame) {
   const auto key_of = [](const Contact& contact) {
     return std::tie(contact.kind, contact.feature_a, contact.feature_b);
   };
@@ -43,7 +43,7 @@ void set_ages(std::span<const Contact> last, std::span<Contact> contacts) {
   for (Contact& contact : contacts) {
     while (before != last.end() && key_of(*before) < key_of(contact)) ++before;
     const bool is_old = before != last.end() && key_of(*before) == key_of(contact);
-    contact.age = is_old ? before->age + 1 : 0;
+    contact.since = is_old ? before->since : frame;
   }
 }
 

@@ -51,40 +51,50 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
   take_up_calls(builder.diagnostics());
   store_.read_positions(tasks_, builder.diagnostics());
   statistics.read_ms = lap();
-  const auto jobs = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
-  statistics.pairs_ms = lap();
-  refit_.run(jobs);
-  statistics.refit_ms = lap();
-  jobs_.run(jobs, pairs_.filter().rules_version(), start);
-  statistics.jobs_ms = lap();
-  write_pairs(jobs, previous, builder);
-  sum_counters(statistics);
-  jobs_.even_out_memory();
-  reports_.even_out();
+  std::span<const PairJob> jobs;
+  if (std::exchange(is_settled_, false) && !store_.changed()) {
+    repeat_rows(previous, statistics);
+  } else {
+    jobs = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
+    statistics.pairs_ms = lap();
+    refit_.run(jobs);
+    statistics.refit_ms = lap();
+    jobs_.run(jobs, pairs_.filter().rules_version(), start);
+    statistics.jobs_ms = lap();
+    write_pairs(jobs, previous, builder);
+    sum_counters(statistics);
+    jobs_.even_out_memory();
+    reports_.even_out();
+  }
   count_bytes(jobs, statistics);
   statistics.publish_ms = lap();
   statistics.step_ms = Lap(start)();
 }
 
 void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
-  staging_.visit_taken(Overloaded{
-      [&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
-      [&](SetRule& rule) { pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule)); },
-      [&](IgnorePair& pair) {
-        const Object* const a = store_.find(pair.a);
-        const Object* const b = store_.find(pair.b);
-        if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
-      },
-      [&](RemoveObject& removed) {
-        if (const Object* const object = store_.find(removed.object)) pairs_.filter().forget(*object);
-        store_.apply(removed);
-      },
-      [&](Reserve& call) { reserve(call.capacity); },
-      [&](AddObject& added) {
-        if (is_reserved_) make_ready(*added.surface);
-        store_.apply(added);
-      },
-      [&](auto& other) { store_.apply(other); }});
+  staging_.visit_taken(
+      Overloaded{[&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
+                 [&](SetRule& rule) {
+                   pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
+                   is_settled_ = false;
+                 },
+                 [&](IgnorePair& pair) {
+                   is_settled_ = false;
+                   const Object* const a = store_.find(pair.a);
+                   const Object* const b = store_.find(pair.b);
+                   if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
+                 },
+                 [&](RemoveObject& removed) {
+                   if (const Object* const object = store_.find(removed.object))
+                     pairs_.filter().forget(*object);
+                   store_.apply(removed);
+                 },
+                 [&](Reserve& call) { reserve(call.capacity); },
+                 [&](AddObject& added) {
+                   if (is_reserved_) make_ready(*added.surface);
+                   store_.apply(added);
+                 },
+                 [&](auto& other) { store_.apply(other); }});
 }
 
 void Step::reserve(const SceneCapacity& capacity) {
@@ -114,12 +124,14 @@ void Step::make_ready(Surface& surface) {
 /// pairs.
 void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
+  std::size_t rows_again = 0;
   for (std::size_t index = 0; index < jobs.size(); ++index) {
     const PairJob& job = jobs[index];
     const bool repeats = !job.is_looked_at();
     std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
     if (!row) continue;
     if (repeats && !job.allowed) row->phase = PairPhase::ended;
+    if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again;
     const bool in_contact = row->phase == PairPhase::began || row->phase == PairPhase::touching;
     const KeptAnswer& answer = jobs_.answer(index);
     std::span<const Contact> contacts;
@@ -127,12 +139,28 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
     const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
     const auto reported = builder.add(*row, contacts, regions);
     statistics.region_distances += regions.size();
-    if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
-    if (job.last != nullptr && !row->stale) set_ages(previous.contacts(*job.last), reported);
+    if (!repeats) {
+      statistics.region_distances_left_out += answer.region_distances_left_out;
+      const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
+      set_since(last, reported, builder.frame());
+    }
     ++statistics.pairs_near;
     if (in_contact) ++statistics.pairs_in_contact;
     statistics.contacts += contacts.size();
   }
+  is_settled_ = statistics.pairs_tested == 0 && rows_again == statistics.pairs_near;
+}
+
+/// The rows of the last report again, which looked at no pair.
+void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) {
+  reports_.repeat_rows();
+  const double read_ms = statistics.read_ms;
+  statistics = previous.statistics();
+  statistics.read_ms = read_ms;
+  statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
+  // Of objects without pairs.
+  statistics.objects_unread = statistics.boxes_tested = statistics.objects_in_slack = 0;
+  is_settled_ = true;
 }
 
 void Step::sum_counters(StepStatistics& statistics) {

@@ -35,6 +35,7 @@ class Step {
   void reserve(const SceneCapacity& capacity);
   void make_ready(Surface& surface);
   void write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder);
+  void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
   void sum_counters(StepStatistics& statistics);
   void count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics);
 
@@ -47,6 +48,9 @@ class Step {
   RegionRefit refit_;
   PairJobs jobs_;
   bool is_reserved_ = false;  ///< room for near pairs, also of objects that come
+  /// The last step looked at no pair and all its rows were as before: so will be the next one's if nothing
+  /// changes.
+  bool is_settled_ = false;
 };
 
 }  // namespace graze

@@ -89,6 +89,8 @@ std::string difference_of(const FrameReport& left, const FrameReport& right) {
     return std::to_string(left_rows.size()) + " rows and " + std::to_string(right_rows.size());
   for (std::size_t i = 0; i < left_rows.size(); ++i)
     if (left_rows[i] != right_rows[i]) return left_rows[i] + "\nand\n" + right_rows[i];
+  for (std::size_t i = 0; i < left.contacts().size(); ++i)
+    if (left.contacts()[i].since != right.contacts()[i].since) return "since when a contact is there";
   if (left.diagnostics().size() != right.diagnostics().size()) return "number of diagnostics";
   for (std::size_t i = 0; i < left.diagnostics().size(); ++i) {
     const Diagnostic& l = left.diagnostics()[i];

@@ -61,7 +61,7 @@ void ReportHash::add(const FrameReport& report) {
   for (const PairReport& pair : report.pairs()) add(pair);
   for (const Contact& contact : report.contacts()) {
     add(contact);
-    add(std::uint64_t{contact.age});
+    add(report.age(contact));
   }
   for (const Diagnostic& diagnostic : report.diagnostics()) {
     add(diagnostic.object);

@@ -10,7 +10,7 @@ namespace graze::scenes {
 class ReportHash {
  public:
   void add(const FrameReport& report);
-  /// All of it but its age, which earlier steps have to do with.
+  /// All of it but since when, which earlier steps have to do with.
   void add(const Contact& contact);
   /// Bounds and witness of a row, and nothing else of it.
   void add_distance(const PairReport& pair);

@@ -45,9 +45,9 @@ struct Contact {
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit length, from a to b
   double distance = 0;
-  /// In reports of a scene: for how many steps before this one the two features have been in contact without
-  /// a break; counted where a pair is looked at, so not in stale rows.
-  std::uint32_t age = 0;
+  /// In reports of a scene: frame() of the first report of those, without a break up to this one, that list
+  /// the two features in contact.
+  std::uint64_t since = 0;
 };
 
 /// lower ≤ true distance ≤ upper.

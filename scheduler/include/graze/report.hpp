@@ -110,19 +110,26 @@ struct StepStatistics {
 /// The published answer of one step; immutable. Read it from any thread.
 class GRAZE_API FrameReport {
  public:
+  FrameReport() = default;
+  FrameReport(const FrameReport& other);
+  FrameReport& operator=(const FrameReport& other);
+  ~FrameReport() = default;
+
   /// 1 for the first step; 0 before it.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
   /// Sorted by the order in which a, then b, were added.
-  [[nodiscard]] std::span<const PairReport> pairs() const { return pairs_; }
+  [[nodiscard]] std::span<const PairReport> pairs() const { return shown_->pairs; }
   /// The contacts of all pairs, in the pairs' order; within a pair by (kind, feature a, feature b).
-  [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
+  [[nodiscard]] std::span<const Contact> contacts() const { return shown_->contacts; }
   /// The contacts of one pair of this report.
   [[nodiscard]] std::span<const Contact> contacts(const PairReport& pair) const {
     return contacts().subspan(pair.first_contact, pair.contact_count);
   }
+  /// For how many steps before this one the features of one of its contacts have been so without a break.
+  [[nodiscard]] std::uint64_t age(const Contact& contact) const { return frame_ - contact.since; }
   /// The distances of regions that are alive, of all pairs, where SceneSettings::region_distances asks for
   /// them: in the pairs' order, within a pair by level.
-  [[nodiscard]] std::span<const RegionDistance> region_distances() const { return region_distances_; }
+  [[nodiscard]] std::span<const RegionDistance> region_distances() const { return shown_->region_distances; }
   /// Those of one pair of this report.
   [[nodiscard]] std::span<const RegionDistance> region_distances(const PairReport& pair) const {
     return region_distances().subspan(pair.first_region_distance, pair.region_distance_count);
@@ -134,11 +141,17 @@ class GRAZE_API FrameReport {
 
  private:
   friend class ReportBuilder;
+  struct Rows {
+    std::vector<PairReport> pairs;
+    std::vector<Contact> contacts;
+    std::vector<RegionDistance> region_distances;
+  };
+
   std::uint64_t frame_ = 0;
   bool complete_ = true;
-  std::vector<PairReport> pairs_;
-  std::vector<Contact> contacts_;
-  std::vector<RegionDistance> region_distances_;
+  Rows rows_;
+  /// Its own rows, or those of an earlier report of the scene, which were these.
+  const Rows* shown_ = &rows_;
   std::vector<Diagnostic> diagnostics_;
   StepStatistics statistics_;
 };

@@ -1,0 +1,173 @@
+// Steps in which nothing has changed: their reports show the rows of the report before.
+
+#include <limits>
+#include <random>
+
+#include "scheduler/moving_scene.hpp"
+#include "scheduler/report_text.hpp"
+#include "scheduler/scene_support.hpp"
+#include "support/catch.hpp"
+
+namespace graze::tests {
+namespace {
+
+bool shares_rows(const ReportHandle& left, const ReportHandle& right) {
+  return left->pairs().data() == right->pairs().data();
+}
+
+/// Two plates and two needles that are told to do the same, and far from the second plate, in its scene
+/// alone, a needle that never rests, so that no step of that scene is one without a change.
+class RestingAndNot {
+ public:
+  explicit RestingAndNot(const SceneSettings& settings)
+      : resting_(settings), restless_(settings), far_(restless_.scene.add(needle_mesh())) {}
+
+  template <typename Tell>
+  void tell(const Tell& tell) {
+    tell(resting_);
+    tell(restless_);
+  }
+  /// Steps both; the report of the one that may rest.
+  ReportHandle step() {
+    far_height_ = far_height_ == 1000 ? 1001 : 1000;
+    restless_.scene.set_positions(far_, lifted(*needle_mesh(), far_height_));
+    const ReportHandle other = restless_.scene.step();
+    const ReportHandle report = resting_.scene.step();
+    INFO("frame " << report->frame());
+    CHECK(difference_of(*report, *other) == "");
+    CHECK(report->statistics().pairs_near == other->statistics().pairs_near);
+    CHECK(report->statistics().pairs_in_contact == other->statistics().pairs_in_contact);
+    CHECK(report->statistics().pairs_unchanged == other->statistics().pairs_unchanged);
+    CHECK(report->statistics().pairs_tested == other->statistics().pairs_tested);
+    CHECK(report->statistics().contacts == other->statistics().contacts);
+    return report;
+  }
+
+ private:
+  NeedleOverPlate resting_;
+  NeedleOverPlate restless_;
+  ObjectId far_;
+  double far_height_ = 1000;
+};
+
+}  // namespace
+
+TEST_CASE("rest: reports say the same as where something else moves, whatever happens in between") {
+  RestingAndNot scenes(settings_of(0.5, 1));
+  std::mt19937 random(11);
+  std::size_t shared = 0;
+  ReportHandle last;
+  for (int step = 0; step < 600; ++step) {
+    const auto event = random() % 24;
+    scenes.tell([&](NeedleOverPlate& pair) {
+      switch (event) {
+        case 0:
+          return pair.lift(0.25);
+        case 1:
+          return pair.lift(0.75);
+        case 2:
+          return pair.lift(5);
+        case 3:
+          return pair.scene.ignore(pair.plate, pair.needle);
+        case 4:
+        case 5:
+          return pair.scene.watch(pair.plate, pair.needle);
+        case 6:
+          return pair.scene.set_rule(0, 0, {.contact_distance = 0.8, .range = 1});
+        case 7:
+          return pair.scene.set_rule(0, 0, {.contact_distance = 0.5, .range = 1});
+        case 8:
+          return pair.scene.set_pose(pair.needle, lift_pose(0));  // a diagnostic, and no change
+        case 9:
+          return pair.scene.unbind_positions(pair.needle);
+        default:
+          return;
+      }
+    });
+    const ReportHandle report = scenes.step();
+    if (last && shares_rows(last, report) && !report->pairs().empty()) ++shared;
+    last = report;
+  }
+  CHECK(shared > 100);
+}
+
+TEST_CASE("rest: objects that come, go and are replaced are seen") {
+  NeedleOverPlate pair(settings_of(0.5, 1));
+  const auto settle = [&] {
+    for (int step = 0; step < 4; ++step) (void)pair.scene.step();
+    return pair.scene.latest_report();
+  };
+  pair.lift(0.25);
+  CHECK(settle()->pairs().size() == 1);
+  const ObjectId other = pair.scene.add(needle_mesh());
+  CHECK(pair.scene.step()->pairs().size() == 3);
+  CHECK(settle()->pairs().size() == 3);
+  pair.scene.remove(pair.needle);
+  CHECK(pair.scene.step()->pairs().size() == 1);
+  settle();
+  pair.scene.remove(other);
+  CHECK(pair.scene.step()->pairs().empty());
+  CHECK(settle()->pairs().empty());
+}
+
+TEST_CASE("rest: bound memory is read in every step, and what moves in it or freezes is seen") {
+  NeedleOverPlate pair(settings_of(0.5, 1));
+  Positions positions = lifted(*needle_mesh(), 0.25);
+  pair.scene.bind_positions(pair.needle, PositionView(positions));
+  ReportHandle last = pair.scene.step();
+  std::size_t shared = 0;
+  const auto step = [&] {
+    const ReportHandle report = pair.scene.step();
+    if (shares_rows(last, report)) ++shared;
+    last = report;
+    return report;
+  };
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 4; ++i) CHECK(only_pair(*step()).distance.upper == 0.25);
+    std::ranges::copy(lifted(*needle_mesh(), 0.375), positions.begin());
+    for (int i = 0; i < 4; ++i) CHECK(only_pair(*step()).distance.upper == 0.375);
+    positions[0].x() = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < 4; ++i) {
+      CHECK(only_pair(*step()).stale);
+      CHECK(last->diagnostics().size() == 1);
+    }
+    std::ranges::copy(lifted(*needle_mesh(), 0.375), positions.begin());
+    for (int i = 0; i < 4; ++i) CHECK_FALSE(only_pair(*step()).stale);
+    std::ranges::copy(lifted(*needle_mesh(), 0.25), positions.begin());
+  }
+  CHECK(shared >= 12);
+}
+
+TEST_CASE("rest: rows that reports share stay as they were while any of these is held") {
+  std::vector<ReportHandle> handles;
+  std::vector<std::vector<std::string>> rows;
+  FrameReport copy;
+  {
+    NeedleOverPlate pair(settings_of(0.5, 1));
+    std::mt19937 random(5);
+    for (std::size_t i = 0; i < 2000; ++i) {
+      if (random() % 8 == 0) pair.lift(static_cast<double>(random() % 16) / 16);
+      handles.push_back(pair.scene.step());
+      rows.push_back(rows_of(*handles.back()));
+      if (i % 64 == 63)
+        for (std::size_t j = i - 63; j <= i; ++j)
+          if (random() % 4 != 0) handles[j] = ReportHandle();
+    }
+    copy = *handles.back();
+  }
+  std::size_t held = 0;
+  std::size_t shared = 0;
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    if (!handles[i]) continue;
+    ++held;
+    REQUIRE(handles[i]->frame() == i + 1);
+    REQUIRE(rows_of(*handles[i]) == rows[i]);
+    if (i > 0 && handles[i - 1] && shares_rows(handles[i - 1], handles[i])) ++shared;
+  }
+  CHECK(held > 300);
+  CHECK(shared > 20);
+  handles.clear();
+  CHECK(rows_of(copy) == rows.back());
+}
+
+}  // namespace graze::tests
