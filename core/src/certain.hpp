@@ -21,6 +21,12 @@ struct SquaredRange {
   [[nodiscard]] bool is_beyond(double limit) const { return low > limit * limit * (1 + 0x1p-50) + 0x1p-1000; }
 };
 
+/// Of two points: no more than five roundings, and what underflow loses.
+inline SquaredRange squared_range(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double squared = (b - a).squaredNorm();
+  return {squared * (1 - 0x1p-50) - 0x1p-1000, squared * (1 + 0x1p-50) + 0x1p-1000};
+}
+
 /// Where in a triangle (0, 1, 2) a closest point lies.
 enum class Place : std::uint8_t { vertex0, vertex1, vertex2, edge01, edge12, edge20, inside, no_area };
 

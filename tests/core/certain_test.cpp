@@ -251,6 +251,23 @@ TEST_CASE("certain: whether a segment passes through a triangle") {
   std::cout << "compared " << compared << " certain passings\n";
 }
 
+TEST_CASE("certain: the squared distance of two points") {
+  for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
+    Generator generator(static_cast<Generator::Family>(family), family + 60);
+    for (int i = 0; i < 1500; ++i) {
+      // Down to where squares underflow.
+      const double scale = family == Generator::minute ? std::ldexp(1.0, -(i % 1000)) : 1;
+      const Vector3d a = generator.point() * scale;
+      const Vector3d b = generator.point() * scale;
+      const SquaredRange range = squared_range(a, b);
+      const Rational truth = squared_length(oracle::exact(b) - oracle::exact(a));
+      INFO("family " << family << ", case " << i);
+      check_range(range, truth);
+      CHECK(range.high - range.low <= range.high * 0x1p-48 + 0x1p-998);
+    }
+  }
+}
+
 TEST_CASE("certain: a range of squared distances is below or beyond a limit, or neither") {
   const SquaredRange range{4, 9};
   CHECK(range.is_below(3.1));
