@@ -165,20 +165,19 @@ bool Surface::is_laid_out_like(const PositionView& view) const {
 
 namespace {
 
-/// One pass over positions that lie as the ones before do; nothing where one of them is bad.
+/// What fast passes see of positions that lie as the ones before do; nothing where one of them is bad.
 template <typename Number>
-std::optional<Surface::PartSeen> seen_in_one_pass(const void* now, const void* before, std::uint32_t begin,
-                                                  std::uint32_t end) {
+std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* before, std::uint32_t begin,
+                                                std::uint32_t end, Surface::Displacement displacement) {
   kernels::PositionsSeen<Number> seen{};
-  const auto pass = [&](const auto& of_set) {
-    of_set(static_cast<const Number*>(now) + std::size_t{3} * begin,
-           static_cast<const Number*>(before) + std::size_t{3} * begin, end - begin,
-           static_cast<Number>(largest_coordinate), seen);
-  };
+  const Number* const first = static_cast<const Number*>(now) + std::size_t{3} * begin;
+  const Number* const was_first = static_cast<const Number*>(before) + std::size_t{3} * begin;
+  const kernels::PositionPasses& passes = kernels::position_passes();
+  const auto limit = static_cast<Number>(largest_coordinate);
   if constexpr (std::is_same_v<Number, float>)
-    pass(kernels::position_passes().floats);
+    passes.floats(first, was_first, end - begin, limit, seen);
   else
-    pass(kernels::position_passes().doubles);
+    passes.doubles(first, was_first, end - begin, limit, seen);
   if (seen.bad) return std::nullopt;
   Surface::PartSeen part;
   part.changed = seen.changed;
@@ -186,9 +185,15 @@ std::optional<Surface::PartSeen> seen_in_one_pass(const void* now, const void* b
     part.box.min[axis] = static_cast<double>(seen.min[axis]);
     part.box.max[axis] = static_cast<double>(seen.max[axis]);
     // A difference is rounded once; where it underflows it is exact.
-    part.furthest[axis] = static_cast<double>(seen.furthest[axis]) *
-                          (1 + static_cast<double>(std::numeric_limits<Number>::epsilon()));
+    if (displacement == Surface::Displacement::bound)
+      part.furthest[axis] = static_cast<double>(seen.furthest[axis]) *
+                            (1 + static_cast<double>(std::numeric_limits<Number>::epsilon()));
   }
+  if (displacement == Surface::Displacement::bound || !part.changed) return part;
+  if constexpr (std::is_same_v<Number, float>)
+    part.furthest_squared = passes.furthest_of_floats(first, was_first, end - begin);
+  else
+    part.furthest_squared = passes.furthest_of_doubles(first, was_first, end - begin);
   return part;
 }
 
@@ -205,9 +210,9 @@ Eigen::Vector3d posed(const std::array<double, 12>& rows, const Eigen::Vector3d&
 Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
                                              Displacement displacement) const {
   std::optional<PartSeen> part;
-  if (displacement == Displacement::bound && begin < end && is_laid_out_like(view))
-    part = view.is_double() ? seen_in_one_pass<double>(view.data(), in_double_.data(), begin, end)
-                            : seen_in_one_pass<float>(view.data(), in_float_.data(), begin, end);
+  if (begin < end && is_laid_out_like(view))
+    part = view.is_double() ? seen_in_passes<double>(view.data(), in_double_.data(), begin, end, displacement)
+                            : seen_in_passes<float>(view.data(), in_float_.data(), begin, end, displacement);
   if (!part) part = look(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
   part->in_double = view.is_double();
   return *part;

@@ -22,6 +22,9 @@ struct PositionPasses {
                  PositionsSeen<float>& seen);
   void (*doubles)(const double* now, const double* before, std::size_t count, double limit,
                   PositionsSeen<double>& seen);
+  /// The largest square of a point's motion: differences, squares and sums rounded in double.
+  double (*furthest_of_floats)(const float* now, const float* before, std::size_t count);
+  double (*furthest_of_doubles)(const double* now, const double* before, std::size_t count);
   /// Numbers of the points from `begin` to `end` that no coordinate leads out of a box, ascending; how many.
   /// Room for all of them.
   std::size_t (*floats_inside)(const float* points, std::uint32_t begin, std::uint32_t end, const float* low,
