@@ -106,6 +106,7 @@ void finish_read(Object& object) {
   object.unread = false;
   object.promised = 0;
   object.box = object.surface().box();
+  object.version = object.surface().version();
 }
 
 Looked read_whole(Object& object) {
@@ -134,6 +135,7 @@ void ObjectStore::apply(AddObject& call) {
   object->settings = std::move(call.settings);
   object->owned_surface = std::move(call.surface);
   object->box = object->surface().box();
+  object->version = object->surface().version();
   object->in_parts = object->surface().mesh().vertex_count() > vertices_each;
   count_bytes(*object);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);

@@ -24,6 +24,7 @@ struct Object {
   std::unique_ptr<Surface> owned_surface;  ///< through the accessors below
   /// Where it certainly is: the surface's box, grown by what was promised since that was read.
   Box box;
+  std::uint64_t version = 0;  ///< the surface's, after a read
 
   // What the next read takes up, and what is promised of it.
   std::optional<std::array<double, 12>> pose;

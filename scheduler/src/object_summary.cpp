@@ -61,6 +61,7 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
       summary.moved = summary.read_late || !(summary.motion == 0);
       summary.read_late = false;
       summary.box = object.box;
+      summary.version = object.version;
       summary.frozen = object.frozen;
       summary.unread = object.unread;
       unread = unread || object.unread;
@@ -76,6 +77,7 @@ void ObjectSummaries::refresh_unread(std::span<const std::unique_ptr<Object>> ob
     ObjectSummary& summary = summaries_[place];
     if (!summary.unread || objects[place]->unread) continue;
     summary.box = objects[place]->box;
+    summary.version = objects[place]->version;
     summary.frozen = objects[place]->frozen;
     summary.unread = false;
     summary.read_late = true;

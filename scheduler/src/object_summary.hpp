@@ -18,6 +18,7 @@ struct ObjectSummary {
   /// The largest number by which a side of the box has moved since the step before.
   double motion = 0;
   std::uint64_t serial = 0;
+  std::uint64_t version = 0;  ///< of its surface
   std::uint64_t group = 0;
   std::uint32_t layer = 0;
   std::uint32_t collides_with = 0;

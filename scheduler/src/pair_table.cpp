@@ -62,7 +62,11 @@ void PairTable::list_jobs(std::span<const PlacePair> selected, const FrameReport
   const auto add_next = [&](const PairReport* last) {
     const std::uint32_t a = first_of(*next);
     const std::uint32_t b = second_of(*next++);
-    add_selected(*objects[a], *objects[b], filter_.thresholds(summaries_[a], summaries_[b]), last);
+    PairJob job;
+    job.a = objects[a].get();
+    job.b = objects[b].get();
+    job.last = last;
+    add(job, summaries_[a], summaries_[b]);
   };
   const auto next_key = [&] {
     return PairMemories::Key{summaries_[first_of(*next)].serial, summaries_[second_of(*next)].serial};
@@ -85,15 +89,6 @@ void PairTable::list_jobs(std::span<const PlacePair> selected, const FrameReport
   }
 }
 
-void PairTable::add_selected(Object& a, Object& b, const PairThresholds& thresholds, const PairReport* last) {
-  PairJob job;
-  job.a = &a;
-  job.b = &b;
-  job.last = last;
-  job.thresholds = thresholds;
-  add(job);
-}
-
 /// A pair that the last report listed and that is filtered out now, has parted, or is frozen: one that was in
 /// contact is listed once more however far it is.
 void PairTable::add_unselected(Object& a, Object& b, const PairReport& last) {
@@ -103,28 +98,29 @@ void PairTable::add_unselected(Object& a, Object& b, const PairReport& last) {
   job.a = &a;
   job.b = &b;
   job.last = &last;
-  job.thresholds = filter_.thresholds(summary_a, summary_b);
   job.allowed = filter_.verdict(summary_a, summary_b) == PairVerdict::looked_at;
   if (!job.allowed && !job.was_in_contact()) return;
   if (!job.allowed) job.task = PairJob::Task::end;
   if (a.frozen || b.frozen)
     job.task = PairJob::Task::repeat_last;
-  else if (!job.was_in_contact() && !may_be_near(lower_distance(a.box, b.box), job.thresholds.reach))
+  else if (!job.was_in_contact() &&
+           !may_be_near(lower_distance(a.box, b.box), filter_.reach(summary_a, summary_b)))
     return;
-  add(job);
+  add(job, summary_a, summary_b);
 }
 
-void PairTable::add(PairJob& job) {
-  job.memory = &memories_.of({job.a->serial, job.b->serial});
-  if (job.task == PairJob::Task::detect && is_unchanged(job)) job.task = PairJob::Task::unchanged;
+void PairTable::add(PairJob& job, const ObjectSummary& a, const ObjectSummary& b) {
+  job.thresholds = filter_.thresholds(a, b);
+  job.memory = &memories_.of({a.serial, b.serial});
+  if (job.task == PairJob::Task::detect && is_unchanged(*job.memory, a, b))
+    job.task = PairJob::Task::unchanged;
   jobs_.push_back(job);
 }
 
 /// Whether the last answer, about the same positions by the same rules, is also this one's.
-bool PairTable::is_unchanged(const PairJob& job) const {
-  const PairMemory& memory = *job.memory;
-  return memory.version_a == job.a->surface().version() && memory.version_b == job.b->surface().version() &&
-         memory.rules_version == filter_.rules_version();
+bool PairTable::is_unchanged(const PairMemory& last, const ObjectSummary& a, const ObjectSummary& b) const {
+  return last.version_a == a.version && last.version_b == b.version &&
+         last.rules_version == filter_.rules_version();
 }
 
 void PairTable::reserve(std::size_t objects, std::size_t pairs, std::size_t leaf_pairs) {

@@ -40,10 +40,10 @@ class PairTable {
                          std::vector<Diagnostic>& diagnostics);
   void list_jobs(std::span<const PlacePair> selected, const FrameReport& previous,
                  StepStatistics& statistics);
-  void add_selected(Object& a, Object& b, const PairThresholds& thresholds, const PairReport* last);
   void add_unselected(Object& a, Object& b, const PairReport& last);
-  void add(PairJob& job);
-  [[nodiscard]] bool is_unchanged(const PairJob& job) const;
+  void add(PairJob& job, const ObjectSummary& a, const ObjectSummary& b);
+  [[nodiscard]] bool is_unchanged(const PairMemory& last, const ObjectSummary& a,
+                                  const ObjectSummary& b) const;
 
   ObjectStore& store_;
   PairFilter filter_;

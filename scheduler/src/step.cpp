@@ -178,7 +178,8 @@ void Step::sum_counters(StepStatistics& statistics) {
 void Step::count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics) {
   // Only what a job looked at may have got memory for its regions.
   for (const PairJob& job : jobs)
-    for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
+    if (job.is_looked_at())
+      for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
   statistics.object_bytes = store_.byte_count() + staging_.byte_count();
   statistics.pair_bytes = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count();
   statistics.report_bytes = reports_.byte_count();
