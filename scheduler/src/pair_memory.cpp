@@ -3,6 +3,12 @@
 #include <graze/bytes_of.hpp>
 
 namespace graze {
+namespace {
+
+/// So many pairs before it is asked for a memory begins to come from further away.
+constexpr std::size_t ahead = 12;
+
+}  // namespace
 
 void PairMemories::begin() {
   last_.swap(entries_);
@@ -25,6 +31,8 @@ PairMemory& PairMemories::of(const Key& key) {
   std::uint32_t place = 0;
   if (next_ < last_.size() && last_[next_].key == key) {
     place = last_[next_++].place;
+    // Most pairs come again, and of most that is all that is asked of their memory.
+    if (next_ + ahead < last_.size()) __builtin_prefetch(&memories_[last_[next_ + ahead].place].version_a);
   } else if (!free_.empty()) {
     place = free_.back();
     free_.pop_back();
