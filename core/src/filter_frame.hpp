@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kernels/filter.hpp"
+#include "kernels/positions.hpp"
 #include "leaf_slab.hpp"
 
 namespace graze {
@@ -42,6 +43,10 @@ class FilterFrame {
 
   [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
     return (point - origin_) * scale_;
+  }
+  /// The same for what brings many points.
+  [[nodiscard]] kernels::PointFrame for_points() const {
+    return {{origin_.x(), origin_.y(), origin_.z(), 0}, scale_};
   }
   /// A box as the kernels see it, no smaller where it is far larger than they can: within `largest_size`,
   /// where all features are that they trust.

@@ -1,5 +1,7 @@
 #include "leaf_vertices.hpp"
 
+#include "listed_vertices.hpp"
+
 namespace graze {
 
 void LeafVertices::take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
@@ -14,15 +16,12 @@ void LeafVertices::take(const Surface& surface, const Region& leaf, const Filter
 }
 
 void LeafVertices::add(const Surface& surface, std::span<const std::uint32_t> vertices,
-                       const FilterFrame& given_frame) {
-  // A copy stays in registers.
-  const FilterFrame frame = given_frame;  // NOLINT(performance-unnecessary-copy-initialization)
+                       const FilterFrame& frame) {
   const std::size_t first = local_.size();
   local_.resize(first + vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
+  bring(surface, vertices, frame, local_.data() + first);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
     place_of_[vertices[i]] = static_cast<std::uint32_t>(first + i);
-    local_[first + i] = local_vertex(frame, surface.position(vertices[i]));
-  }
 }
 
 void LeafVertices::reserve_as(const LeafVertices& other) {

@@ -14,15 +14,6 @@
 
 namespace graze {
 
-/// A vertex in a frame. Coordinates too large for the kernels are left out, and its size says so.
-inline kernels::Point local_vertex(const FilterFrame& frame, const Eigen::Vector3d& position) {
-  const Eigen::Vector3d local = frame.to_local(position);
-  const double size = std::max(double{kernels::least_size}, local.cwiseAbs().maxCoeff());
-  if (!(size <= kernels::largest_size)) return {{0, 0, 0}, std::numeric_limits<float>::infinity()};
-  return {{static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(local.z())},
-          static_cast<float>(size)};
-}
-
 /// Where the corners of features are among vertices, one feature after the other.
 class CornerList {
  public:

@@ -1,33 +1,14 @@
 // Looks for the vertices in a box by going through all of them, without any hierarchy.
 
 #include <algorithm>
-#include <cmath>
 #include <graze/surface.hpp>
-#include <limits>
 
+#include "float_box.hpp"
 #include "kernels/positions.hpp"
 
 namespace graze {
 
 namespace {
-
-/// A box whose bounds are floats and between which the same floats lie; coordinates are within limits.
-struct FloatBox {
-  std::array<float, 3> low;
-  std::array<float, 3> high;
-
-  explicit FloatBox(const Box& box) {
-    constexpr float most = std::numeric_limits<float>::max();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double from = std::clamp<double>(box.min[static_cast<int>(axis)], -most, most);
-      const double to = std::clamp<double>(box.max[static_cast<int>(axis)], -most, most);
-      low[axis] = static_cast<float>(from);
-      high[axis] = static_cast<float>(to);
-      if (static_cast<double>(low[axis]) < from) low[axis] = std::nextafter(low[axis], most);
-      if (static_cast<double>(high[axis]) > to) high[axis] = std::nextafter(high[axis], -most);
-    }
-  }
-};
 
 /// Vertices whose boxes `find_inside` looks at first; a multiple of what its kernels take at once.
 constexpr std::uint32_t stretch = 64;

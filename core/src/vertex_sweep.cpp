@@ -1,9 +1,10 @@
 #include "vertex_sweep.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "listed_vertices.hpp"
 
 namespace graze {
 
@@ -17,21 +18,8 @@ Box LocalVertices::take(const Surface& surface, std::span<const std::uint32_t> v
                         const FilterFrame& frame, float size) {
   begin(vertices.size());
   vertices_.assign(vertices.begin(), vertices.end());
-  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array3d high = -low;
-  float* at = data_.data();
-  for (const std::uint32_t vertex : vertices) {
-    const Eigen::Vector3d position = surface.position(vertex);
-    low = low.min(position.array());
-    high = high.max(position.array());
-    const Eigen::Vector3d local = frame.to_local(position);
-    at[0] = static_cast<float>(local.x());
-    at[stride_] = static_cast<float>(local.y());
-    at[2 * stride_] = static_cast<float>(local.z());
-    ++at;
-  }
   std::fill_n(data_.data() + 3 * stride_, vertices.size(), size);
-  return {low, high};
+  return bring_in_rows(surface, vertices, frame, {data_.data(), stride_});
 }
 
 void LocalVertices::take(const LocalVertices& all, std::span<const std::uint32_t> places) {
@@ -144,7 +132,8 @@ class VertexSweep {
     const auto boxes = surface.boxes(RefitOf::vertices);
     // The regions' boxes are of where the vertices were.
     const Box reached = grown(box, surface.motion_since_vertex_refit());
-    make_room(most_vertices);
+    const InsideBox inside(surface, box);
+    make_room(most_vertices + small_region);
     scratch_.regions.assign(1, 0);
     while (!scratch_.regions.empty()) {
       const std::uint32_t index = scratch_.regions.back();
@@ -153,10 +142,12 @@ class VertexSweep {
       if (common(boxes[index], reached).empty()) continue;
       const Region& region = tree.region(index);
       if (region.is_leaf() || region.vertex_count <= small_region) {
-        for (const std::uint32_t vertex : tree.vertices(region)) {
-          if (!contains(box, surface.position(vertex))) continue;
-          if (count == most_vertices) return give_up(Swept::too_many);
-          scratch_.found[count++] = vertex;
+        const auto vertices = tree.vertices(region);
+        for (std::size_t first = 0; first < vertices.size(); first += small_region) {
+          const auto some =
+              vertices.subspan(first, std::min<std::size_t>(small_region, vertices.size() - first));
+          count += inside.find(some, scratch_.found.data() + count);
+          if (count > most_vertices) return give_up(Swept::too_many);
         }
       } else {
         for (std::uint32_t child = region.child_count; child-- > 0;)
@@ -248,8 +239,7 @@ Swept sweep_close_vertices(const SurfacePair& pair, double limit, VertexSweepScr
 
 void VertexSweepScratch::reserve(const PairRoom& room) {
   const std::size_t most = std::min(most_vertices, room.vertices);
-  if (found.size() < most_vertices + LocalVertices::padding)
-    found.resize(most_vertices + LocalVertices::padding);
+  if (found.size() < most_vertices + small_region) found.resize(most_vertices + small_region);
   constexpr std::size_t children_left = 7 * std::size_t{RegionTree::max_level} + 1;
   regions.reserve(std::min(children_left, room.regions));
   for (LocalVertices* const vertices : {&a, &b, &sorted}) vertices->reserve(most);

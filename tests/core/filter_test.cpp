@@ -192,17 +192,23 @@ template <std::size_t Corners, std::size_t Components>
 FeatureBlock<Corners, Components> block_of(const std::vector<Corner<Corners>>& features, Part part,
                                            const FilterFrame& frame) {
   FeatureBlock<Corners, Components> block(part);
-  std::vector<kernels::Point> vertices;
+  std::vector<Vector3d> positions;
   CornerList corners;
   block.begin(features.size());
   corners.begin(Corners * features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     block.add(static_cast<std::uint32_t>(i));
     for (const Vector3d& corner : features[i]) {
-      corners.add(static_cast<std::uint32_t>(vertices.size()));
-      vertices.push_back(local_vertex(frame, corner));
+      corners.add(static_cast<std::uint32_t>(positions.size()));
+      positions.push_back(corner);
     }
   }
+  std::vector<std::uint32_t> all(positions.size());
+  std::iota(all.begin(), all.end(), 0U);
+  std::vector<kernels::Point> vertices(positions.size());
+  if (!all.empty())
+    kernels::position_passes().bring_doubles({positions[0].data(), all.back()}, all.data(), all.size(),
+                                             frame.for_points(), vertices.data());
   block.lay_out(vertices.data(), corners.padded());
   block.prepare();
   return block;

@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Passes over all positions of a surface, in memory order. Compiled once for each instruction set, so this
-/// header has no inline function that another translation unit might share with them.
+#include "filter.hpp"
+
+/// Passes over the positions of a surface, in memory order or as listed. Compiled once for each instruction
+/// set, so this header has no inline function that another translation unit might share with them.
 namespace graze::kernels {
 
 /// What a pass over positions found; x, y and z.
@@ -14,6 +16,25 @@ struct PositionsSeen {
   Number furthest[3];  ///< the largest magnitudes of now - before, each rounded once
   bool changed;        ///< some bit is another than before
   bool bad;            ///< some coordinate is beyond the limit or NaN; then the rest means nothing
+};
+
+/// Points of three numbers each, and the number of the last: behind that nothing may be read.
+template <typename Number>
+struct PointArray {
+  const Number* numbers;
+  std::uint32_t last;
+};
+
+/// Where `(p - origin) * scale` is what kernels see of p, in double and then rounded; the fourth is nothing.
+struct PointFrame {
+  double origin[4];
+  double scale;
+};
+
+/// Rows of x, of y and of z, with room for a multiple of four.
+struct PointRows {
+  float* x;
+  std::size_t stride;
 };
 
 /// The passes of one instruction set, over points of three numbers each, of which there is one at least.
@@ -36,6 +57,25 @@ struct PositionPasses {
                            float* high);
   void (*extent_of_doubles)(const double* points, std::uint32_t begin, std::uint32_t end, double* low,
                             double* high);
+  /// Listed points in a frame, as `lay_out_…` of Filter reads them.
+  void (*bring_floats)(const PointArray<float>& points, const std::uint32_t* listed, std::size_t count,
+                       const PointFrame& frame, Point* brought);
+  void (*bring_doubles)(const PointArray<double>& points, const std::uint32_t* listed, std::size_t count,
+                        const PointFrame& frame, Point* brought);
+  /// The same in rows and without sizes; of one at least. And the box of the points, each of four numbers.
+  void (*bring_floats_in_rows)(const PointArray<float>& points, const std::uint32_t* listed,
+                               std::size_t count, const PointFrame& frame, const PointRows& rows, float* low,
+                               float* high);
+  void (*bring_doubles_in_rows)(const PointArray<double>& points, const std::uint32_t* listed,
+                                std::size_t count, const PointFrame& frame, const PointRows& rows,
+                                double* low, double* high);
+  /// Those listed points that no coordinate leads out of a box, of four numbers each; how many. Room for all.
+  std::size_t (*listed_floats_inside)(const PointArray<float>& points, const std::uint32_t* listed,
+                                      std::size_t count, const float* low, const float* high,
+                                      std::uint32_t* inside);
+  std::size_t (*listed_doubles_inside)(const PointArray<double>& points, const std::uint32_t* listed,
+                                       std::size_t count, const double* low, const double* high,
+                                       std::uint32_t* inside);
 };
 
 /// The passes in use, of the set that `filter()` is of.
