@@ -21,7 +21,7 @@ struct SquaredRange {
   [[nodiscard]] bool is_beyond(double limit) const { return low > limit * limit * (1 + 0x1p-50) + 0x1p-1000; }
 };
 
-/// Of two points: no more than five roundings, and what underflow loses.
+/// That of two points: five roundings at most, and what underflow loses.
 inline SquaredRange squared_range(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const double squared = (b - a).squaredNorm();
   return {squared * (1 - 0x1p-50) - 0x1p-1000, squared * (1 + 0x1p-50) + 0x1p-1000};

@@ -38,16 +38,21 @@ class NameAdder {
 void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double threshold,
                         LeafScratch& scratch, std::vector<ContactName>& names) {
   BelowThreshold range{threshold};
+  if (scratch.take(pair, leaf_a, leaf_b, range)) add_close_features(pair, threshold, scratch, names);
+}
+
+void add_close_features(const SurfacePair& pair, double threshold, LeafScratch& scratch,
+                        std::vector<ContactName>& names) {
+  BelowThreshold range{threshold};
   const auto is_contact = [&](const ContactName& name, const SquaredRange& squared) {
     if (name.meeting == Meeting::pierced && name.kind == ContactKind::EF) return true;
     if (squared.is_below(threshold)) return true;
     return !squared.is_beyond(threshold) && is_closer_than(pair, name, threshold);
   };
   NameAdder adder(names);
-  for_each_name(pair, leaf_a, leaf_b, scratch, range,
-                [&](const ContactName& name, const SquaredRange& squared) {
-                  if (is_contact(name, squared)) adder.add(name);
-                });
+  for_each_name_of_taken(pair, scratch, range, [&](const ContactName& name, const SquaredRange& squared) {
+    if (is_contact(name, squared)) adder.add(name);
+  });
 }
 
 void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names) {

@@ -12,6 +12,10 @@ namespace graze {
 void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double threshold,
                         LeafScratch& scratch, std::vector<ContactName>& names);
 
+/// The same of the features that the scratch has taken, whatever they are of.
+void add_close_features(const SurfacePair& pair, double threshold, LeafScratch& scratch,
+                        std::vector<ContactName>& names);
+
 /// Keeps one of sorted names for each pair of features. Where two features meet in several pieces (a fold and
 /// a triangle, two crossings), the nearest stands for them; a piercing sorts first, and of equally near ones
 /// the first.

@@ -171,19 +171,23 @@ class LeafNames {
 };
 
 /// Gives `sink` the name, and what is known of the distance, of the closest points of every vertex-face and
-/// edge-edge pair between two leaves, of every edge that pierces a face, and of every fold's contacts with
-/// edges, folds and faces, leaving out what is certainly too far for `range` (see FloatFilter; a piercing
-/// never is). A pair of features is met in one pair of leaves only, since each has one owner; a name may be
-/// met several times.
+/// edge-edge pair between the features that were taken, of every edge that pierces a face, and of every
+/// fold's contacts with edges, folds and faces, leaving out what is certainly too far for `range` (see
+/// FloatFilter; a piercing never is). A name may be met several times.
 template <typename Range, typename Sink>
-void for_each_name(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch,
-                   Range& range, const Sink& sink) {
-  if (!scratch.take(pair, leaf_a, leaf_b, range)) return;
+void for_each_name_of_taken(const SurfacePair& pair, LeafScratch& scratch, Range& range, const Sink& sink) {
   LeafNames<Range, Sink> names(pair, scratch, range, sink);
   names.vertices_and_faces();
   names.edges();
   names.folds();
   names.piercings();
+}
+
+/// The same of two leaves. A pair of features is met in one pair of leaves only, since each has one owner.
+template <typename Range, typename Sink>
+void for_each_name(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch,
+                   Range& range, const Sink& sink) {
+  if (scratch.take(pair, leaf_a, leaf_b, range)) for_each_name_of_taken(pair, scratch, range, sink);
 }
 
 /// Calls `visit(vertex of a, vertex of b)` for all pairs of the leaves' vertices but what is certainly too

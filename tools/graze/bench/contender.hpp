@@ -88,6 +88,9 @@ inline constexpr std::string_view box_limit = "box";
 /// Reads what moves and what is near it; only in scenes where most rests.
 inline constexpr std::string_view movers_limit = "read movers";
 
+/// What `clipping` finds near by boxes in task B, without the distances: for those who make these themselves.
+inline constexpr std::string_view clipping_candidates = "clipping's candidates";
+
 constexpr bool is_limit(std::string_view name) {
   return name == read_limit || name == box_limit || name == movers_limit;
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "bench/candidate_kernels.hpp"
 #include "bench/graze_contender.hpp"
 #include "bench/verification.hpp"
 #include "progress.hpp"
@@ -152,6 +153,14 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
   for (const std::string_view name : options.peers) {
     const PeerEntry& entry = module.entry(name);
     if (entry.tasks.find(static_cast<char>(options.task)) != std::string_view::npos) add_peer(entry);
+#if GRAZE_BENCH_KERNELS
+    if (name != "clipping" || options.task != Task::B || options.threads > 1) continue;
+    entrants.emplace_back(kernels_name, nullptr, 1U, [&moving, &options, &module] {
+      return make_candidate_kernels(moving.scene(), moving.world(),
+                                    module.entry(clipping_candidates).make(moving.world(), Task::B, 1),
+                                    options.instruction_sets.front());
+    });
+#endif
   }
   return entrants;
 }

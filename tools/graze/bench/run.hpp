@@ -14,6 +14,8 @@ namespace graze::bench {
 
 inline constexpr std::string_view graze_name = "graze";
 inline constexpr std::string_view told_name = "graze, told of motion";
+/// Graze's kernels on what clipping finds near, in task B with one thread, where clipping takes part.
+inline constexpr std::string_view kernels_name = "graze's kernels, clipping's candidates";
 
 struct RunOptions {
   Task task = Task::A;

@@ -16,11 +16,15 @@ struct Clipper {
   std::vector<TrianglePair> found;
 };
 
+/// What becomes of two triangles whose boxes are near.
+enum class Ending : std::uint8_t { measured, listed };
+
 /// As ClippingVertices, with the boxes of triangles.
 class ClippingTriangles final : public Contender {
  public:
-  ClippingTriangles(const World& world, unsigned threads)
+  ClippingTriangles(const World& world, unsigned threads, Ending ending)
       : world_(world),
+        ending_(ending),
         workers_(threads),
         near_(world, workers_),
         boxes_(world.objects.size()),
@@ -123,11 +127,15 @@ class ClippingTriangles final : public Contender {
       std::uint32_t* const first = clipper.places.data();
       const std::uint32_t* const last = add_near(b, begin, end, box, limit, first);
       for (const std::uint32_t* place = first; place != last; ++place)
-        add_if_near(world_, pair.a, a.index[i], pair.b, b.index[*place], clipper.found);
+        if (ending_ == Ending::measured)
+          add_if_near(world_, pair.a, a.index[i], pair.b, b.index[*place], clipper.found);
+        else
+          clipper.found.push_back({pair.a, pair.b, a.index[i], b.index[*place], 0});
     }
   }
 
   const World& world_;
+  Ending ending_;
   Workers workers_;
   NearObjects near_;
   std::vector<BoxList> boxes_;  ///< of each object that is near another
@@ -138,7 +146,11 @@ class ClippingTriangles final : public Contender {
 }  // namespace
 
 std::unique_ptr<Contender> make_clipping_triangles(const World& world, unsigned threads) {
-  return std::make_unique<ClippingTriangles>(world, threads);
+  return std::make_unique<ClippingTriangles>(world, threads, Ending::measured);
+}
+
+std::unique_ptr<Contender> make_clipping_candidates(const World& world, Task /*task*/, unsigned threads) {
+  return std::make_unique<ClippingTriangles>(world, threads, Ending::listed);
 }
 
 }  // namespace graze::bench

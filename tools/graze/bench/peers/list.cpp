@@ -12,6 +12,7 @@ const PeerEntry entries[] = {
     {box_limit, "ABD", make_box_limit, as_double},
     {movers_limit, "ABD", make_movers_limit, as_double},
     {"clipping", "AB", make_clipping, as_double},
+    {clipping_candidates, "", make_clipping_candidates, as_double},
     {"row grid", "A", make_row_grid, as_double},
 #if GRAZE_BENCH_EMBREE
     {"Embree", "AB", make_embree, as_double},

@@ -19,6 +19,7 @@ std::unique_ptr<Contender> make_movers_limit(const World& world, Task task, unsi
 std::unique_ptr<Contender> make_clipping(const World& world, Task task, unsigned threads);
 std::unique_ptr<Contender> make_clipping_vertices(const World& world, unsigned threads);
 std::unique_ptr<Contender> make_clipping_triangles(const World& world, unsigned threads);
+std::unique_ptr<Contender> make_clipping_candidates(const World& world, Task task, unsigned threads);
 std::unique_ptr<Contender> make_row_grid(const World& world, Task task, unsigned threads);
 
 std::unique_ptr<Contender> make_embree(const World& world, Task task, unsigned threads);
