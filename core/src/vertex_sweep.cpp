@@ -10,28 +10,25 @@ namespace graze {
 
 void LocalVertices::begin(std::size_t count) {
   stride_ = stride_of(count);
-  if (data_.size() < stride_ * kernels::point::count) data_.resize(stride_ * kernels::point::count);
+  if (data_.size() < 3 * stride_) data_.resize(3 * stride_);
   vertices_.clear();
 }
 
 Box LocalVertices::take(const Surface& surface, std::span<const std::uint32_t> vertices,
-                        const FilterFrame& frame, float size) {
+                        const FilterFrame& frame) {
   begin(vertices.size());
   vertices_.assign(vertices.begin(), vertices.end());
-  std::fill_n(data_.data() + 3 * stride_, vertices.size(), size);
   return bring_in_rows(surface, vertices, frame, {data_.data(), stride_});
 }
 
 void LocalVertices::take(const LocalVertices& all, std::span<const std::uint32_t> places) {
   begin(places.size());
-  kernels::filter().gather(all.block(0, all.count()), kernels::point::count, places.data(), places.size(),
-                           data_.data(), stride_);
+  kernels::filter().gather(all.block(), 3, places.data(), places.size(), data_.data(), stride_);
   for (const std::uint32_t place : places) vertices_.push_back(all.vertices_[place]);
 }
 
 void LocalVertices::reserve(std::size_t most) {
-  if (data_.size() < stride_of(most) * kernels::point::count)
-    data_.resize(stride_of(most) * kernels::point::count);
+  if (data_.size() < 3 * stride_of(most)) data_.resize(3 * stride_of(most));
   vertices_.reserve(most);
 }
 
@@ -45,6 +42,8 @@ constexpr std::uint32_t small_region = 64;
 /// So few pairs are all compared.
 constexpr std::size_t few_pairs = 2048;
 constexpr std::size_t most_slabs = 256;
+/// So many are looked at between two looks at what is left.
+constexpr std::size_t pairs_at_once = 4096;
 
 /// Cuts a box into slabs along its longest side, none thinner than what is looked for.
 class Slabs {
@@ -85,7 +84,7 @@ class VertexSweep {
         near_both_(near_both(pair, limit)),
         frame_(near_both_, near_both_),
         local_limit_(frame_.to_local_limit(limit)),
-        size_(frame_.to_local(near_both_).size) {}
+        reach_(local_limit_ + 2 * frame_.to_local(near_both_).size * kernels::margin) {}
 
   Swept run() {
     names_.clear();
@@ -96,14 +95,18 @@ class VertexSweep {
     if (scratch_.a.count() == 0) return Swept::all;
     if (!collect(pair_.b, common(near_both_, grown(box_a, limit_)), scratch_.b, box_b)) return gave_up_;
     if (scratch_.b.count() == 0) return Swept::all;
-    if (scratch_.near.size() < scratch_.a.count()) {
-      scratch_.near.resize(scratch_.a.count());
-      scratch_.bound.resize(scratch_.a.count());
+    make_room_for_pairs();
+    if (scratch_.a.count() * scratch_.b.count() <= few_pairs) {
+      std::fill_n(scratch_.first.begin(), scratch_.b.count(), 0U);
+      std::fill_n(scratch_.last.begin(), scratch_.b.count(), static_cast<std::uint32_t>(scratch_.a.count()));
+      compare_rows(scratch_.a);
+      return Swept::all;
     }
-    if (scratch_.a.count() * scratch_.b.count() <= few_pairs) return compare_all();
     const Slabs slabs(frame_.to_local(common(box_a, grown(box_b, limit_))), local_limit_);
     sort_into(slabs);
-    return compare_beside(slabs);
+    if (list_beside(slabs) > most_pairs) return Swept::too_many;
+    compare_rows(scratch_.sorted);
+    return Swept::all;
   }
 
  private:
@@ -124,7 +127,7 @@ class VertexSweep {
     } else if (!collect_from_tree(surface, box, count)) {
       return false;
     }
-    found_box = vertices.take(surface, std::span(scratch_.found).first(count), frame_, size_);
+    found_box = vertices.take(surface, std::span(scratch_.found).first(count), frame_);
     return true;
   }
   bool collect_from_tree(const Surface& surface, const Box& box, std::size_t& count) {
@@ -183,37 +186,54 @@ class VertexSweep {
     scratch_.sorted.take(a, std::span(scratch_.found).first(a.count()));
   }
 
-  Swept compare_all() {
-    for (std::size_t row = 0; row < scratch_.b.count(); ++row)
-      compare(row, scratch_.a, 0, scratch_.a.count());
-    return Swept::all;
+  void make_room_for_pairs() {
+    const std::size_t rows = scratch_.b.count();
+    if (scratch_.first.size() < rows) {
+      scratch_.first.resize(rows);
+      scratch_.last.resize(rows);
+    }
+    const std::size_t pairs = std::max(scratch_.a.count(), pairs_at_once);
+    if (scratch_.near.size() < pairs) {
+      scratch_.near.resize(pairs);
+      scratch_.near_row.resize(pairs);
+    }
   }
-  /// Each vertex of b with those of a in the slabs about it.
-  Swept compare_beside(const Slabs& slabs) {
-    const float reach = local_limit_ + 2 * size_ * kernels::margin;
+
+  /// For each vertex of b those of a in the slabs about it; how many in all.
+  std::size_t list_beside(const Slabs& slabs) {
     std::size_t pairs = 0;
     for (std::size_t row = 0; row < scratch_.b.count(); ++row) {
       const float at = scratch_.b.coordinate(slabs.axis(), row);
-      const std::size_t begin = scratch_.begin[slabs.at(at - reach)];
-      const std::size_t end = scratch_.begin[slabs.at(at + reach) + std::size_t{1}];
-      pairs += end - begin;
-      if (pairs > most_pairs) {
-        names_.clear();
-        return Swept::too_many;
-      }
-      compare(row, scratch_.sorted, begin, end);
+      scratch_.first[row] = scratch_.begin[slabs.at(at - reach_)];
+      scratch_.last[row] = scratch_.begin[slabs.at(at + reach_) + std::size_t{1}];
+      pairs += scratch_.last[row] - scratch_.first[row];
     }
-    return Swept::all;
+    return pairs;
   }
-  /// A vertex of b with some of a.
-  void compare(std::size_t row, const LocalVertices& a, std::size_t begin, std::size_t end) {
-    const std::size_t found =
-        kernels::filter().near_points(scratch_.b.point(row), a.block(begin, end), local_limit_,
-                                      {scratch_.near.data(), scratch_.bound.data()});
-    pair_.count.discarded_in_float += end - begin - found;
+
+  /// Every vertex of b with those of a that are listed for it, so many at a time that there is room for all.
+  void compare_rows(const LocalVertices& a) {
+    const std::size_t rows = scratch_.b.count();
+    for (std::size_t begin = 0; begin < rows;) {
+      std::size_t end = begin;
+      std::size_t pairs = 0;
+      for (; end < rows; ++end) {
+        const std::size_t more = scratch_.last[end] - scratch_.first[end];
+        if (pairs + more > scratch_.near.size()) break;
+        pairs += more;
+      }
+      compare(a, begin, end, pairs);
+      begin = end;
+    }
+  }
+  void compare(const LocalVertices& a, std::size_t begin, std::size_t end, std::size_t pairs) {
+    const std::size_t found = kernels::position_passes().near_rows(
+        scratch_.b.block(), begin, end, a.block(), scratch_.first.data(), scratch_.last.data(),
+        reach_ * reach_, {scratch_.near_row.data(), scratch_.near.data()});
+    pair_.count.discarded_in_float += pairs - found;
     for (std::size_t k = 0; k < found; ++k) {
-      const ContactName name = ContactName::of(vertex_piece(a.vertex(begin + scratch_.near[k])),
-                                               vertex_piece(scratch_.b.vertex(row)));
+      const ContactName name = ContactName::of(vertex_piece(a.vertex(scratch_.near[k])),
+                                               vertex_piece(scratch_.b.vertex(scratch_.near_row[k])));
       if (is_closer_than(pair_, name, limit_)) names_.push_back(name);
     }
   }
@@ -226,7 +246,7 @@ class VertexSweep {
   Box near_both_;
   FilterFrame frame_;
   float local_limit_;
-  float size_;  ///< at least that of every vertex taken
+  float reach_;  ///< what is not nearer in float is certainly not nearer than the limit
   Swept gave_up_ = Swept::all;
 };
 
@@ -245,8 +265,10 @@ void VertexSweepScratch::reserve(const PairRoom& room) {
   for (LocalVertices* const vertices : {&a, &b, &sorted}) vertices->reserve(most);
   slab.reserve(most);
   begin.reserve(most_slabs + 1);
-  near.reserve(most);
-  bound.reserve(most);
+  for (auto* const of_rows : {&first, &last})
+    if (of_rows->size() < most) of_rows->resize(most);
+  for (auto* const of_pairs : {&near, &near_row})
+    if (of_pairs->size() < std::max(most, pairs_at_once)) of_pairs->resize(std::max(most, pairs_at_once));
 }
 
 }  // namespace graze

@@ -14,12 +14,11 @@
 
 namespace graze {
 
-/// Vertices of one surface in a frame, as the kernels read points.
+/// Vertices of one surface in a frame, in rows of x, y and z.
 class LocalVertices {
  public:
-  /// Takes the listed vertices, of which none is of a greater size in the frame, and gives their box.
-  Box take(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
-           float size);
+  /// Takes the listed vertices, and gives their box.
+  Box take(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame);
   /// Takes some of another's, in that order; behind the places there are as many more as the padding says.
   static constexpr std::size_t padding = 3;
   void take(const LocalVertices& all, std::span<const std::uint32_t> places);
@@ -27,13 +26,7 @@ class LocalVertices {
   [[nodiscard]] std::size_t count() const { return vertices_.size(); }
   [[nodiscard]] std::uint32_t vertex(std::size_t i) const { return vertices_[i]; }
   [[nodiscard]] float coordinate(std::size_t axis, std::size_t i) const { return data_[axis * stride_ + i]; }
-  [[nodiscard]] kernels::Point point(std::size_t i) const {
-    return {{coordinate(0, i), coordinate(1, i), coordinate(2, i)}, coordinate(kernels::point::size, i)};
-  }
-  /// Those from `begin` to `end`.
-  [[nodiscard]] kernels::Block block(std::size_t begin, std::size_t end) const {
-    return {data_.data() + begin, stride_, end - begin};
-  }
+  [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, count()}; }
 
   template <typename Self>
   static auto parts(Self& self) {
@@ -59,13 +52,15 @@ struct VertexSweepScratch {
   LocalVertices sorted;              ///< those of a by their slabs
   std::vector<std::uint32_t> slab;   ///< of each vertex of a
   std::vector<std::uint32_t> begin;  ///< of the slabs
-  std::vector<std::uint32_t> near;   ///< what a kernel left, with its bounds
-  std::vector<float> bound;
+  std::vector<std::uint32_t> first;  ///< of those that each vertex of b is compared with, and the end of them
+  std::vector<std::uint32_t> last;
+  std::vector<std::uint32_t> near_row;  ///< what a kernel left
+  std::vector<std::uint32_t> near;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.found, self.regions, self.a, self.b, self.sorted, self.slab, self.begin, self.near,
-                    self.bound);
+    return std::tie(self.found, self.regions, self.a, self.b, self.sorted, self.slab, self.begin, self.first,
+                    self.last, self.near_row, self.near);
   }
   void reserve(const PairRoom& room);
 };

@@ -4,6 +4,7 @@
 #include "vertex_sweep.hpp"
 
 #include <algorithm>
+#include <graze/instruction_set.hpp>
 #include <graze/pair_query.hpp>
 #include <iostream>
 #include <limits>
@@ -14,6 +15,7 @@
 #include "contact_name.hpp"
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
+#include "kernels/positions.hpp"
 #include "support/catch.hpp"
 #include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
@@ -76,7 +78,84 @@ oracle::Shape cloth(std::uint32_t rows, double size, std::uint64_t seed) {
   return wobbled(shape_of(models::sheet(rows, rows, size, size)), 0.01 * size, seed);
 }
 
+/// Points in rows, each row's own stretch of them, and a reach.
+class RowsAndPoints {
+ public:
+  explicit RowsAndPoints(std::uint64_t seed) : random_(seed) {
+    fill(rows_, row_count_);
+    fill(points_, point_count_);
+    for (std::size_t row = 0; row < row_count_; ++row) {
+      first_.push_back(random_.below(point_count_ + 1));
+      last_.push_back(first_.back() + random_.below(point_count_ + 1 - first_.back()));
+    }
+    reach_squared_ = static_cast<float>(random_.between(0, 1));
+    begin_ = random_.below(row_count_);
+  }
+
+  /// One by one, in the arithmetic that the kernel promises.
+  [[nodiscard]] VertexPairs near() const {
+    VertexPairs pairs;
+    for (std::uint32_t row = begin_; row < row_count_; ++row)
+      for (std::uint32_t point = first_[row]; point < last_[row]; ++point) {
+        float squared[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const float gap = points_[axis * stride + point] - rows_[axis * stride + row];
+          squared[axis] = gap * gap;
+        }
+        if ((squared[0] + squared[1]) + squared[2] < reach_squared_) pairs.emplace_back(row, point);
+      }
+    return pairs;
+  }
+  [[nodiscard]] VertexPairs found() const {
+    std::vector<std::uint32_t> row(row_count_ * point_count_);
+    std::vector<std::uint32_t> point(row.size());
+    const std::size_t count = kernels::position_passes().near_rows(
+        {rows_.data(), stride, row_count_}, begin_, row_count_, {points_.data(), stride, point_count_},
+        first_.data(), last_.data(), reach_squared_, {row.data(), point.data()});
+    VertexPairs pairs;
+    for (std::size_t i = 0; i < count; ++i) pairs.emplace_back(row[i], point[i]);
+    return pairs;
+  }
+
+ private:
+  static constexpr std::size_t stride = 40 + kernels::lanes;
+
+  void fill(std::vector<float>& numbers, std::uint32_t& count) {
+    count = 1 + random_.below(40);
+    for (std::size_t i = 0; i < 3 * stride; ++i)
+      numbers.push_back(static_cast<float>(random_.between(-0.5, 0.5)));
+  }
+
+  oracle::Random random_;
+  std::uint32_t row_count_ = 0;
+  std::uint32_t point_count_ = 0;
+  std::uint32_t begin_ = 0;
+  std::vector<float> rows_;
+  std::vector<float> points_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> last_;
+  float reach_squared_ = 0;
+};
+
 }  // namespace
+
+TEST_CASE("vertex sweep: the kernel finds what is near, the same with every instruction set") {
+  const InstructionSet before = instruction_set();
+  std::size_t near = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const RowsAndPoints given(seed);
+    const auto expected = given.near();
+    near += expected.size();
+    for (const InstructionSet set : available_instruction_sets()) {
+      use_instruction_set(set);
+      INFO(to_string(set));
+      CHECK(given.found() == expected);
+    }
+  }
+  use_instruction_set(before);
+  CHECK(near > 5000);
+  std::cout << "compared " << near << " near pairs\n";
+}
 
 TEST_CASE("vertex sweep: small surfaces of all kinds") {
   std::size_t compared = 0;

@@ -37,6 +37,12 @@ struct PointRows {
   std::size_t stride;
 };
 
+/// Two points' numbers each, with room for as many as were looked at.
+struct NearPairs {
+  std::uint32_t* row;
+  std::uint32_t* point;
+};
+
 /// The passes of one instruction set, over points of three numbers each, of which there is one at least.
 struct PositionPasses {
   void (*floats)(const float* now, const float* before, std::size_t count, float limit,
@@ -76,6 +82,12 @@ struct PositionPasses {
   std::size_t (*listed_doubles_inside)(const PointArray<double>& points, const std::uint32_t* listed,
                                        std::size_t count, const double* low, const double* high,
                                        std::uint32_t* inside);
+  /// Compares every row from `first` to `last` with the points from `begin[row]` to `end[row]`, and lists
+  /// those whose squared distance is below `reach_squared`, row after row; how many. Behind the points
+  /// `lanes` more may be read.
+  std::size_t (*near_rows)(const Block& rows, std::size_t first, std::size_t last, const Block& points,
+                           const std::uint32_t* begin, const std::uint32_t* end, float reach_squared,
+                           const NearPairs& out);
 };
 
 /// The passes in use, of the set that `filter()` is of.
