@@ -1,7 +1,11 @@
 // Steps in which nothing has changed: their reports show the rows of the report before.
 
+#include <array>
+#include <atomic>
 #include <limits>
 #include <random>
+#include <thread>
+#include <vector>
 
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
@@ -168,6 +172,49 @@ TEST_CASE("rest: rows that reports share stay as they were while any of these is
   CHECK(shared > 20);
   handles.clear();
   CHECK(rows_of(copy) == rows.back());
+}
+
+TEST_CASE("rest: threads read shared rows by their handles while the scene rests and moves") {
+  NeedleOverPlate pair(settings_of(0.5, 1));
+  constexpr std::size_t frames = 3000;
+  // An entry is written before its step, and read only through a report of that step.
+  std::vector<double> heights(frames + 1, 0);
+  pair.lift(0.5);
+  pair.scene.step();
+  heights[1] = 0.5;
+  std::atomic<bool> is_over = false;
+  std::atomic<std::size_t> wrong = 0;
+  std::atomic<std::size_t> looked_at = 0;
+  const auto read = [&] {
+    std::array<ReportHandle, 5> held;
+    for (std::size_t i = 0; !is_over; ++i) {
+      held[i % held.size()] = pair.scene.latest_report();
+      for (const ReportHandle& report : held) {
+        if (!report) continue;
+        ++looked_at;
+        const bool is_right =
+            report->pairs().size() == 1 && report->pairs()[0].distance.upper == heights[report->frame()];
+        if (!is_right) ++wrong;
+      }
+    }
+  };
+  std::vector<std::thread> readers;
+  for (int i = 0; i < 2; ++i) readers.emplace_back(read);
+  while (looked_at == 0) std::this_thread::yield();
+  std::mt19937 random(3);
+  std::size_t shared = 0;
+  ReportHandle last = pair.scene.latest_report();
+  for (std::size_t frame = 2; frame <= frames; ++frame) {
+    heights[frame] = heights[frame - 1];
+    if (random() % 6 == 0) pair.lift(heights[frame] = static_cast<double>(1 + random() % 15) / 16);
+    const ReportHandle report = pair.scene.step();
+    if (shares_rows(last, report)) ++shared;
+    last = report;
+  }
+  is_over = true;
+  for (std::thread& reader : readers) reader.join();
+  CHECK(wrong == 0);
+  CHECK(shared > frames / 4);
 }
 
 }  // namespace graze::tests
