@@ -37,6 +37,7 @@ FrameReport& ReportPool::begin() {
   } else {
     free_count_.fetch_sub(1, std::memory_order_relaxed);
     filling_ = found;
+    end_loan(found);  // its last reader may have let it go just now
   }
   make_room(filling_);
   return slot(filling_).report;
@@ -53,12 +54,15 @@ void ReportPool::repeat_rows() {
 
 /// Those of slots that nobody reads.
 void ReportPool::end_loans() {
-  for (std::uint32_t index = 0; loan_count_ > 0 && index < slot_count_; ++index) {
-    std::uint32_t& lender = slot(index).lender;
-    if (lender == no_slot || !is_unread(index)) continue;
-    --slot(std::exchange(lender, no_slot)).borrowers;
-    --loan_count_;
-  }
+  for (std::uint32_t index = 0; loan_count_ > 0 && index < slot_count_; ++index)
+    if (is_unread(index)) end_loan(index);
+}
+
+void ReportPool::end_loan(std::uint32_t index) {
+  const std::uint32_t lender = std::exchange(slot(index).lender, no_slot);
+  if (lender == no_slot) return;
+  --slot(lender).borrowers;
+  --loan_count_;
 }
 
 /// A slot that can be filled, better one that has room; slot_limit where there is none.

@@ -85,6 +85,7 @@ class ReportPool {
   [[nodiscard]] bool is_unread(std::uint32_t index);
   [[nodiscard]] bool is_free(std::uint32_t index);
   void end_loans();
+  void end_loan(std::uint32_t index);
   [[nodiscard]] std::uint32_t find_free();
   [[nodiscard]] bool has_room(std::uint32_t index);
   std::uint32_t add_slot();

@@ -176,7 +176,7 @@ TEST_CASE("rest: rows that reports share stay as they were while any of these is
 
 TEST_CASE("rest: threads read shared rows by their handles while the scene rests and moves") {
   NeedleOverPlate pair(settings_of(0.5, 1));
-  constexpr std::size_t frames = 3000;
+  constexpr std::size_t frames = 30'000;
   // An entry is written before its step, and read only through a report of that step.
   std::vector<double> heights(frames + 1, 0);
   pair.lift(0.5);
