@@ -4,9 +4,10 @@
 #include <graze/box.hpp>
 #include <graze/surface.hpp>
 #include <span>
+#include <tuple>
 
+#include "box_within.hpp"
 #include "filter_frame.hpp"
-#include "float_box.hpp"
 
 namespace graze {
 
@@ -22,14 +23,13 @@ Box bring_in_rows(const Surface& surface, std::span<const std::uint32_t> vertice
 /// Says which vertices of a surface are in a box, its border included; while the surface stays as it is.
 class InsideBox {
  public:
-  InsideBox(const Surface& surface, const Box& box) : surface_(surface), box_(box), in_float_(box) {}
+  InsideBox(const Surface& surface, const Box& box) : surface_(surface), boxes_(box, box) {}
   /// Those of the listed vertices, in their order; how many. Room for all.
   std::size_t find(std::span<const std::uint32_t> vertices, std::uint32_t* inside) const;
 
  private:
   const Surface& surface_;
-  const Box& box_;
-  FloatBox in_float_;
+  std::tuple<BoxWithin<float>, BoxWithin<double>> boxes_;  ///< for the numbers that the surface has
 };
 
 }  // namespace graze

@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "kernels/positions.hpp"
 #include "limits.hpp"
+#include "passes_for.hpp"
 #include "point_registers.hpp"
 #include "validate.hpp"
 
@@ -172,12 +172,8 @@ std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* bef
   kernels::PositionsSeen<Number> seen{};
   const Number* const first = static_cast<const Number*>(now) + std::size_t{3} * begin;
   const Number* const was_first = static_cast<const Number*>(before) + std::size_t{3} * begin;
-  const kernels::PositionPasses& passes = kernels::position_passes();
-  const auto limit = static_cast<Number>(largest_coordinate);
-  if constexpr (std::is_same_v<Number, float>)
-    passes.floats(first, was_first, end - begin, limit, seen);
-  else
-    passes.doubles(first, was_first, end - begin, limit, seen);
+  const kernels::PassesOf<Number>& passes = passes_for<Number>();
+  passes.compare(first, was_first, end - begin, static_cast<Number>(largest_coordinate), seen);
   if (seen.bad) return std::nullopt;
   Surface::PartSeen part;
   part.changed = seen.changed;
@@ -190,10 +186,7 @@ std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* bef
                             (1 + static_cast<double>(std::numeric_limits<Number>::epsilon()));
   }
   if (displacement == Surface::Displacement::bound || !part.changed) return part;
-  if constexpr (std::is_same_v<Number, float>)
-    part.furthest_squared = passes.furthest_of_floats(first, was_first, end - begin);
-  else
-    part.furthest_squared = passes.furthest_of_doubles(first, was_first, end - begin);
+  part.furthest_squared = passes.furthest(first, was_first, end - begin);
   return part;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <graze/surface.hpp>
 
-#include "float_box.hpp"
-#include "kernels/positions.hpp"
+#include "box_within.hpp"
+#include "passes_for.hpp"
 
 namespace graze {
 
@@ -21,7 +21,6 @@ void Surface::box_stretches() {
   const std::uint32_t count = mesh_->vertex_count();
   if (count < least_in_stretches || count > most_searched || stretches_version_ == version_) return;
   stretches_version_ = version_;
-  const kernels::PositionPasses& passes = kernels::position_passes();
   stretches_.clear();
   for (std::uint32_t begin = 0; begin < count; begin += stretch) {
     const std::uint32_t end = std::min(begin + stretch, count);
@@ -29,25 +28,25 @@ void Surface::box_stretches() {
     if (in_double_.empty()) {
       Eigen::Vector3f low;
       Eigen::Vector3f high;
-      passes.extent_of_floats(in_float_.front().data(), begin, end, low.data(), high.data());
+      passes_for<float>().extent(in_float_.front().data(), begin, end, low.data(), high.data());
       box = {low.cast<double>(), high.cast<double>()};
     } else {
-      passes.extent_of_doubles(in_double_.front().data(), begin, end, box.min.data(), box.max.data());
+      passes_for<double>().extent(in_double_.front().data(), begin, end, box.min.data(), box.max.data());
     }
   }
 }
 
 std::size_t Surface::find_inside(const Box& box, std::span<std::uint32_t> found) const {
   const std::uint32_t count = mesh_->vertex_count();
-  const kernels::PositionPasses& passes = kernels::position_passes();
-  const FloatBox in_float(box);
+  const BoxWithin<float> in_float(box);
   std::size_t inside = 0;
   const auto pass = [&](std::uint32_t begin, std::uint32_t end) {
     std::uint32_t* const places = found.data() + inside;
-    inside += in_double_.empty() ? passes.floats_inside(in_float_.front().data(), begin, end,
-                                                        in_float.low.data(), in_float.high.data(), places)
-                                 : passes.doubles_inside(in_double_.front().data(), begin, end,
-                                                         box.min.data(), box.max.data(), places);
+    inside += in_double_.empty()
+                  ? passes_for<float>().inside(in_float_.front().data(), begin, end, in_float.low.data(),
+                                               in_float.high.data(), places)
+                  : passes_for<double>().inside(in_double_.front().data(), begin, end, box.min.data(),
+                                                box.max.data(), places);
   };
   if (stretches_version_ != version_) {
     pass(0, count);

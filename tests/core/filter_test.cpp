@@ -207,7 +207,7 @@ FeatureBlock<Corners, Components> block_of(const std::vector<Corner<Corners>>& f
   std::iota(all.begin(), all.end(), 0U);
   std::vector<kernels::Point> vertices(positions.size());
   if (!all.empty())
-    kernels::position_passes().bring_doubles({positions[0].data(), all.back()}, all.data(), all.size(),
+    kernels::position_passes().doubles.bring({positions[0].data(), all.back()}, all.data(), all.size(),
                                              frame.for_points(), vertices.data());
   block.lay_out(vertices.data(), corners.padded());
   block.prepare();

@@ -43,45 +43,36 @@ struct NearPairs {
   std::uint32_t* point;
 };
 
-/// The passes of one instruction set, over points of three numbers each, of which there is one at least.
-struct PositionPasses {
-  void (*floats)(const float* now, const float* before, std::size_t count, float limit,
-                 PositionsSeen<float>& seen);
-  void (*doubles)(const double* now, const double* before, std::size_t count, double limit,
-                  PositionsSeen<double>& seen);
+/// Passes over points of three floats or doubles each, of which there is one at least.
+template <typename Number>
+struct PassesOf {
+  /// Compares points with where they were.
+  void (*compare)(const Number* now, const Number* before, std::size_t count, Number limit,
+                  PositionsSeen<Number>& seen);
   /// The largest square of a point's motion: differences, squares and sums rounded in double.
-  double (*furthest_of_floats)(const float* now, const float* before, std::size_t count);
-  double (*furthest_of_doubles)(const double* now, const double* before, std::size_t count);
+  double (*furthest)(const Number* now, const Number* before, std::size_t count);
   /// Numbers of the points from `begin` to `end` that no coordinate leads out of a box, ascending; how many.
   /// Room for all of them.
-  std::size_t (*floats_inside)(const float* points, std::uint32_t begin, std::uint32_t end, const float* low,
-                               const float* high, std::uint32_t* index);
-  std::size_t (*doubles_inside)(const double* points, std::uint32_t begin, std::uint32_t end,
-                                const double* low, const double* high, std::uint32_t* index);
+  std::size_t (*inside)(const Number* points, std::uint32_t begin, std::uint32_t end, const Number* low,
+                        const Number* high, std::uint32_t* index);
   /// The box of the points from `begin` to `end`; x, y and z.
-  void (*extent_of_floats)(const float* points, std::uint32_t begin, std::uint32_t end, float* low,
-                           float* high);
-  void (*extent_of_doubles)(const double* points, std::uint32_t begin, std::uint32_t end, double* low,
-                            double* high);
+  void (*extent)(const Number* points, std::uint32_t begin, std::uint32_t end, Number* low, Number* high);
   /// Listed points in a frame, as `lay_out_…` of Filter reads them.
-  void (*bring_floats)(const PointArray<float>& points, const std::uint32_t* listed, std::size_t count,
-                       const PointFrame& frame, Point* brought);
-  void (*bring_doubles)(const PointArray<double>& points, const std::uint32_t* listed, std::size_t count,
-                        const PointFrame& frame, Point* brought);
+  void (*bring)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
+                const PointFrame& frame, Point* brought);
   /// The same in rows and without sizes; of one at least. And the box of the points, each of four numbers.
-  void (*bring_floats_in_rows)(const PointArray<float>& points, const std::uint32_t* listed,
-                               std::size_t count, const PointFrame& frame, const PointRows& rows, float* low,
-                               float* high);
-  void (*bring_doubles_in_rows)(const PointArray<double>& points, const std::uint32_t* listed,
-                                std::size_t count, const PointFrame& frame, const PointRows& rows,
-                                double* low, double* high);
+  void (*bring_in_rows)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
+                        const PointFrame& frame, const PointRows& rows, Number* low, Number* high);
   /// Those listed points that no coordinate leads out of a box, of four numbers each; how many. Room for all.
-  std::size_t (*listed_floats_inside)(const PointArray<float>& points, const std::uint32_t* listed,
-                                      std::size_t count, const float* low, const float* high,
-                                      std::uint32_t* inside);
-  std::size_t (*listed_doubles_inside)(const PointArray<double>& points, const std::uint32_t* listed,
-                                       std::size_t count, const double* low, const double* high,
-                                       std::uint32_t* inside);
+  std::size_t (*listed_inside)(const PointArray<Number>& points, const std::uint32_t* listed,
+                               std::size_t count, const Number* low, const Number* high,
+                               std::uint32_t* inside);
+};
+
+/// The passes of one instruction set.
+struct PositionPasses {
+  PassesOf<float> floats;
+  PassesOf<double> doubles;
   /// Compares every row from `first` to `last` with the points from `begin[row]` to `end[row]`, and lists
   /// those whose squared distance is below `reach_squared`, row after row; how many. Behind the points
   /// `lanes` more may be read.
