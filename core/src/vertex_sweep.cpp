@@ -227,7 +227,7 @@ class VertexSweep {
     }
   }
   void compare(const LocalVertices& a, std::size_t begin, std::size_t end, std::size_t pairs) {
-    const std::size_t found = kernels::position_passes().near_rows(
+    const std::size_t found = kernels::filter().near_rows(
         scratch_.b.block(), begin, end, a.block(), scratch_.first.data(), scratch_.last.data(),
         reach_ * reach_, {scratch_.near_row.data(), scratch_.near.data()});
     pair_.count.discarded_in_float += pairs - found;

@@ -15,7 +15,7 @@
 #include "contact_name.hpp"
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
-#include "kernels/positions.hpp"
+#include "kernels/filter.hpp"
 #include "support/catch.hpp"
 #include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
@@ -109,7 +109,7 @@ class RowsAndPoints {
   [[nodiscard]] VertexPairs found() const {
     std::vector<std::uint32_t> row(row_count_ * point_count_);
     std::vector<std::uint32_t> point(row.size());
-    const std::size_t count = kernels::position_passes().near_rows(
+    const std::size_t count = kernels::filter().near_rows(
         {rows_.data(), stride, row_count_}, begin_, row_count_, {points_.data(), stride, point_count_},
         first_.data(), last_.data(), reach_squared_, {row.data(), point.data()});
     VertexPairs pairs;

@@ -98,6 +98,12 @@ struct ClipCount {
   std::size_t others = 0;
 };
 
+/// Two points' numbers each, with room for as many as were looked at.
+struct NearPairs {
+  std::uint32_t* row;
+  std::uint32_t* point;
+};
+
 /// The kernels of one instruction set. `lay_out_…` fills blocks from vertices and the places of each
 /// feature's corners among them, one feature after the other; it reads corners and writes features up to a
 /// multiple of 4, of which those behind `count` may be any. `prepare_…` computes the rest. `near_…` discards
@@ -124,6 +130,12 @@ struct Filter {
   Clip clip_triangles;
   void (*gather)(const Block& from, std::size_t components, const std::uint32_t* index, std::size_t count,
                  float* to, std::size_t to_stride);
+  /// Compares every row from `first` to `last` with the points from `begin[row]` to `end[row]`, and lists
+  /// those whose squared distance is below `reach_squared`, row after row; how many. Behind the points
+  /// `lanes` more may be read.
+  std::size_t (*near_rows)(const Block& rows, std::size_t first, std::size_t last, const Block& points,
+                           const std::uint32_t* begin, const std::uint32_t* end, float reach_squared,
+                           const NearPairs& out);
 };
 
 /// The kernels in use, chosen once; see graze/instruction_set.hpp.

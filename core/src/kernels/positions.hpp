@@ -37,12 +37,6 @@ struct PointRows {
   std::size_t stride;
 };
 
-/// Two points' numbers each, with room for as many as were looked at.
-struct NearPairs {
-  std::uint32_t* row;
-  std::uint32_t* point;
-};
-
 /// Passes over points of three floats or doubles each, of which there is one at least.
 template <typename Number>
 struct PassesOf {
@@ -73,12 +67,6 @@ struct PassesOf {
 struct PositionPasses {
   PassesOf<float> floats;
   PassesOf<double> doubles;
-  /// Compares every row from `first` to `last` with the points from `begin[row]` to `end[row]`, and lists
-  /// those whose squared distance is below `reach_squared`, row after row; how many. Behind the points
-  /// `lanes` more may be read.
-  std::size_t (*near_rows)(const Block& rows, std::size_t first, std::size_t last, const Block& points,
-                           const std::uint32_t* begin, const std::uint32_t* end, float reach_squared,
-                           const NearPairs& out);
 };
 
 /// The passes in use, of the set that `filter()` is of.
