@@ -86,6 +86,7 @@ Mesh Mesh::from_polygons(PositionView rest, std::span<const std::uint32_t> corne
   mesh.number_edges();
   mesh.list_incidence();
   mesh.check_rest();
+  mesh.look_for_unused();
   mesh.regions_ = RegionTree(mesh);
   return mesh;
 }
@@ -105,6 +106,11 @@ void Mesh::check_rest() const {
     if (is_used(vertex) && !is_within_limits(rest_[vertex]))
       throw Error("mesh: the rest position of vertex " + std::to_string(vertex) +
                   " is not finite or has a coordinate beyond 2^120");
+}
+
+void Mesh::look_for_unused() {
+  for (std::uint32_t vertex = 0; vertex < vertex_count(); ++vertex)
+    uses_all_vertices_ = uses_all_vertices_ && is_used(vertex);
 }
 
 void Mesh::number_edges() {

@@ -29,8 +29,6 @@ std::uint64_t next_serial() {
 Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), serial_(next_serial()) {
   if (mesh_ == nullptr) throw Error("surface: there is no mesh");
   const std::uint32_t count = mesh_->vertex_count();
-  all_used_ = true;
-  for (std::uint32_t vertex = 0; vertex < count; ++vertex) all_used_ = all_used_ && mesh_->is_used(vertex);
   in_double_.assign(count, Eigen::Vector3d::Zero());
   set_positions(mesh_->rest());
 }
@@ -156,16 +154,56 @@ Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
   return result;
 }
 
-/// Whether positions lie in memory as the surface's own do.
-bool Surface::is_laid_out_like(const PositionView& view) const {
+namespace {
+
+/// Whether positions follow one another in memory, all of them used.
+bool is_packed(const Mesh& mesh, const PositionView& view) {
   const std::size_t number = view.is_double() ? sizeof(double) : sizeof(float);
-  return all_used_ && view.is_double() == in_float_.empty() && view.stride_bytes() == 3 * number &&
+  return mesh.uses_all_vertices() && view.stride_bytes() == 3 * number &&
          reinterpret_cast<std::uintptr_t>(view.data()) % number == 0;
 }
 
-namespace {
+template <typename Number>
+Box box_of(const kernels::PositionsSeen<Number>& seen) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = static_cast<double>(seen.min[axis]);
+    box.max[axis] = static_cast<double>(seen.max[axis]);
+  }
+  return box;
+}
 
-/// What fast passes see of positions that lie as the ones before do; nothing where one of them is bad.
+/// What fast passes see of packed positions; nothing where one of them is bad.
+template <typename Number>
+std::optional<Surface::PartSeen> seen_in_survey(const void* now, std::uint32_t begin, std::uint32_t end) {
+  kernels::PositionsSeen<Number> seen{};
+  passes_for<Number>().survey(static_cast<const Number*>(now) + std::size_t{3} * begin, end - begin,
+                              static_cast<Number>(largest_coordinate), seen);
+  if (seen.bad) return std::nullopt;
+  Surface::PartSeen part;
+  part.box = box_of(seen);
+  return part;
+}
+
+/// The same of any positions, one by one.
+Surface::PartSeen seen_one_by_one(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
+                                  std::uint32_t end) {
+  Surface::PartSeen part;
+  for (std::uint32_t vertex = begin; vertex < end; ++vertex) {
+    if (!mesh.is_used(vertex)) continue;
+    const Eigen::Vector3d now = view[vertex];
+    if (!is_within_limits(now)) {
+      part.bad_vertex = vertex;
+      part.bad_position = now;
+      return part;
+    }
+    part.box.add(now);
+  }
+  return part;
+}
+
+/// What fast passes see of positions that lie as the ones before do, compared with them; nothing where one of
+/// them is bad.
 template <typename Number>
 std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* before, std::uint32_t begin,
                                                 std::uint32_t end, Surface::Displacement displacement) {
@@ -177,14 +215,12 @@ std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* bef
   if (seen.bad) return std::nullopt;
   Surface::PartSeen part;
   part.changed = seen.changed;
-  for (int axis = 0; axis < 3; ++axis) {
-    part.box.min[axis] = static_cast<double>(seen.min[axis]);
-    part.box.max[axis] = static_cast<double>(seen.max[axis]);
-    // A difference is rounded once; where it underflows it is exact.
-    if (displacement == Surface::Displacement::bound)
+  part.box = box_of(seen);
+  // A difference is rounded once; where it underflows it is exact.
+  if (displacement == Surface::Displacement::bound)
+    for (int axis = 0; axis < 3; ++axis)
       part.furthest[axis] = static_cast<double>(seen.furthest[axis]) *
                             (1 + static_cast<double>(std::numeric_limits<Number>::epsilon()));
-  }
   if (displacement == Surface::Displacement::bound || !part.changed) return part;
   part.furthest_squared = passes.furthest(first, was_first, end - begin);
   return part;
@@ -200,6 +236,11 @@ Eigen::Vector3d posed(const std::array<double, 12>& rows, const Eigen::Vector3d&
 
 }  // namespace
 
+/// Whether positions lie in memory as the surface's own do.
+bool Surface::is_laid_out_like(const PositionView& view) const {
+  return is_packed(*mesh_, view) && view.is_double() == in_float_.empty();
+}
+
 Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
                                              Displacement displacement) const {
   std::optional<PartSeen> part;
@@ -208,6 +249,16 @@ Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint
                             : seen_in_passes<float>(view.data(), in_float_.data(), begin, end, displacement);
   if (!part) part = look(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
   part->in_double = view.is_double();
+  return *part;
+}
+
+Surface::PartSeen Surface::survey(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
+                                  std::uint32_t end) {
+  std::optional<PartSeen> part;
+  if (begin < end && is_packed(mesh, view))
+    part = view.is_double() ? seen_in_survey<double>(view.data(), begin, end)
+                            : seen_in_survey<float>(view.data(), begin, end);
+  if (!part) part = seen_one_by_one(mesh, view, begin, end);
   return *part;
 }
 

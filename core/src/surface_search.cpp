@@ -54,7 +54,7 @@ std::size_t Surface::find_inside(const Box& box, std::span<std::uint32_t> found)
     for (std::uint32_t i = 0; i < stretches_.size(); ++i)
       if (!common(stretches_[i], box).empty()) pass(i * stretch, std::min((i + 1) * stretch, count));
   }
-  if (all_used_) return inside;
+  if (mesh_->uses_all_vertices()) return inside;
   const auto unused = [this](std::uint32_t vertex) { return !mesh_->is_used(vertex); };
   const auto listed = found.first(inside);
   return static_cast<std::size_t>(std::remove_if(listed.begin(), listed.end(), unused) - listed.begin());

@@ -9,9 +9,10 @@ namespace graze::io {
 
 /// The counters and times of a step by the names they have in a report, in the order in which they are
 /// written. `regions_expanded` is an array and stands between the two.
-inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 28> counter_fields{{
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 29> counter_fields{{
     {"objects", &StepStatistics::objects},
     {"objects_unread", &StepStatistics::objects_unread},
+    {"objects_surveyed", &StepStatistics::objects_surveyed},
     {"pairs_total", &StepStatistics::pairs_total},
     {"objects_in_slack", &StepStatistics::objects_in_slack},
     {"boxes_tested", &StepStatistics::boxes_tested},

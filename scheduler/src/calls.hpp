@@ -6,6 +6,7 @@
 #include <graze/report.hpp>
 #include <graze/settings.hpp>
 #include <graze/surface.hpp>
+#include <limits>
 #include <memory>
 #include <variant>
 
@@ -30,7 +31,7 @@ struct SetPose {
 struct SetPositions {
   ObjectId object;
   SparePositions::Loan positions;
-  double max_displacement;
+  double max_displacement = std::numeric_limits<double>::infinity();
 };
 struct BindPositions {
   ObjectId object;
@@ -39,6 +40,8 @@ struct BindPositions {
 };
 struct UnbindPositions {
   ObjectId object;
+  SparePositions::Loan positions;  ///< what memory that is read in every step says last; none where it is bad
+  bool is_bad = false;
 };
 struct PositionsChanged {
   ObjectId object;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
+#include <graze/position_view.hpp>
 #include <graze/settings.hpp>
 #include <memory>
 #include <utility>
@@ -14,11 +15,15 @@
 
 namespace graze {
 
-/// What a scene's callers may know of an object; unchanged while it is pinned.
+/// What a scene's callers may know of an object; mesh and settings are unchanged while it is pinned.
 struct NamedObject {
   std::shared_ptr<const Mesh> mesh;
   ObjectSettings settings;
   SparePositions spare_positions;
+  /// The memory that is read in every step, as the calls made so far have it; both under Staging's lock of
+  /// bindings, but that anyone may ask whether there is any.
+  PositionView bound;
+  std::atomic<bool> is_bound{false};
 };
 
 /// Which ids name objects, answered and changed from any thread without a lock.

@@ -54,8 +54,16 @@ void add_promise(Object& object) {
   object.promise = std::numeric_limits<double>::infinity();
 }
 
+/// Whether an object's box will do, unless that turns out to be near another: it was in no pair of the last
+/// step, and nobody will ask how far it has moved. What stands still is read, which then writes nothing.
+bool can_be_surveyed(const Object& object) {
+  return object.bound && object.policy == BindPolicy::every_step && !object.promises && !object.frozen &&
+         !object.looked_at && (object.surveyed || object.moved);
+}
+
 /// Looks at some vertices of what an object is to be read from.
 Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
+  if (object.to_survey) return Surface::survey(*object.mesh, *object.bound, begin, end);
   const Surface& surface = object.surface();
   if (object.pose) return surface.look_at_pose(*object.pose, begin, end);
   // A promise is held against what moved furthest, not against a bound of it.
@@ -71,6 +79,10 @@ void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
   surface.write_positions(object.positions ? PositionView(*object.positions) : *object.bound, begin, end);
 }
 
+bool is_same(const Box& left, const Box& right) {
+  return left.min == right.min && left.max == right.max;
+}
+
 /// What came of looking at all vertices.
 struct Looked {
   bool to_write = false;  ///< all vertices, and then the read is to be finished
@@ -78,24 +90,43 @@ struct Looked {
   std::optional<Diagnostic> problem;
 };
 
+const char* const stands_still = "it stands still until good positions are read";
+
+/// Takes what a survey saw, or says why not.
+Looked take_survey(Object& object, const Surface::PartSeen& all) {
+  Looked looked;
+  object.frozen = all.bad_vertex != Surface::ReadResult::no_vertex;
+  object.surveyed = object.unread = !object.frozen;
+  if (object.frozen) {
+    looked.changed = true;
+    looked.problem = bad_vertex(object, {all.bad_vertex, all.bad_position}, stands_still);
+  } else {
+    looked.changed = !is_same(object.box, all.box);
+    object.box = all.box;
+    object.promised = std::numeric_limits<double>::infinity();
+  }
+  return looked;
+}
+
 /// Takes what was seen of all vertices, or says why not.
 Looked take_seen(Object& object, const Surface::PartSeen& all) {
+  if (object.to_survey) return take_survey(object, all);
   const Surface::ReadResult result = object.surface_to_write().take(all);
   Looked looked{result.changed, result.changed, std::nullopt};
+  object.moved = result.changed;
   if (object.pose) {
     if (!result.taken()) looked.problem = bad_vertex(object, result, "the pose was not taken");
   } else {
     looked.changed = looked.changed || object.frozen == result.taken();
     object.frozen = !result.taken();
-    looked.problem = object.frozen
-                         ? bad_vertex(object, result, "it stands still until good positions are read")
-                         : check_promise(object, result);
+    looked.problem = object.frozen ? bad_vertex(object, result, stands_still) : check_promise(object, result);
   }
   return looked;
 }
 
 /// After all was written: lets go of what was read. Bad memory is read again until it is good.
 void finish_read(Object& object) {
+  if (object.to_survey) return;
   if (object.pose) {
     object.pose.reset();
   } else {
@@ -103,14 +134,14 @@ void finish_read(Object& object) {
     if (!object.positions) object.told = false;
     object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
   }
-  object.unread = false;
+  object.unread = object.surveyed = false;
   object.promised = 0;
   object.box = object.surface().box();
   object.version = object.surface().version();
 }
 
 Looked read_whole(Object& object) {
-  const std::uint32_t count = object.surface().mesh().vertex_count();
+  const std::uint32_t count = object.mesh->vertex_count();
   Looked looked = take_seen(object, look_at_part(object, 0, count));
   if (looked.to_write) write_part(object, 0, count);
   finish_read(object);
@@ -136,7 +167,8 @@ void ObjectStore::apply(AddObject& call) {
   object->owned_surface = std::move(call.surface);
   object->box = object->surface().box();
   object->version = object->surface().version();
-  object->in_parts = object->surface().mesh().vertex_count() > vertices_each;
+  object->mesh = &object->surface().mesh();
+  object->in_parts = object->mesh->vertex_count() > vertices_each;
   count_bytes(*object);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
   by_index_[call.object.index] = object.get();
@@ -182,18 +214,24 @@ void ObjectStore::apply(const BindPositions& call) {
   object->told = true;
   object->is_new = true;
   object->promise = std::numeric_limits<double>::infinity();
+  object->promises = false;
   expect_input(*object);
 }
 
-void ObjectStore::apply(const UnbindPositions& call) {
+void ObjectStore::apply(UnbindPositions& call) {
   Object* const object = find(call.object);
-  if (object == nullptr) return;
+  if (object == nullptr || !object->bound) return;
+  if (call.positions) {
+    SetPositions last{call.object, std::move(call.positions)};
+    return apply(last);
+  }
   object->bound.reset();
-  object->frozen = false;
+  object->frozen = call.is_bad;
   object->unread = false;
+  will_have_changed_ = true;
+  if (call.is_bad) return;
   object->promised = 0;
   object->box = object->surface().box();
-  will_have_changed_ = true;
 }
 
 void ObjectStore::apply(const PositionsChanged& call) {
@@ -202,6 +240,7 @@ void ObjectStore::apply(const PositionsChanged& call) {
   object->told = true;
   object->is_new = true;
   object->promise = call.max_displacement;
+  object->promises = object->promises || std::isfinite(call.max_displacement);
   expect_input(*object);
 }
 
@@ -213,11 +252,6 @@ void ObjectStore::reserve(std::size_t count) {
   with_input_.reserve(count);
   to_read_.reserve(count);
   read_problems_.reserve(count);
-}
-
-std::size_t ObjectStore::unread_count() const {
-  return static_cast<std::size_t>(std::count_if(with_input_.begin(), with_input_.end(),
-                                                [](const Object* object) { return object->unread; }));
 }
 
 void ObjectStore::count_bytes(Object& object) {
@@ -253,24 +287,30 @@ void ObjectStore::drop_removed() {
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
   changed_ = std::exchange(will_have_changed_, false);
   drop_removed();
-  std::erase_if(with_input_, [](Object* object) {
+  begin_list();
+  unread_count_ = surveyed_count_ = 0;
+  // One pass: by the next one the first objects would have left the caches.
+  std::erase_if(with_input_, [&](Object* object) {
     object->may_have_input = has_input(*object);
+    if (object->may_have_input) take_input(*object);
     return !object->may_have_input;
   });
-  begin_list();
-  for (Object* const object : with_input_) {
-    add_promise(*object);
-    const bool was_unread = object->unread;
-    object->unread =
-        !checks_every_promise && !object->pose && !object->frozen && std::isfinite(object->promised);
-    if (was_unread || object->unread) changed_ = true;
-    if (object->unread)
-      object->box = grown(object->surface().box(), object->promised);
-    else
-      list_to_read(*object);
-  }
   read_listed(tasks, diagnostics);
   see_new();
+}
+
+/// Leaves an object unread where promises allow it, and lists it otherwise.
+void ObjectStore::take_input(Object& object) {
+  add_promise(object);
+  object.to_survey = can_be_surveyed(object);
+  if (object.to_survey) ++surveyed_count_;
+  object.looked_at = false;
+  const bool was_unread = object.unread;
+  object.unread = !checks_every_promise && !object.pose && !object.frozen && std::isfinite(object.promised);
+  if ((was_unread && !object.to_survey) || object.unread) changed_ = true;
+  if (!object.unread) return list_to_read(object);
+  object.box = grown(object.surface().box(), object.promised);
+  ++unread_count_;
 }
 
 /// From now on promises may speak of where new objects are that stand as they rest.
@@ -285,7 +325,8 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
                               std::vector<Diagnostic>& diagnostics) {
   begin_list();
   for (Object* const object : wanted) {
-    object->wanted = false;
+    if (!object->surveyed) --unread_count_;
+    object->wanted = object->to_survey = false;
     list_to_read(*object);
   }
   read_listed(tasks, diagnostics);
@@ -301,7 +342,7 @@ void ObjectStore::begin_list() {
 
 void ObjectStore::list_to_read(Object& object) {
   if (!object.in_parts) return to_read_.push_back(&object);
-  const std::uint32_t count = object.surface().mesh().vertex_count();
+  const std::uint32_t count = object.mesh->vertex_count();
   for (std::uint32_t begin = 0; begin < count; begin += vertices_each)
     parts_.push_back({&object, begin, std::min(vertices_each, count - begin), {}});
   large_.push_back({&object, parts_.size()});
@@ -321,11 +362,14 @@ void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnost
       const AccessScope access({AccessRight::write(&object), {}});
       Looked looked = read_whole(object);
       if (looked.changed) changed_.store(true, std::memory_order_relaxed);
+      if (!looked.problem) return;
       read_problems_[item - parts_.size()] = std::move(looked.problem);
+      some_problems_.store(true, std::memory_order_relaxed);
     }
   });
   problems_.clear();
-  for (std::size_t place = 0; place < to_read_.size(); ++place)
+  const std::size_t looked_through = some_problems_.exchange(false) ? to_read_.size() : 0;
+  for (std::size_t place = 0; place < looked_through; ++place)
     if (auto& problem = read_problems_[place]) {
       problems_.emplace_back(to_read_[place]->serial, std::move(*problem));
       problem.reset();

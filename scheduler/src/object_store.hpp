@@ -22,7 +22,9 @@ struct Object {
   std::uint64_t serial = 0;  ///< the order in which objects were added; never used again
   ObjectSettings settings;
   std::unique_ptr<Surface> owned_surface;  ///< through the accessors below
-  /// Where it certainly is: the surface's box, grown by what was promised since that was read.
+  const Mesh* mesh = nullptr;              ///< the surface's
+  /// Where it certainly is: the surface's box, grown by what was promised since that was read; or that of a
+  /// survey.
   Box box;
   std::uint64_t version = 0;  ///< the surface's, after a read
 
@@ -38,9 +40,16 @@ struct Object {
   /// No vertex is further from where the surface has it, by the promises since that was read. At first
   /// without a bound: promises speak of where a step saw the object, and none has.
   double promised = std::numeric_limits<double>::infinity();
-  /// There are positions that have not been read, since promises say that they are far from everything.
+  bool promises = false;  ///< bound memory of which motion has been promised
+  /// There are positions that have not been read, since promises say that they are far from everything, or a
+  /// survey does.
   bool unread = false;
   bool wanted = false;  ///< among those that `read_unread` was asked for
+  /// Its unread memory was surveyed: `box` is where that is, and the surface stands where it was read last.
+  bool surveyed = false;
+  bool to_survey = false;  ///< and not read, in the read that is under way
+  bool moved = false;      ///< it was elsewhere than before when it was read last
+  bool looked_at = false;  ///< in a pair of the last step
   /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
   bool frozen = false;
 
@@ -69,14 +78,14 @@ class ObjectStore {
   void apply(const SetPose& call);
   void apply(SetPositions& call);
   void apply(const BindPositions& call);
-  void apply(const UnbindPositions& call);
+  void apply(UnbindPositions& call);
   void apply(const PositionsChanged& call);
   /// Makes room for that many objects.
   void reserve(std::size_t count);
 
-  /// Brings every object to where it is now, but for those of which promises say about where they are. Reads
-  /// each object's memory at most once, several objects at a time; appends what was wrong in the objects'
-  /// order.
+  /// Brings every object to where it is now, but for those of which promises say about where they are, and
+  /// those in memory that is read in every step that were near nothing a step ago: these are surveyed, which
+  /// takes a third of the traffic. Several objects at a time; appends what was wrong in the objects' order.
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
@@ -87,7 +96,10 @@ class ObjectStore {
   /// Those that are there after `read_positions`; ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
   [[nodiscard]] Object* find(ObjectId id);
-  [[nodiscard]] std::size_t unread_count() const;
+  /// How many objects the last reads left unread because of promises.
+  [[nodiscard]] std::size_t unread_count() const { return unread_count_; }
+  /// How many were surveyed, those that were then read included.
+  [[nodiscard]] std::size_t surveyed_count() const { return surveyed_count_; }
 
   /// Takes up how many bytes an object's surface holds now.
   void count_bytes(Object& object);
@@ -110,6 +122,7 @@ class ObjectStore {
   /// Has the object looked at in the next read.
   void expect_input(Object& object);
   void drop_removed();
+  void take_input(Object& object);
   void see_new();
   void begin_list();
   void list_to_read(Object& object);
@@ -129,6 +142,9 @@ class ObjectStore {
   std::uint64_t next_serial_ = 0;
   std::uint64_t first_unseen_ = 0;  ///< the serial of the first object that no step has seen
   std::size_t surface_bytes_ = 0;
+  std::size_t unread_count_ = 0;
+  std::size_t surveyed_count_ = 0;
+  std::atomic<bool> some_problems_ = false;  ///< among `read_problems_`
   std::atomic<bool> changed_ = false;
   bool will_have_changed_ = false;  ///< at the next `read_positions`, whatever that sees
 };

@@ -72,15 +72,14 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
   some_unread_ = some_unread;
 }
 
-void ObjectSummaries::refresh_unread(std::span<const std::unique_ptr<Object>> objects) {
-  for (std::size_t place = 0; place < objects.size(); ++place) {
-    ObjectSummary& summary = summaries_[place];
-    if (!summary.unread || objects[place]->unread) continue;
-    summary.box = objects[place]->box;
-    summary.version = objects[place]->version;
-    summary.frozen = objects[place]->frozen;
-    summary.unread = false;
-    summary.read_late = true;
+void ObjectSummaries::refresh(std::span<Object* const> read_late) {
+  for (const Object* const object : read_late) {
+    ObjectSummary& summary = summaries_[place_of(*object)];
+    summary.read_late = !(motion_between(summary.box, object->box) == 0);
+    summary.box = object->box;
+    summary.version = object->version;
+    summary.frozen = object->frozen;
+    summary.unread = object->unread;
   }
 }
 

@@ -37,8 +37,8 @@ class ObjectSummaries {
 
   /// Brings all up to date; the box of an object that is new has not moved.
   void refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks);
-  /// The same for the boxes of objects that were read since.
-  void refresh_unread(std::span<const std::unique_ptr<Object>> objects);
+  /// The same for objects that were read since.
+  void refresh(std::span<Object* const> read_late);
 
   [[nodiscard]] std::span<const ObjectSummary> all() const { return summaries_; }
   [[nodiscard]] const ObjectSummary& operator[](std::uint32_t place) const { return summaries_[place]; }

@@ -21,9 +21,9 @@ std::span<const PairJob> PairTable::list(const FrameReport& previous, TaskPool& 
   return jobs_;
 }
 
-/// A pair of which one object was not read, because of a promise, is near only where the boxes of what was
-/// promised are; then it is read after all. So is what the last report listed, since that has to be said of
-/// it again.
+/// A pair of which one object was not read, because of a promise or since it was surveyed, is near only where
+/// their boxes are; then it is read after all. So is what the last report listed, since that has to be said
+/// of it again.
 void PairTable::read_what_is_near(std::span<const PlacePair> pairs, const FrameReport& previous,
                                   TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
   const auto objects = store_.objects();
@@ -47,7 +47,7 @@ void PairTable::read_what_is_near(std::span<const PlacePair> pairs, const FrameR
   }
   if (wanted_.empty()) return;
   store_.read_unread(wanted_, tasks, diagnostics);
-  summaries_.refresh_unread(objects);
+  summaries_.refresh(wanted_);
 }
 
 /// Merges the pairs that are to be looked at with those of the last report, some of which have something to
@@ -84,7 +84,10 @@ void PairTable::list_jobs(std::span<const PlacePair> selected, const FrameReport
   while (next != selected.end()) add_next(nullptr);
   memories_.end();
   for (const PairJob& job : jobs_) {
-    if (job.is_looked_at()) ++statistics.pairs_tested;
+    if (job.is_looked_at()) {
+      ++statistics.pairs_tested;
+      job.a->looked_at = job.b->looked_at = true;
+    }
     if (job.task == PairJob::Task::unchanged) ++statistics.pairs_unchanged;
   }
 }

@@ -93,6 +93,7 @@ void Staging::remove(ObjectId object) {
   const ObjectIds::Pin pinned = ids_.pin(object);
   Calls calls(queue_);
   if (!pinned || !ids_.remove(object)) return add_stale(calls, object, "remove");
+  end_binding(*pinned);
   // Queued while pinned, and so before the index is given again: the removal comes before its next addition.
   calls.add(RemoveObject{object});
 }
@@ -145,23 +146,33 @@ void Staging::add_positions(Calls& calls, ObjectId object, const PositionView& p
   if (!named) return add_stale(calls, object, "set_positions");
   if (!check_view(calls, object, *named, positions, "set_positions")) return;
   const double promise = promise_of(calls, object, max_displacement, "set_positions");
-  SetPositions call{object, ids_.lend_positions(*named), promise};
-  const std::uint32_t bad = copy_used(*named->mesh, positions, *call.positions);
-  if (bad == Surface::ReadResult::no_vertex) return calls.add(std::move(call));
-  const bool finite = (*call.positions)[bad].allFinite();
+  SetPositions call{object, copy_good(calls, object, *named, positions, "the old positions stand"), promise};
+  if (!call.positions) return;
+  end_binding(*named);
+  calls.add(std::move(call));
+}
+
+SparePositions::Loan Staging::copy_good(Calls& calls, ObjectId object, NamedObject& named,
+                                        const PositionView& view, const char* consequence) {
+  SparePositions::Loan positions = ids_.lend_positions(named);
+  const std::uint32_t bad = copy_used(*named.mesh, view, *positions);
+  if (bad == Surface::ReadResult::no_vertex) return positions;
+  const bool finite = (*positions)[bad].allFinite();
   add_problem(calls, object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
-              name_of(object, *named) + ": vertex " + std::to_string(bad) +
-                  (finite ? " has a coordinate beyond 2^120" : " is not finite") +
-                  "; the old positions stand");
+              name_of(object, named) + ": vertex " + std::to_string(bad) +
+                  (finite ? " has a coordinate beyond 2^120; " : " is not finite; ") + consequence);
+  return nullptr;
 }
 
 void Staging::bind_positions(ObjectId object, const PositionView& positions, BindPolicy policy) {
+  const std::lock_guard lock(bindings_);
   Calls calls(queue_);
   add_binding(calls, object, positions, policy);
 }
 
 void Staging::bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                              BindPolicy policy) {
+  const std::lock_guard lock(bindings_);
   Calls calls(queue_);
   if (!check_sizes(calls, objects.size(), positions.size(), "bind_positions", "views of positions")) return;
   for (std::size_t i = 0; i < objects.size(); ++i) add_binding(calls, objects[i], positions[i], policy);
@@ -171,13 +182,33 @@ void Staging::add_binding(Calls& calls, ObjectId object, const PositionView& pos
   if (!check_deformable(calls, object, "bind_positions")) return;
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "bind_positions");
-  if (check_view(calls, object, *named, positions, "bind_positions"))
-    calls.add(BindPositions{object, positions, policy});
+  if (!check_view(calls, object, *named, positions, "bind_positions")) return;
+  named->bound = positions;
+  named->is_bound = policy == BindPolicy::every_step;
+  calls.add(BindPositions{object, positions, policy});
 }
 
 void Staging::unbind_positions(ObjectId object) {
+  const FloatingPointScope scope;
+  const std::lock_guard lock(bindings_);
   Calls calls(queue_);
-  if (check_deformable(calls, object, "unbind_positions")) calls.add(UnbindPositions{object});
+  if (!check_deformable(calls, object, "unbind_positions")) return;
+  const ObjectIds::Pin named = ids_.pin(object);
+  if (!named) return add_stale(calls, object, "unbind_positions");
+  UnbindPositions call{object, {}};
+  if (named->is_bound) {
+    call.positions =
+        copy_good(calls, object, *named, named->bound, "it stands still until it is given good positions");
+    call.is_bad = !call.positions;
+    named->is_bound = false;
+  }
+  calls.add(std::move(call));
+}
+
+void Staging::end_binding(NamedObject& object) {
+  if (!object.is_bound) return;
+  const std::lock_guard lock(bindings_);
+  object.is_bound = false;
 }
 
 void Staging::positions_changed(ObjectId object, double max_displacement) {

@@ -8,6 +8,7 @@
 #include <graze/report.hpp>
 #include <graze/settings.hpp>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -19,7 +20,8 @@ namespace graze {
 
 /// Takes the calls on a scene from any thread and keeps them, in the order in which they were made, until a
 /// step takes them up. Ids are given and checked here, so an id is good or stale at the moment of the call.
-/// No lock is taken and nobody waits for another thread.
+/// Nobody waits for another thread, but those that bind, unbind, or end the binding of an object in another
+/// way: they do so one after the other, so that what is bound is known when it is copied.
 ///
 /// The forms for many objects mean the same as single calls in the order of the spans, of which no other
 /// thread's calls come in between; spans that do not fit together are a diagnostic and nothing is taken.
@@ -72,6 +74,9 @@ class Staging {
   // Each checks one call and adds it, or a diagnostic in its place, to `calls`.
   void add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows);
   void add_positions(Calls& calls, ObjectId object, const PositionView& positions, double max_displacement);
+  /// A copy of positions; none, and a diagnostic, where one is not finite or beyond 2^120.
+  SparePositions::Loan copy_good(Calls& calls, ObjectId object, NamedObject& named, const PositionView& view,
+                                 const char* consequence);
   void add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy);
   void add_change(Calls& calls, ObjectId object, double max_displacement);
 
@@ -79,12 +84,15 @@ class Staging {
   bool check_deformable(Calls& calls, ObjectId object, const char* what);
   /// `max_displacement`, or no promise and a diagnostic where it is none.
   double promise_of(Calls& calls, ObjectId object, double max_displacement, const char* what);
+  /// Nobody reads the memory that an object was bound to when this returns, or will.
+  void end_binding(NamedObject& object);
   /// How a message names an object that is there or was a moment ago.
   std::string name(ObjectId object);
 
   // The queue goes first: its calls give their buffers back to the ids' places.
   ObjectIds ids_;
   CallQueue queue_;
+  std::mutex bindings_;  ///< held until the calls that bind or unbind have entered the queue
 };
 
 }  // namespace graze

@@ -160,6 +160,7 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
   statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
   // Of objects without pairs.
   statistics.objects_unread = statistics.boxes_tested = statistics.objects_in_slack = 0;
+  statistics.objects_surveyed = store_.surveyed_count();
   is_settled_ = true;
 }
 
@@ -173,6 +174,7 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.fronts_left_out = sum.fronts_left_out;
   statistics.regions_expanded = sum.regions_expanded;
   statistics.objects_unread = store_.unread_count();
+  statistics.objects_surveyed = store_.surveyed_count();
 }
 
 void Step::count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics) {

@@ -111,6 +111,8 @@ TEST_CASE("a surface in parts: read by several tasks as by one") {
       const oracle::Shape moved = mapped(shape, 1 + 0.01 * frame, Eigen::Vector3d(0.1 * frame, 0, 0));
       check_same(read_positions_in_parts(parts, moved.positions, random, Surface::Displacement::exact),
                  whole.set_positions(moved.positions));
+      const std::uint32_t count = whole.mesh().vertex_count();
+      CHECK(is_same(Surface::survey(whole.mesh(), moved.positions, 0, count).box, whole.box()));
       for (const RefitOf what : {RefitOf::vertices, RefitOf::faces, RefitOf::radii})
         refit_in_parts(parts, what, random);
       whole.refit_vertices();
@@ -208,6 +210,10 @@ std::size_t check_one_pass(std::uint64_t seed) {
                             -std::numeric_limits<Number>::infinity(), static_cast<Number>(0x1.000002p120)};
     bad[vertex][static_cast<int>(random.below(3))] = worst[random.below(3)];
     CHECK(surface.look_at_positions(bad, begin, end, Surface::Displacement::bound).bad_vertex == vertex);
+    CHECK(is_same(Surface::survey(surface.mesh(), next, begin, end).box, exact.box));
+    CHECK(is_same(Surface::survey(surface.mesh(), one_by_one, begin, end).box, exact.box));
+    const auto surveyed = Surface::survey(surface.mesh(), bad, begin, end);
+    CHECK(surveyed.bad_vertex == vertex);
   }
   use_instruction_set(available_instruction_sets().back());
   return end - begin;

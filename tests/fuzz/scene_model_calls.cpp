@@ -148,8 +148,17 @@ void SceneModel::unbind(std::size_t index) {
   ModelBody& body = bodies_[index];
   scene_.unbind_positions(body.id);
   if (deformable(index) == nullptr) return;
+  if (body.is_bound && body.policy == BindPolicy::every_step) {
+    const Positions last = body.memory();
+    if (body.can_take(last))
+      body.copied = last;
+    else
+      expect_diagnostic(body.id, problem_of(*body.mesh, last));
+    body.is_frozen = !body.copied;
+  } else if (body.is_bound) {
+    body.is_frozen = false;
+  }
   body.is_bound = false;
-  body.is_frozen = false;
   body.doubles.reset();
   body.floats.reset();
 }

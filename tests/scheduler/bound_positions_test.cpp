@@ -154,15 +154,16 @@ TEST_CASE("memory is given back by unbinding, rebinding and removing") {
   auto memory = std::make_unique<Memory>(2);
   pair.scene.bind_positions(pair.needle, memory->points);
   CHECK(distance_after_step(pair) == 2);
-  SECTION("unbound: the object keeps what the last step saw") {
+  SECTION("unbound: the object keeps what the memory says at the call") {
     memory->lift(7);
     pair.scene.unbind_positions(pair.needle);
     memory.reset();
-    CHECK(distance_after_step(pair) == 2);
+    CHECK(distance_after_step(pair) == 7);
     pair.scene.positions_changed(pair.needle);
-    CHECK(distance_after_step(pair) == 2);
-    CHECK(distance_after_step(pair) == 2);
-    CHECK(distance_after_step(pair) == 2);
+    CHECK(distance_after_step(pair) == 7);
+    CHECK(distance_after_step(pair) == 7);
+    pair.scene.unbind_positions(pair.needle);
+    CHECK(distance_after_step(pair) == 7);
     CHECK(pair.step_at(4)->pairs()[0].distance.upper == 4);
   }
   SECTION("bound to other memory") {
@@ -171,14 +172,29 @@ TEST_CASE("memory is given back by unbinding, rebinding and removing") {
     memory.reset();
     CHECK(distance_after_step(pair) == 6);
   }
-  SECTION("bound and unbound between two steps: never read") {
+  SECTION("bound and unbound between two steps: read once, by the last call") {
     pair.scene.unbind_positions(pair.needle);
     CHECK(distance_after_step(pair) == 2);
     memory->lift(8);
     pair.scene.bind_positions(pair.needle, memory->points);
+    memory->lift(9);
+    pair.scene.unbind_positions(pair.needle);
+    memory.reset();
+    CHECK(distance_after_step(pair) == 9);
+  }
+  SECTION("memory that is read when told keeps what was read of it last") {
+    pair.scene.bind_positions(pair.needle, memory->points, BindPolicy::when_told);
+    CHECK(distance_after_step(pair) == 2);
+    memory->lift(8);
     pair.scene.unbind_positions(pair.needle);
     memory.reset();
     CHECK(distance_after_step(pair) == 2);
+  }
+  SECTION("copied positions and later bindings take its place, so that unbinding does not read it") {
+    pair.lift(3);
+    memory.reset();
+    pair.scene.unbind_positions(pair.needle);
+    CHECK(distance_after_step(pair) == 3);
   }
   SECTION("removed") {
     pair.scene.remove(pair.needle);

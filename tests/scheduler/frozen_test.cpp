@@ -20,9 +20,12 @@ struct Stage : NeedleOverPlate {
     scene.set_positions(other, moved(plate_mesh()->rest(), {5, 5, 3}));
     scene.bind_positions(needle, memory, policy);
   }
-  ReportHandle step_at(double height) {
+  void write(double height) {
     const Positions now = lifted(*needle_mesh(), height);
     std::copy(now.begin(), now.end(), memory.begin());
+  }
+  ReportHandle step_at(double height) {
+    write(height);
     return scene.step();
   }
   ReportHandle step_with(double bad) {
@@ -129,11 +132,20 @@ TEST_CASE("a needle that was never read stands at its rest shape and is in no pa
   CHECK(kinds_of(*report) == std::vector{DiagnosticKind::not_finite});
   CHECK(report->pairs().size() == 1);
   CHECK(find_pair(*report, stage.plate, stage.other) != nullptr);
-  stage.scene.unbind_positions(stage.needle);
-  const ReportHandle at_rest = stage.scene.step();
-  CHECK(at_rest->diagnostics().empty());
-  CHECK(stage.row(at_rest).distance.upper == 0);
-  CHECK(stage.row(at_rest).phase == PairPhase::began);
+  SECTION("nor is it when its memory is let go of") {
+    stage.scene.unbind_positions(stage.needle);
+    CHECK(kinds_of(*stage.scene.step()) == std::vector{DiagnosticKind::not_finite});
+    const ReportHandle after = stage.scene.step();
+    CHECK(after->diagnostics().empty());
+    CHECK(after->pairs().size() == 1);
+  }
+  SECTION("until it has good positions") {
+    stage.scene.set_positions(stage.needle, lifted(*needle_mesh(), 0));
+    const ReportHandle at_rest = stage.scene.step();
+    CHECK(at_rest->diagnostics().empty());
+    CHECK(stage.row(at_rest).distance.upper == 0);
+    CHECK(stage.row(at_rest).phase == PairPhase::began);
+  }
 }
 
 TEST_CASE("memory bound when told is read again until it is good") {
@@ -148,7 +160,7 @@ TEST_CASE("memory bound when told is read again until it is good") {
   CHECK(stage.row(stage.step_at(4)).distance.upper == 3);
 }
 
-TEST_CASE("copying, unbinding or binding other memory ends the freeze") {
+TEST_CASE("copying or binding other memory ends the freeze, unbinding does not") {
   Stage stage(settings_of(0.5, 100));
   stage.step_at(2);
   stage.step_with(nothing);
@@ -159,12 +171,25 @@ TEST_CASE("copying, unbinding or binding other memory ends the freeze") {
     CHECK_FALSE(stage.row(report).stale);
     CHECK(stage.row(report).distance.upper == 5);
   }
-  SECTION("unbound") {
+  SECTION("unbound, and copied later") {
+    stage.scene.unbind_positions(stage.needle);
+    CHECK(kinds_of(*stage.scene.step()) == std::vector{DiagnosticKind::not_finite});
+    const ReportHandle frozen = stage.scene.step();
+    CHECK(frozen->diagnostics().empty());
+    CHECK(stage.row(frozen).stale);
+    CHECK(stage.row(frozen).distance.upper == 2);
+    stage.scene.set_positions(stage.needle, lifted(*needle_mesh(), 5));
+    const ReportHandle report = stage.scene.step();
+    CHECK_FALSE(stage.row(report).stale);
+    CHECK(stage.row(report).distance.upper == 5);
+  }
+  SECTION("unbound when its memory has become good again") {
+    stage.write(4);
     stage.scene.unbind_positions(stage.needle);
     const ReportHandle report = stage.scene.step();
     CHECK(report->diagnostics().empty());
     CHECK_FALSE(stage.row(report).stale);
-    CHECK(stage.row(report).distance.upper == 2);
+    CHECK(stage.row(report).distance.upper == 4);
   }
   SECTION("bound to other memory") {
     const Positions good = lifted(*needle_mesh(), 6);

@@ -48,6 +48,7 @@ TEST_CASE("of several calls on one object between two steps the later counts") {
         model.copied.reset();
         pair.scene.bind_positions(pair.needle, memory[*model.bound]);
       } else if (what == 2) {
+        if (model.bound) model.copied = memory[*model.bound][0].z();
         model.bound.reset();
         pair.scene.unbind_positions(pair.needle);
       } else {

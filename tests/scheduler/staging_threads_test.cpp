@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <map>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -315,6 +316,35 @@ TEST_CASE("of threads that remove the same object one does") {
   CHECK(stale == (thread_count - 1) * object_count);
   CHECK(scene.object_count() == 0);
   CHECK(scene.step()->statistics().objects == 0);
+}
+
+TEST_CASE("memory that a thread binds no more is free, also while others unbind the same object") {
+  constexpr int rounds = 500;
+  NeedleOverPlate pair(settings_of(0.25, 100));
+  for (int step = 0; step < 20; ++step) {
+    const auto last = std::make_unique<Positions>(lifted(*needle_mesh(), 64));
+    run_on_threads(
+        3,
+        [&](std::size_t thread) {
+          auto bound = std::make_unique<Positions>();
+          for (int round = 0; round < rounds; ++round) {
+            if (thread == 0) {
+              auto next = std::make_unique<Positions>(lifted(*needle_mesh(), round % 64));
+              pair.scene.bind_positions(pair.needle, *next);
+              bound = std::move(next);  // frees what was bound before
+            } else {
+              pair.scene.unbind_positions(pair.needle);
+            }
+          }
+          // The last binding ends before its memory does; so would a copy end it, or other memory.
+          if (thread == 0) pair.scene.bind_positions(pair.needle, *last);
+        },
+        [] { std::this_thread::yield(); });
+    pair.scene.unbind_positions(pair.needle);
+    const ReportHandle report = pair.scene.step();
+    CHECK(report->diagnostics().empty());
+    CHECK(only_pair(*report).distance.upper == 64);
+  }
 }
 
 }  // namespace graze::tests

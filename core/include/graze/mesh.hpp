@@ -81,6 +81,8 @@ class GRAZE_API Mesh {
   }
   /// Whether any face uses `vertex`.
   [[nodiscard]] bool is_used(std::uint32_t vertex) const { return !vertex_faces(vertex).empty(); }
+  /// Whether every vertex is used.
+  [[nodiscard]] bool uses_all_vertices() const { return uses_all_vertices_; }
 
   /// The octree of regions, built with the mesh.
   [[nodiscard]] const RegionTree& regions() const { return regions_; }
@@ -97,6 +99,7 @@ class GRAZE_API Mesh {
   }
   void check_faces() const;
   void check_rest() const;
+  void look_for_unused();
   void number_edges();
   void list_incidence();
 
@@ -112,6 +115,7 @@ class GRAZE_API Mesh {
   std::vector<std::uint32_t> edge_faces_;
   std::vector<std::uint32_t> edge_face_begin_;
   RegionTree regions_;
+  bool uses_all_vertices_ = true;
 };
 
 /// What is odd about a mesh: nothing here is an error, all of it is accepted. Every list is ascending.

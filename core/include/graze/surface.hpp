@@ -86,6 +86,10 @@ class GRAZE_API Surface {
     /// Adds what was found in the vertices that come after.
     void add(const PartSeen& later);
   };
+  /// Whether positions are good, and their box, without a surface to compare them with: `changed` and the
+  /// motion say nothing.
+  [[nodiscard]] static PartSeen survey(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
+                                       std::uint32_t end);
   /// The same in parts. First look at the vertices from `begin` to `end`, then `take` what all parts found
   /// together, then, where it says that something changed, write them; before that the surface's positions
   /// are not to be asked for. Several threads may look or write at once, at parts that do not overlap.
@@ -173,7 +177,6 @@ class GRAZE_API Surface {
   [[nodiscard]] double motion_since(const Refit& refit) const;
 
   std::shared_ptr<const Mesh> mesh_;
-  bool all_used_;  ///< every vertex is
   // Positions in the precision in which they came; the other is empty.
   std::vector<Eigen::Vector3f> in_float_;
   std::vector<Eigen::Vector3d> in_double_;

@@ -43,6 +43,8 @@ struct PassesOf {
   /// Compares points with where they were.
   void (*compare)(const Number* now, const Number* before, std::size_t count, Number limit,
                   PositionsSeen<Number>& seen);
+  /// The same of the points alone, of which nothing has moved.
+  void (*survey)(const Number* now, std::size_t count, Number limit, PositionsSeen<Number>& seen);
   /// The largest square of a point's motion: differences, squares and sums rounded in double.
   double (*furthest)(const Number* now, const Number* before, std::size_t count);
   /// Numbers of the points from `begin` to `end` that no coordinate leads out of a box, ascending; how many.

@@ -64,8 +64,9 @@ struct Diagnostic {
 /// Counters and times of one step.
 struct StepStatistics {
   std::uint64_t objects = 0;
-  std::uint64_t objects_unread = 0;  ///< not read, since promises say that they are far from everything
-  std::uint64_t pairs_total = 0;     ///< n(n-1)/2
+  std::uint64_t objects_unread = 0;    ///< not read, since promises say that they are far from everything
+  std::uint64_t objects_surveyed = 0;  ///< in no pair of the last step, and so looked at for their box first
+  std::uint64_t pairs_total = 0;       ///< n(n-1)/2
   /// Objects that moved, but inside their loose boxes (docs/embedding.md): no pair of them can have come.
   std::uint64_t objects_in_slack = 0;
   std::uint64_t boxes_tested = 0;     ///< boxes against a box, to find pairs of loose boxes that meet

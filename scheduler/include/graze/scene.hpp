@@ -20,14 +20,14 @@ namespace graze {
 /// which pairs are near, how near, and every contact.
 ///
 /// Threads: every call but `step` may come from any thread at any time and is taken up by the next step, in
-/// the order in which the calls were made; `step` runs on one thread at a time. No lock is taken, and no
-/// call but `wait` waits for another thread. After construction only `add` and `step` throw; what is wrong
-/// with any other call is a Diagnostic in the next report.
+/// the order in which the calls were made; `step` runs on one thread at a time. No call but `wait` waits for
+/// another thread, other than those that bind and unbind for each other. After construction only `add` and
+/// `step` throw; what is wrong with any other call is a Diagnostic in the next report.
 ///
 /// Memory: `add`, `set_rule`, `object_settings` and what makes a Diagnostic allocate. The other calls do
-/// where more of them wait for a step than ever did or were reserved, and `set_positions` for the first
-/// copies of an object, and for each beyond four that wait at once. A step takes memory where it needs more
-/// than any before and than was reserved.
+/// where more of them wait for a step than ever did or were reserved, and `set_positions` and
+/// `unbind_positions` for the first copies of an object, and for each beyond four that wait at once. A step
+/// takes memory where it needs more than any before and than was reserved.
 ///
 /// Forms for many objects mean the same as one call after the other in the order of `objects`; no other
 /// thread's calls come in between, and one step takes up all of them. Each object costs less than by a call
@@ -89,7 +89,9 @@ class GRAZE_API Scene {
   void bind_positions(ObjectId object, PositionView positions, BindPolicy policy = BindPolicy::every_step);
   void bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                       BindPolicy policy = BindPolicy::every_step);
-  /// The object keeps the positions that the last step saw.
+  /// Ends a binding. Memory that is read in every step is copied a last time, in the call, and the object
+  /// stays there; bad memory freezes it until it is given good positions. Memory that is read when told is
+  /// not looked at, and the object stays where that was read last.
   void unbind_positions(ObjectId object);
   /// Bound memory has been written: no vertex is further than `max_displacement` from where the last step saw
   /// it.
