@@ -6,7 +6,10 @@ using namespace graze::tests;
 
 TEST_CASE("FBX morph targets move by their keys, and those without keys stay off") {
   const TemporaryFolder folder;
-  const auto file = MeshFile::read(folder.write("flap.fbx", fbx_morph));
+  const auto file = [&] {
+    const AssimpLeaks leaks;
+    return MeshFile::read(folder.write("flap.fbx", fbx_morph));
+  }();
   REQUIRE(file.objects().size() == 1);
   CHECK(file.objects()[0].name == "flap");
   CHECK(file.objects()[0].animated);

@@ -2,6 +2,9 @@
 
 #include <cstdio>
 #include <graze/io/error.hpp>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
 
 namespace graze::tests {
 
@@ -69,11 +72,16 @@ Box make_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   return box;
 }
 
-}  // namespace graze::tests
-
 #ifdef __SANITIZE_ADDRESS__
-/// assimp (5.2) loses some of its own memory where it gives up on a damaged file.
-extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
-  return "leak:libassimp";
+AssimpLeaks::AssimpLeaks() {
+  __lsan_disable();
 }
+AssimpLeaks::~AssimpLeaks() {
+  __lsan_enable();
+}
+#else
+AssimpLeaks::AssimpLeaks() = default;
+AssimpLeaks::~AssimpLeaks() = default;
 #endif
+
+}  // namespace graze::tests
