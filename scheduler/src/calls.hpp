@@ -40,8 +40,8 @@ struct BindPositions {
 };
 struct UnbindPositions {
   ObjectId object;
-  SparePositions::Loan positions;  ///< what memory that is read in every step says last; none where it is bad
-  bool is_bad = false;
+  SparePositions::Loan positions;  ///< what the memory says last, where the next step would have read it
+  bool is_bad = false;             ///< or would have, had it been good
 };
 struct PositionsChanged {
   ObjectId object;

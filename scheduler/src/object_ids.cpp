@@ -89,7 +89,7 @@ void ObjectIds::unpin(std::uint32_t index) noexcept {
   place.named.mesh.reset();
   place.named.settings = {};
   place.named.spare_positions.clear(position_bytes_);
-  place.named.is_bound = false;
+  place.named.binding.stands = false;
   const std::uint32_t generation = generation_of(before);
   place.state.store(std::uint64_t{generation} << 32 | absent, std::memory_order_relaxed);
   // An index whose generations are used up is never given again.

@@ -15,15 +15,21 @@
 
 namespace graze {
 
+/// What an object is bound to, as the calls made so far have it. Under Staging's lock of bindings, but that
+/// anyone may ask whether it is.
+struct Binding {
+  std::atomic<bool> stands{false};
+  PositionView view;
+  BindPolicy policy = BindPolicy::every_step;
+  std::uint64_t steps_before = 0;  ///< how many had taken up calls when it was made
+};
+
 /// What a scene's callers may know of an object; mesh and settings are unchanged while it is pinned.
 struct NamedObject {
   std::shared_ptr<const Mesh> mesh;
   ObjectSettings settings;
   SparePositions spare_positions;
-  /// The memory that is read in every step, as the calls made so far have it; both under Staging's lock of
-  /// bindings, but that anyone may ask whether there is any.
-  PositionView bound;
-  std::atomic<bool> is_bound{false};
+  Binding binding;
 };
 
 /// Which ids name objects, answered and changed from any thread without a lock.

@@ -226,10 +226,11 @@ void ObjectStore::apply(UnbindPositions& call) {
     return apply(last);
   }
   object->bound.reset();
-  object->frozen = call.is_bad;
+  // What is frozen stays so: if it was surveyed before, nobody knows its last good positions.
+  object->frozen = object->frozen || call.is_bad;
   object->unread = false;
   will_have_changed_ = true;
-  if (call.is_bad) return;
+  if (object->frozen) return;
   object->promised = 0;
   object->box = object->surface().box();
 }

@@ -183,8 +183,10 @@ void Staging::add_binding(Calls& calls, ObjectId object, const PositionView& pos
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "bind_positions");
   if (!check_view(calls, object, *named, positions, "bind_positions")) return;
-  named->bound = positions;
-  named->is_bound = policy == BindPolicy::every_step;
+  named->binding.view = positions;
+  named->binding.policy = policy;
+  named->binding.steps_before = steps_;
+  named->binding.stands = true;
   calls.add(BindPositions{object, positions, policy});
 }
 
@@ -196,19 +198,21 @@ void Staging::unbind_positions(ObjectId object) {
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "unbind_positions");
   UnbindPositions call{object, {}};
-  if (named->is_bound) {
+  Binding& binding = named->binding;
+  // What the next step would have read.
+  const bool is_due = binding.policy == BindPolicy::every_step || binding.steps_before == steps_;
+  if (binding.stands.exchange(false) && is_due) {
     call.positions =
-        copy_good(calls, object, *named, named->bound, "it stands still until it is given good positions");
+        copy_good(calls, object, *named, binding.view, "it stands still until it is given good positions");
     call.is_bad = !call.positions;
-    named->is_bound = false;
   }
   calls.add(std::move(call));
 }
 
 void Staging::end_binding(NamedObject& object) {
-  if (!object.is_bound) return;
+  if (!object.binding.stands) return;
   const std::lock_guard lock(bindings_);
-  object.is_bound = false;
+  object.binding.stands = false;
 }
 
 void Staging::positions_changed(ObjectId object, double max_displacement) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
 #include <graze/position_view.hpp>
@@ -56,8 +57,12 @@ class Staging {
   /// Of what is told of objects, copies of positions, and waiting calls.
   [[nodiscard]] std::size_t byte_count() const noexcept { return ids_.byte_count() + queue_.byte_count(); }
 
-  /// Takes the calls made so far out of the queue. Stepping thread only.
-  void take() noexcept { queue_.take(); }
+  /// Takes the calls made so far out of the queue, for a step. Stepping thread only.
+  void take() {
+    const std::lock_guard lock(bindings_);
+    queue_.take();
+    ++steps_;
+  }
   /// Calls `visit` with each call taken and not yet visited, in their order. Stepping thread only.
   template <typename Visitor>
   void visit_taken(const Visitor& visit) {
@@ -92,7 +97,9 @@ class Staging {
   // The queue goes first: its calls give their buffers back to the ids' places.
   ObjectIds ids_;
   CallQueue queue_;
-  std::mutex bindings_;  ///< held until the calls that bind or unbind have entered the queue
+  /// Held until the calls that bind or unbind have entered the queue, and while calls are taken out of it.
+  std::mutex bindings_;
+  std::uint64_t steps_ = 0;  ///< that have taken calls
 };
 
 }  // namespace graze

@@ -128,6 +128,7 @@ void SceneModel::bind(std::size_t index, const Positions& positions, bool as_flo
   body.is_bound = true;
   body.policy = policy;
   body.is_told = true;
+  body.is_newly_bound = true;
   body.is_promised = false;
 }
 
@@ -148,15 +149,13 @@ void SceneModel::unbind(std::size_t index) {
   ModelBody& body = bodies_[index];
   scene_.unbind_positions(body.id);
   if (deformable(index) == nullptr) return;
-  if (body.is_bound && body.policy == BindPolicy::every_step) {
+  if (body.is_bound && (body.policy == BindPolicy::every_step || body.is_newly_bound)) {
     const Positions last = body.memory();
     if (body.can_take(last))
       body.copied = last;
     else
       expect_diagnostic(body.id, problem_of(*body.mesh, last));
-    body.is_frozen = !body.copied;
-  } else if (body.is_bound) {
-    body.is_frozen = false;
+    if (!body.copied) body.is_frozen = true;
   }
   body.is_bound = false;
   body.doubles.reset();
@@ -236,6 +235,7 @@ void SceneModel::read(ModelBody& body) {
     body.staged_pose.reset();
   }
   body.is_promised = false;
+  body.is_newly_bound = false;
 }
 
 }  // namespace graze::fuzz

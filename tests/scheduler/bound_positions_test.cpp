@@ -190,6 +190,13 @@ TEST_CASE("memory is given back by unbinding, rebinding and removing") {
     memory.reset();
     CHECK(distance_after_step(pair) == 2);
   }
+  SECTION("memory that would be read when told is read by the call where no step has begun") {
+    pair.scene.bind_positions(pair.needle, memory->points, BindPolicy::when_told);
+    memory->lift(8);
+    pair.scene.unbind_positions(pair.needle);
+    memory.reset();
+    CHECK(distance_after_step(pair) == 8);
+  }
   SECTION("copied positions and later bindings take its place, so that unbinding does not read it") {
     pair.lift(3);
     memory.reset();

@@ -100,6 +100,44 @@ TEST_CASE("survey: unbound memory leaves the object where it was at the call, ne
   CHECK(report->pairs()[0].distance.upper == 0.25);
 }
 
+TEST_CASE("survey: a binding that is taken back before a step is where its memory was") {
+  Field field;
+  field.surveyed();
+  Positions other = Field::at(1, {-10, 3, 4});
+  const ObjectId object = field.ids[1];
+  SECTION("copied, bound again and unbound") {
+    field.scene.unbind_positions(object);
+    field.scene.set_positions(object, Field::at(1, {0, 0, 9}));
+    field.scene.bind_positions(object, other, BindPolicy::when_told);
+    field.scene.unbind_positions(object);
+    other = Positions();
+  }
+  SECTION("bound again, read, and unbound") {
+    field.scene.bind_positions(object, other, BindPolicy::when_told);
+    field.scene.step();
+    other[0].x() = 100;
+    field.scene.unbind_positions(object);
+    other = Positions();
+  }
+  SECTION("bound again to bad memory, which was never read when it was good") {
+    const Eigen::Vector3d good = other[0];
+    other[0].x() = std::numeric_limits<double>::infinity();
+    field.scene.bind_positions(object, other, BindPolicy::when_told);
+    CHECK(kinds_of(*field.scene.step()) == std::vector{DiagnosticKind::not_finite});
+    field.scene.unbind_positions(object);
+    field.put(0, {0, 3, 3.75});
+    const ReportHandle frozen = field.scene.step();
+    CHECK(frozen->diagnostics().empty());
+    CHECK(frozen->pairs().empty());
+    other[0] = good;
+    field.scene.set_positions(object, other);
+  }
+  field.put(0, {0, 3, 3.75});
+  const ReportHandle report = field.scene.step();
+  CHECK(report->diagnostics().empty());
+  CHECK(only_pair(*report).distance.upper == 0.25);
+}
+
 TEST_CASE("survey: bad memory freezes what is far too, until it is good") {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   Field field;

@@ -21,8 +21,9 @@ namespace graze {
 ///
 /// Threads: every call but `step` may come from any thread at any time and is taken up by the next step, in
 /// the order in which the calls were made; `step` runs on one thread at a time. No call but `wait` waits for
-/// another thread, other than those that bind and unbind for each other. After construction only `add` and
-/// `step` throw; what is wrong with any other call is a Diagnostic in the next report.
+/// another thread, other than binding, unbinding and the beginning of a step for each other. After
+/// construction only `add` and `step` throw; what is wrong with any other call is a Diagnostic in the next
+/// report.
 ///
 /// Memory: `add`, `set_rule`, `object_settings` and what makes a Diagnostic allocate. The other calls do
 /// where more of them wait for a step than ever did or were reserved, and `set_positions` and
@@ -91,7 +92,7 @@ class GRAZE_API Scene {
                       BindPolicy policy = BindPolicy::every_step);
   /// Ends a binding. Memory that is read in every step is copied a last time, in the call, and the object
   /// stays there; bad memory freezes it until it is given good positions. Memory that is read when told is
-  /// not looked at, and the object stays where that was read last.
+  /// only copied if no step has begun since it was bound, else the object stays where that was read last.
   void unbind_positions(ObjectId object);
   /// Bound memory has been written: no vertex is further than `max_displacement` from where the last step saw
   /// it.
