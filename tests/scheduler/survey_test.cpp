@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
@@ -168,6 +169,36 @@ TEST_CASE("survey: bad memory freezes what is far too, until it is good") {
     field.scene.set_positions(field.ids[3], Field::at(3, {0, 0, 0.5}));
     CHECK(only_pair(*field.scene.step()).distance.upper == 0.25);
   }
+}
+
+TEST_CASE("survey: large surfaces are surveyed and read in parts") {
+  const auto mesh = mesh_of(models::sheet(100, 100, 4, 4));
+  const Positions rest(mesh->rest().begin(), mesh->rest().end());
+  Scene scene(settings_of(0.25, 1));
+  const ObjectId low = scene.add(mesh);
+  const ObjectId high = scene.add(mesh);
+  Positions memory = rest;
+  const auto step_at = [&](double height) {
+    const Positions now = moved(rest, {0, 0, height});
+    std::copy(now.begin(), now.end(), memory.begin());
+    return scene.step();
+  };
+  scene.bind_positions(high, memory);
+  for (const double height : {8.0, 7.0, 6.0}) CHECK(step_at(height)->pairs().empty());
+  CHECK(scene.latest_report()->statistics().objects_surveyed == 1);
+  const ReportHandle near = step_at(0.5);
+  CHECK(near->statistics().objects_surveyed == 1);
+  REQUIRE(find_pair(*near, low, high) != nullptr);
+  CHECK(find_pair(*near, low, high)->distance.upper == 0.5);
+  CHECK(step_at(0.125)->statistics().objects_surveyed == 0);
+  for (const double height : {5.0, 6.0, 7.0, 8.0}) step_at(height);
+  CHECK(scene.latest_report()->statistics().objects_surveyed == 1);
+  memory.back().x() = std::numeric_limits<double>::quiet_NaN();
+  const ReportHandle bad = scene.step();
+  REQUIRE(kinds_of(*bad) == std::vector{DiagnosticKind::not_finite});
+  CHECK(bad->diagnostics()[0].message.find("vertex " + std::to_string(rest.size() - 1)) != std::string::npos);
+  CHECK(step_at(0.5)->diagnostics().empty());
+  CHECK(find_pair(*scene.latest_report(), low, high)->distance.upper == 0.5);
 }
 
 TEST_CASE("survey: promises are held against what was read") {
