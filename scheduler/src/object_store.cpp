@@ -150,6 +150,9 @@ Looked read_whole(Object& object) {
 
 /// Surfaces of more vertices are read and refitted in parts, each of some tens of microseconds.
 constexpr std::uint32_t vertices_each = 8192;
+/// Small ones are read several at a time, in so many tasks at least: neighbours mostly lie beside each other
+/// in the caller's memory, too.
+constexpr std::size_t least_batches = 64;
 
 }  // namespace
 
@@ -349,23 +352,32 @@ void ObjectStore::list_to_read(Object& object) {
   large_.push_back({&object, parts_.size()});
 }
 
+/// Reads an object of `to_read_`, while other threads read others.
+void ObjectStore::read_small(std::size_t place) {
+  Object& object = *to_read_[place];
+  const AccessScope access({AccessRight::write(&object), {}});
+  Looked looked = read_whole(object);
+  if (looked.changed) changed_.store(true, std::memory_order_relaxed);
+  if (!looked.problem) return;
+  read_problems_[place] = std::move(looked.problem);
+  some_problems_.store(true, std::memory_order_relaxed);
+}
+
 void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
   // A task writes its own objects and their own places in read_problems_, or looks at its own vertices of an
   // object and writes its own part; nothing is shared.
   if (read_problems_.size() < to_read_.size()) read_problems_.resize(to_read_.size());
-  tasks.run(parts_.size() + to_read_.size(), [&](unsigned, std::size_t item) {
+  const std::size_t each = std::max<std::size_t>(1, to_read_.size() / least_batches);
+  const std::size_t batches = (to_read_.size() + each - 1) / each;
+  tasks.run(parts_.size() + batches, [&](unsigned, std::size_t item) {
     if (item < parts_.size()) {
       Part& part = parts_[item];
       const AccessScope access({AccessRight::read(), {}});
       part.seen = look_at_part(*part.object, part.begin, part.begin + part.count);
     } else {
-      Object& object = *to_read_[item - parts_.size()];
-      const AccessScope access({AccessRight::write(&object), {}});
-      Looked looked = read_whole(object);
-      if (looked.changed) changed_.store(true, std::memory_order_relaxed);
-      if (!looked.problem) return;
-      read_problems_[item - parts_.size()] = std::move(looked.problem);
-      some_problems_.store(true, std::memory_order_relaxed);
+      const std::size_t begin = (item - parts_.size()) * each;
+      const std::size_t end = std::min(begin + each, to_read_.size());
+      for (std::size_t place = begin; place < end; ++place) read_small(place);
     }
   });
   problems_.clear();

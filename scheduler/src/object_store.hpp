@@ -126,6 +126,7 @@ class ObjectStore {
   void see_new();
   void begin_list();
   void list_to_read(Object& object);
+  void read_small(std::size_t place);
   void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   void take_large(TaskPool& tasks);
 
