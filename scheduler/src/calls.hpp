@@ -41,7 +41,7 @@ struct BindPositions {
 struct UnbindPositions {
   ObjectId object;
   SparePositions::Loan positions;  ///< what the memory says last, where the next step would have read it
-  bool is_bad = false;             ///< or would have, had it been good
+  bool is_bad = false;             ///< the next step would have read it, and it is bad
 };
 struct PositionsChanged {
   ObjectId object;

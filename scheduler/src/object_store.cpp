@@ -39,16 +39,18 @@ std::optional<Diagnostic> check_promise(const Object& object, const Surface::Rea
                         std::to_string(object.promised) + " promised; all positions were read"};
 }
 
+bool is_read_in_every_step(const Object& object) {
+  return object.bound && object.policy == BindPolicy::every_step;
+}
+
 /// Whether there are positions or a pose to be read.
 bool has_input(const Object& object) {
-  return object.positions || object.pose ||
-         (object.bound && (object.policy == BindPolicy::every_step || object.told));
+  return object.positions || object.pose || is_read_in_every_step(object) || (object.bound && object.told);
 }
 
 /// Adds up what is promised of the motion since the surface's positions were read, this step's included.
 void add_promise(Object& object) {
-  const bool read_in_every_step = object.bound && object.policy == BindPolicy::every_step;
-  const bool may_have_moved = read_in_every_step || object.is_new;
+  const bool may_have_moved = is_read_in_every_step(object) || object.is_new;
   if (may_have_moved) object.promised = (object.promised + object.promise) * round_up;
   object.is_new = false;
   object.promise = std::numeric_limits<double>::infinity();
@@ -57,8 +59,8 @@ void add_promise(Object& object) {
 /// Whether an object's box will do, unless that turns out to be near another: it was in no pair of the last
 /// step, and nobody will ask how far it has moved. What stands still is read, which then writes nothing.
 bool can_be_surveyed(const Object& object) {
-  return object.bound && object.policy == BindPolicy::every_step && !object.promises && !object.frozen &&
-         !object.looked_at && (object.surveyed || object.moved);
+  return is_read_in_every_step(object) && !object.promises && !object.frozen && !object.looked_at &&
+         (object.surveyed || object.moved);
 }
 
 /// Looks at some vertices of what an object is to be read from.

@@ -66,6 +66,8 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
     jobs_.even_out_memory();
     reports_.even_out();
   }
+  statistics.objects_unread = store_.unread_count();
+  statistics.objects_surveyed = store_.surveyed_count();
   count_bytes(jobs, statistics);
   statistics.publish_ms = lap();
   statistics.step_ms = Lap(start)();
@@ -159,8 +161,7 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
   statistics.read_ms = read_ms;
   statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
   // Of objects without pairs.
-  statistics.objects_unread = statistics.boxes_tested = statistics.objects_in_slack = 0;
-  statistics.objects_surveyed = store_.surveyed_count();
+  statistics.boxes_tested = statistics.objects_in_slack = 0;
   is_settled_ = true;
 }
 
@@ -173,8 +174,6 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.exact_decisions = sum.exact_decisions;
   statistics.fronts_left_out = sum.fronts_left_out;
   statistics.regions_expanded = sum.regions_expanded;
-  statistics.objects_unread = store_.unread_count();
-  statistics.objects_surveyed = store_.surveyed_count();
 }
 
 void Step::count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics) {

@@ -154,10 +154,13 @@ TEST_CASE("memory is given back by unbinding, rebinding and removing") {
   auto memory = std::make_unique<Memory>(2);
   pair.scene.bind_positions(pair.needle, memory->points);
   CHECK(distance_after_step(pair) == 2);
-  SECTION("unbound: the object keeps what the memory says at the call") {
-    memory->lift(7);
+  const auto unbind_at = [&](double height) {
+    memory->lift(height);
     pair.scene.unbind_positions(pair.needle);
     memory.reset();
+  };
+  SECTION("unbound: the object keeps what the memory says at the call") {
+    unbind_at(7);
     CHECK(distance_after_step(pair) == 7);
     pair.scene.positions_changed(pair.needle);
     CHECK(distance_after_step(pair) == 7);
@@ -177,24 +180,18 @@ TEST_CASE("memory is given back by unbinding, rebinding and removing") {
     CHECK(distance_after_step(pair) == 2);
     memory->lift(8);
     pair.scene.bind_positions(pair.needle, memory->points);
-    memory->lift(9);
-    pair.scene.unbind_positions(pair.needle);
-    memory.reset();
+    unbind_at(9);
     CHECK(distance_after_step(pair) == 9);
   }
   SECTION("memory that is read when told keeps what was read of it last") {
     pair.scene.bind_positions(pair.needle, memory->points, BindPolicy::when_told);
     CHECK(distance_after_step(pair) == 2);
-    memory->lift(8);
-    pair.scene.unbind_positions(pair.needle);
-    memory.reset();
+    unbind_at(8);
     CHECK(distance_after_step(pair) == 2);
   }
   SECTION("memory that would be read when told is read by the call where no step has begun") {
     pair.scene.bind_positions(pair.needle, memory->points, BindPolicy::when_told);
-    memory->lift(8);
-    pair.scene.unbind_positions(pair.needle);
-    memory.reset();
+    unbind_at(8);
     CHECK(distance_after_step(pair) == 8);
   }
   SECTION("copied positions and later bindings take its place, so that unbinding does not read it") {

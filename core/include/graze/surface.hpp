@@ -86,10 +86,6 @@ class GRAZE_API Surface {
     /// Adds what was found in the vertices that come after.
     void add(const PartSeen& later);
   };
-  /// Whether positions are good, and their box, without a surface to compare them with: `changed` and the
-  /// motion say nothing.
-  [[nodiscard]] static PartSeen survey(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
-                                       std::uint32_t end);
   /// The same in parts. First look at the vertices from `begin` to `end`, then `take` what all parts found
   /// together, then, where it says that something changed, write them; before that the surface's positions
   /// are not to be asked for. Several threads may look or write at once, at parts that do not overlap.
@@ -100,6 +96,10 @@ class GRAZE_API Surface {
   ReadResult take(const PartSeen& all);
   void write_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end);
   void write_pose(const std::array<double, 12>& rows, std::uint32_t begin, std::uint32_t end);
+  /// Whether positions are good, and their box, without a surface to compare them with: `changed` and the
+  /// motion say nothing.
+  [[nodiscard]] static PartSeen survey(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
+                                       std::uint32_t end);
 
   /// Never another surface's in this process.
   [[nodiscard]] std::uint64_t serial() const { return serial_; }
