@@ -72,10 +72,13 @@ class ClosestRange {
     if (upper > 0 && query_.mode == AccuracyMode::exact) set_.at_most(upper);
   }
   void offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
-    for_each_name(pair_, leaf_a, leaf_b, scratch, *this,
-                  [&](const ContactName& name, const SquaredRange& squared) {
-                    if (!squared.is_beyond(set_.upper())) set_.offer(name);
-                  });
+    const auto offer = [&](const ContactName& name, const SquaredRange& squared) {
+      if (!squared.is_beyond(set_.upper())) set_.offer(name);
+    };
+    if (!scratch.take(pair_, leaf_a, leaf_b, *this)) return;
+    scratch.naming.begin();
+    for_each_name_of_taken(pair_, scratch, *this, offer);
+    scratch.naming.finish(pair_, offer);
   }
   void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {

@@ -1,7 +1,5 @@
 #include "feature_pairs.hpp"
 
-#include <array>
-
 namespace graze {
 namespace {
 
@@ -14,45 +12,36 @@ struct BelowThreshold {
   void left_out(double /*limit*/) const {}
 };
 
-/// Adds names, and most of those that were added a moment ago only once: a contact is found from each of the
-/// features about it, so that what is left to sort is a fraction.
-class NameAdder {
- public:
-  explicit NameAdder(std::vector<ContactName>& names) : names_(names) {}
-
-  void add(const ContactName& name) {
-    // Any place will do to look at, so that none needs to be marked as free.
-    std::uint32_t& place = places_[name.hash() >> 56U];
-    if (place < names_.size() && names_[place] == name) return;
-    place = static_cast<std::uint32_t>(names_.size());
-    names_.push_back(name);
-  }
-
- private:
-  std::vector<ContactName>& names_;
-  std::array<std::uint32_t, 256> places_{};
-};
-
 }  // namespace
 
-void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double threshold,
-                        LeafScratch& scratch, std::vector<ContactName>& names) {
-  BelowThreshold range{threshold};
-  if (scratch.take(pair, leaf_a, leaf_b, range)) add_close_features(pair, threshold, scratch, names);
+bool CloseFeatures::is_contact(const ContactName& name, const SquaredRange& squared) const {
+  if (name.meeting == Meeting::pierced && name.kind == ContactKind::EF) return true;
+  if (squared.is_below(threshold_)) return true;
+  return !squared.is_beyond(threshold_) && is_closer_than(pair_, name, threshold_);
 }
 
-void add_close_features(const SurfacePair& pair, double threshold, LeafScratch& scratch,
-                        std::vector<ContactName>& names) {
-  BelowThreshold range{threshold};
-  const auto is_contact = [&](const ContactName& name, const SquaredRange& squared) {
-    if (name.meeting == Meeting::pierced && name.kind == ContactKind::EF) return true;
-    if (squared.is_below(threshold)) return true;
-    return !squared.is_beyond(threshold) && is_closer_than(pair, name, threshold);
-  };
-  NameAdder adder(names);
-  for_each_name_of_taken(pair, scratch, range, [&](const ContactName& name, const SquaredRange& squared) {
-    if (is_contact(name, squared)) adder.add(name);
-  });
+void CloseFeatures::take(const ContactName& name, const SquaredRange& squared) {
+  if (!is_contact(name, squared)) return;
+  std::uint32_t& place = scratch_.recent_names.place(name);
+  if (place < names_.size() && names_[place] == name) return;
+  place = static_cast<std::uint32_t>(names_.size());
+  names_.push_back(name);
+}
+
+void CloseFeatures::add(const LeafOf& leaf_a, const LeafOf& leaf_b) {
+  BelowThreshold range{threshold_};
+  if (scratch_.take(pair_, leaf_a, leaf_b, range)) add_taken();
+}
+
+void CloseFeatures::add_taken() {
+  BelowThreshold range{threshold_};
+  for_each_name_of_taken(pair_, scratch_, range,
+                         [&](const ContactName& name, const SquaredRange& squared) { take(name, squared); });
+}
+
+void CloseFeatures::finish() {
+  scratch_.naming.finish(pair_,
+                         [&](const ContactName& name, const SquaredRange& squared) { take(name, squared); });
 }
 
 void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names) {

@@ -7,14 +7,31 @@
 
 namespace graze {
 
-/// Appends the names of `ContactDetail::features` between two leaves: all contacts strictly closer than
-/// `threshold` and every edge that pierces a face. A name may be met in several pairs of leaves.
-void add_close_features(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double threshold,
-                        LeafScratch& scratch, std::vector<ContactName>& names);
+/// Finds the names of `ContactDetail::features` between leaves of two surfaces: all contacts strictly closer
+/// than a threshold and every edge that pierces a face. A name may be met in several pairs of leaves.
+class CloseFeatures {
+ public:
+  /// Names are appended to `names`; all are there after `finish`.
+  CloseFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
+                std::vector<ContactName>& names)
+      : pair_(pair), threshold_(threshold), scratch_(scratch), names_(names) {
+    scratch_.naming.begin();
+  }
 
-/// The same of the features that the scratch has taken, whatever they are of.
-void add_close_features(const SurfacePair& pair, double threshold, LeafScratch& scratch,
-                        std::vector<ContactName>& names);
+  void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
+  /// The features that the scratch has taken, whatever they are of.
+  void add_taken();
+  void finish();
+
+ private:
+  [[nodiscard]] bool is_contact(const ContactName& name, const SquaredRange& squared) const;
+  void take(const ContactName& name, const SquaredRange& squared);
+
+  const SurfacePair& pair_;
+  double threshold_;
+  LeafScratch& scratch_;
+  std::vector<ContactName>& names_;
+};
 
 /// Keeps one of sorted names for each pair of features. Where two features meet in several pieces (a fold and
 /// a triangle, two crossings), the nearest stands for them; a piercing sorts first, and of equally near ones

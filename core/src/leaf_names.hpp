@@ -1,15 +1,13 @@
 #pragma once
 
-#include <algorithm>
-#include <optional>
-
 #include "contact_name.hpp"
 #include "leaf_scratch.hpp"
 #include "piercing.hpp"
 
 namespace graze {
 
-/// Gives a sink the names of what two leaves' features have to do with each other.
+/// Gives a sink the names of what two leaves' features have to do with each other, but for those that are
+/// left in the scratch's batch.
 template <typename Range, typename Sink>
 class LeafNames {
  public:
@@ -20,6 +18,7 @@ class LeafNames {
         folds_a_(scratch.folds_a),
         folds_b_(scratch.folds_b),
         filter_(scratch.frame, range, scratch.filter, pair.count),
+        batch_(scratch.naming),
         sink_(sink) {
     folds_a_.begin(pair.a, a_.folds);
     folds_b_.begin(pair.b, b_.folds);
@@ -28,29 +27,16 @@ class LeafNames {
   void vertices_and_faces() {
     const auto kernel = kernels::filter().near_triangles;
     filter_.near(of_a(a_.vertices), of_b(b_.triangles), kernel, [&](std::size_t i, std::size_t j) {
-      const std::uint32_t vertex = a_.vertices.owner(i);
-      SquaredRange squared;
-      const FeaturePiece piece =
-          piece_of_face(pair_.a.position(vertex), pair_.b, b_.triangles.owner(j), squared);
-      sink_(ContactName::of(vertex_piece(vertex), piece), squared);
+      batch_.add_vertex_and_face(pair_, a_.vertices.owner(i), b_.triangles.owner(j), sink_);
     });
     filter_.near(of_b(b_.vertices), of_a(a_.triangles), kernel, [&](std::size_t i, std::size_t j) {
-      const std::uint32_t vertex = b_.vertices.owner(i);
-      SquaredRange squared;
-      const FeaturePiece piece =
-          piece_of_face(pair_.b.position(vertex), pair_.a, a_.triangles.owner(j), squared);
-      sink_(ContactName::of(piece, vertex_piece(vertex)), squared);
+      batch_.add_face_and_vertex(pair_, a_.triangles.owner(j), b_.vertices.owner(i), sink_);
     });
   }
 
   void edges() {
     near_segments(a_.edges, b_.edges, [&](std::size_t i, std::size_t j) {
-      SquaredRange squared;
-      if (const auto name = certain_name(a_.edges.owner(i), b_.edges.owner(j), squared))
-        return sink_(*name, squared);
-      const SegmentPairNames found = segment_names(edge_of(a_, i), edge_of(b_, j), squared);
-      for (std::uint32_t k = 0; k < found.size; ++k)
-        sink_(ContactName::of(found.names[k][0], found.names[k][1]), squared);
+      batch_.add_edges(pair_, a_.edges.owner(i), b_.edges.owner(j), sink_);
     });
   }
 
@@ -98,37 +84,6 @@ class LeafNames {
     return face_piece(features.folds.owner(i), Piece::fold);
   }
 
-  /// `nearest_piece_of_face`, without detours where plain double is certain of a triangle.
-  [[nodiscard]] FeaturePiece piece_of_face(const Eigen::Vector3d& point, const Surface& surface,
-                                           std::uint32_t face, SquaredRange& squared) const {
-    const auto corner = surface.mesh().face(face);
-    Place place{};
-    if (corner.size() != 3 ||
-        !certain_place(
-            point, {surface.position(corner[0]), surface.position(corner[1]), surface.position(corner[2])},
-            place, squared))
-      return nearest_piece_of_face(point, surface, face, pair_.count, squared);
-    ++pair_.count.in_double;
-    if (place == Place::inside) return face_piece(face, Piece::first);
-    if (place < Place::edge01) return vertex_piece(corner[static_cast<std::size_t>(place)]);
-    return edge_piece(surface.mesh().face_edges(face)[static_cast<std::size_t>(place) - 3]);
-  }
-  /// The name of the closest points of two edges where plain double is certain of it.
-  [[nodiscard]] std::optional<ContactName> certain_name(std::uint32_t edge_a, std::uint32_t edge_b,
-                                                        SquaredRange& squared) const {
-    const auto a = pair_.a.mesh().edge(edge_a);
-    const auto b = pair_.b.mesh().edge(edge_b);
-    std::array<Along, 2> places{};
-    if (!certain_places({pair_.a.position(a[0]), pair_.a.position(a[1])},
-                        {pair_.b.position(b[0]), pair_.b.position(b[1])}, places, squared))
-      return std::nullopt;
-    ++pair_.count.in_double;
-    const auto piece = [](std::uint32_t edge, const std::array<std::uint32_t, 2>& end, Along place) {
-      return place == Along::inside ? edge_piece(edge) : vertex_piece(end[place == Along::first ? 0 : 1]);
-    };
-    return ContactName::of(piece(edge_a, a, places[0]), piece(edge_b, b, places[1]));
-  }
-
   template <typename Visit>
   void near_segments(const SegmentBlock& a, const SegmentBlock& b, const Visit& visit) {
     const auto kernel = kernels::filter().near_segments;
@@ -167,13 +122,16 @@ class LeafNames {
   FoldAnswers& folds_a_;
   FoldAnswers& folds_b_;
   FloatFilter<Range> filter_;
+  NamingBatch& batch_;
   const Sink& sink_;
 };
 
 /// Gives `sink` the name, and what is known of the distance, of the closest points of every vertex-face and
 /// edge-edge pair between the features that were taken, of every edge that pierces a face, and of every
 /// fold's contacts with edges, folds and faces, leaving out what is certainly too far for `range` (see
-/// FloatFilter; a piercing never is). A name may be met several times.
+/// FloatFilter; a piercing never is). A name may be met several times. Some of the names are those of
+/// features that were taken before, and some of these features' are left in `scratch.naming`, which is to be
+/// finished.
 template <typename Range, typename Sink>
 void for_each_name_of_taken(const SurfacePair& pair, LeafScratch& scratch, Range& range, const Sink& sink) {
   LeafNames<Range, Sink> names(pair, scratch, range, sink);
@@ -181,13 +139,6 @@ void for_each_name_of_taken(const SurfacePair& pair, LeafScratch& scratch, Range
   names.edges();
   names.folds();
   names.piercings();
-}
-
-/// The same of two leaves. A pair of features is met in one pair of leaves only, since each has one owner.
-template <typename Range, typename Sink>
-void for_each_name(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch,
-                   Range& range, const Sink& sink) {
-  if (scratch.take(pair, leaf_a, leaf_b, range)) for_each_name_of_taken(pair, scratch, range, sink);
 }
 
 /// Calls `visit(vertex of a, vertex of b)` for all pairs of the leaves' vertices but what is certainly too

@@ -1,12 +1,27 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "contact_name.hpp"
 #include "leaf_cache.hpp"
 #include "leaf_features.hpp"
 #include "leaf_slab.hpp"
 #include "made_of_leaves.hpp"
+#include "naming_batch.hpp"
 
 namespace graze {
+
+/// Where in a list some of its names are: most that were added a moment ago need not be added again, so that
+/// what is left to sort is a fraction, since a contact is found from each of the features about it. Any place
+/// will do to look at, whatever was there before.
+class RecentNames {
+ public:
+  [[nodiscard]] std::uint32_t& place(const ContactName& name) { return places_[name.hash() >> 52U]; }
+
+ private:
+  std::array<std::uint32_t, 4096> places_{};
+};
 
 /// What is known of the leaves of a pair of surfaces, and those of two leaves' features that are near.
 struct LeafScratch {
@@ -20,6 +35,8 @@ struct LeafScratch {
   FoldAnswers folds_a;
   FoldAnswers folds_b;
   FloatFilterScratch filter;
+  NamingBatch naming;
+  RecentNames recent_names;
   FilterFrame frame;
 
   /// Before the first pair of leaves of a query or slice: the frame is then that of this pair, or of the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "corner_lane.hpp"
 #include "measure.hpp"
 
 namespace graze {
@@ -61,10 +62,8 @@ class Batch {
   void put(const Surface& surface, const FeaturePiece& piece, std::uint32_t corners,
            kernels::Points* points) const {
     const auto vertex = corners_of(surface.mesh(), piece);
-    for (std::uint32_t corner = 0; corner < corners; ++corner) {
-      const Eigen::Vector3d point = surface.position(vertex[corner]);
-      for (int axis = 0; axis < 3; ++axis) points[corner][axis][count_] = point[axis];
-    }
+    for (std::uint32_t corner = 0; corner < corners; ++corner)
+      put_corner(surface, vertex[corner], points[corner], count_);
   }
   [[nodiscard]] kernels::Measure::Kernel kernel() const {
     const kernels::Measure& measure = kernels::measure();

@@ -318,25 +318,25 @@ void PairSearch::slice_leaves_in_contact() {
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
   worker.begin_leaves(found_);
+  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
     slice.complete = !from_front_ || worker.meter.spend();
     if (!slice.complete) return;
     if (!may_touch(leaves.lower)) continue;
     ++worker.meter.counters().leaf_pairs_tested;
-    add_contacts(leaves.pair, slice, worker);
+    if (query_.detail == ContactDetail::features)
+      features.add(worker.leaf_pairs.leaf_a(leaves.pair), worker.leaf_pairs.leaf_b(leaves.pair));
+    else
+      add_contacts(leaves.pair, slice, worker);
   }
-  if (query_.detail != ContactDetail::features) return;
-  worker.scratch.order.sort(slice.names);
-  keep_nearest_of_each(worker.pair, slice.names);
+  features.finish();
 }
 
 void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const {
   const LeafOf a = worker.leaf_pairs.leaf_a(leaves);
   const LeafOf b = worker.leaf_pairs.leaf_b(leaves);
   LeafScratch& scratch = worker.scratch.features;
-  if (query_.detail == ContactDetail::features)
-    return add_close_features(worker.pair, a, b, query_.threshold, scratch, slice.names);
   if (query_.detail == ContactDetail::vertices)
     return add_close_vertices(worker.pair, a, b, query_.threshold, scratch, slice.names);
   const ContactName name = closest_vertices(worker.pair, a, b, scratch, worker.scratch.nearest_of_leaves);
@@ -362,18 +362,15 @@ void PairSearch::begin_measuring(Worker& worker) {
 }
 
 void PairSearch::gather_names(Worker& worker) {
-  const bool with_features = query_.detail == ContactDetail::features;
   names_.clear();
   if (slice_count_ == 1) {
     names_.swap(slices_.front().names);
-    if (with_features) return;
   } else {
     for (std::size_t i = 0; i < slice_count_; ++i)
       names_.insert(names_.end(), slices_[i].names.begin(), slices_[i].names.end());
   }
   worker.scratch.order.sort(names_);
-  // An edge between two slices' faces is met in both.
-  if (with_features) keep_nearest_of_each(worker.pair, names_);
+  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, names_);
 }
 
 void PairSearch::finish_measuring(Worker& worker) {

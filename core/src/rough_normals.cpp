@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "corner_lane.hpp"
+
 namespace graze {
 
 namespace {
@@ -56,10 +58,7 @@ void NormalSums::add_edge(const Surface& surface, std::uint32_t edge, RoughNorma
 
 void NormalSums::add_triangle(const Surface& surface, const Corners& corner, double weight,
                               RoughNormal& normal) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d point = surface.position(corner[i]);
-    for (int axis = 0; axis < 3; ++axis) batch_.corner[i][axis][count_] = point[axis];
-  }
+  for (std::size_t i = 0; i < 3; ++i) put_corner(surface, corner[i], batch_.corner[i], count_);
   batch_.weight[count_] = weight;
   normal_[count_] = &normal;
   if (++count_ == normal_.size()) finish();

@@ -1,15 +1,18 @@
-// What plain double is certain of is what exact arithmetic says: every answer of certain.hpp is compared with
-// rational arithmetic, on features that are parallel, degenerate, at right angles, far away, minute and huge.
+// What plain double is certain of is what exact arithmetic says: every answer of certain.hpp, and of the
+// kernels that ask the same of several features at once, is compared with rational arithmetic, on features
+// that are parallel, degenerate, at right angles, far away, minute and huge.
 
 #include "certain.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <graze/instruction_set.hpp>
 #include <iostream>
 #include <optional>
 #include <utility>
 
+#include "kernels/places.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
 #include "support/random_scenes.hpp"
@@ -159,6 +162,70 @@ void check_range(const SquaredRange& range, const Rational& truth) {
   REQUIRE(truth <= Rational(range.high));
 }
 
+using Corners = std::array<Vector3d, 3>;
+using Ends = std::array<Vector3d, 2>;
+
+void check_place(const Vector3d& point, const Corners& corner, Place place, const SquaredRange& range) {
+  const auto [expected, distance] = nearest_on_triangle(
+      oracle::exact(point), {oracle::exact(corner[0]), oracle::exact(corner[1]), oracle::exact(corner[2])});
+  REQUIRE(place == expected);
+  check_range(range, distance);
+}
+
+void check_places(const Ends& a, const Ends& b, const std::array<Along, 2>& places,
+                  const SquaredRange& range) {
+  const auto expected = nearest_on_segments({oracle::exact(a[0]), oracle::exact(a[1])},
+                                            {oracle::exact(b[0]), oracle::exact(b[1])});
+  REQUIRE(expected.has_value());
+  REQUIRE(places == expected->first);
+  check_range(range, expected->second);
+}
+
+/// Every fifth pair is parallel, but for rounding.
+std::pair<Ends, Ends> two_segments(Generator& generator, int number) {
+  const Ends a{generator.point(), generator.point()};
+  Ends b{generator.point(), generator.point()};
+  if (number % 5 == 0) b[1] = b[0] + (a[1] - a[0]) * (number % 2 == 0 ? 1.0 : -0.5);
+  return {a, b};
+}
+
+void put(const Vector3d& point, kernels::Points& points, std::size_t lane) {
+  for (int axis = 0; axis < 3; ++axis) points[axis][lane] = point[axis];
+}
+
+/// What `kernel` fills in under the first instruction set, once it has been seen that all fill in the same.
+template <typename Batch, typename Kernel, typename SamePlaces>
+void run(Batch& batch, const Kernel& kernel, const SamePlaces& same_places) {
+  const InstructionSet before = instruction_set();
+  std::optional<Batch> first;
+  for (const InstructionSet set : available_instruction_sets()) {
+    use_instruction_set(set);
+    kernel(batch);
+    if (!first) first = batch;
+    for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
+      REQUIRE(batch.found.certain[lane] == first->found.certain[lane]);
+      if (batch.found.certain[lane] == 0) continue;
+      REQUIRE(same_places(batch, *first, lane));
+      REQUIRE(batch.found.low[lane] == first->found.low[lane]);
+      REQUIRE(batch.found.high[lane] == first->found.high[lane]);
+    }
+  }
+  use_instruction_set(before);
+}
+
+/// Of one lane: whether the kernel is certain, which it is of all that certain.cpp is, and says the same of
+/// that.
+bool check_found(const kernels::PlacesFound& found, std::size_t lane, bool is_certain,
+                 const SquaredRange& range) {
+  const bool kernel_is_certain = found.certain[lane] == 1;
+  REQUIRE((kernel_is_certain || found.certain[lane] == 0));
+  if (!is_certain) return kernel_is_certain;
+  REQUIRE(kernel_is_certain);
+  REQUIRE(found.low[lane] == range.low);
+  REQUIRE(found.high[lane] == range.high);
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("certain: the place of a point's nearest point in a triangle") {
@@ -174,12 +241,8 @@ TEST_CASE("certain: the place of a point's nearest point in a triangle") {
       SquaredRange range;
       if (!certain_place(point, corner, place, range)) continue;
       ++tally.certain;
-      const auto [expected, distance] =
-          nearest_on_triangle(oracle::exact(point),
-                              {oracle::exact(corner[0]), oracle::exact(corner[1]), oracle::exact(corner[2])});
       INFO("family " << family << ", case " << i);
-      REQUIRE(place == expected);
-      check_range(range, distance);
+      check_place(point, corner, place, range);
       ++all.places[static_cast<std::size_t>(place)];
     }
     INFO("family " << family << ": " << tally.certain << " of " << tally.compared);
@@ -198,20 +261,14 @@ TEST_CASE("certain: the places of two segments' closest points") {
     Generator generator(static_cast<Generator::Family>(family), family + 20);
     Tally tally;
     for (int i = 0; i < 1500; ++i) {
-      const std::array a{generator.point(), generator.point()};
-      std::array b{generator.point(), generator.point()};
-      if (i % 5 == 0) b[1] = b[0] + (a[1] - a[0]) * (i % 2 == 0 ? 1.0 : -0.5);  // parallel, but for rounding
+      const auto [a, b] = two_segments(generator, i);
       ++tally.compared;
       std::array<Along, 2> places{};
       SquaredRange range;
       if (!certain_places(a, b, places, range)) continue;
       ++tally.certain;
-      const auto expected = nearest_on_segments({oracle::exact(a[0]), oracle::exact(a[1])},
-                                                {oracle::exact(b[0]), oracle::exact(b[1])});
       INFO("family " << family << ", case " << i);
-      REQUIRE(expected.has_value());
-      REQUIRE(places == expected->first);
-      check_range(range, expected->second);
+      check_places(a, b, places, range);
       ++all.places[static_cast<std::size_t>(places[0]) * 3 + static_cast<std::size_t>(places[1])];
     }
     INFO("family " << family << ": " << tally.certain << " of " << tally.compared);
@@ -221,6 +278,75 @@ TEST_CASE("certain: the places of two segments' closest points") {
   }
   for (const std::size_t count : all.places) CHECK(count > 100);
   std::cout << "compared " << all.certain << " certain places of segments of " << all.compared << "\n";
+}
+
+TEST_CASE("certain: several points and triangles at once") {
+  std::size_t certain = 0;
+  for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
+    Generator generator(static_cast<Generator::Family>(family), family + 80);
+    for (int round = 0; round < 150; ++round) {
+      std::array<Vector3d, kernels::contact_lanes> point;
+      std::array<Corners, kernels::contact_lanes> corner;
+      kernels::PointTriangleBatch batch{};
+      for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
+        point[lane] = generator.point();
+        corner[lane] = {generator.point(), generator.point(), generator.point()};
+        put(point[lane], batch.point, lane);
+        for (std::size_t i = 0; i < 3; ++i) put(corner[lane][i], batch.corner[i], lane);
+      }
+      run(
+          batch, [](auto& asked) { kernels::places().points_and_triangles(asked); },
+          [](const auto& a, const auto& b, std::size_t lane) { return a.place[lane] == b.place[lane]; });
+      for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
+        INFO("family " << family << ", round " << round << ", lane " << lane);
+        Place place{};
+        SquaredRange range;
+        const bool is_certain = certain_place(point[lane], corner[lane], place, range);
+        if (!check_found(batch.found, lane, is_certain, range)) continue;
+        ++certain;
+        const auto found = static_cast<Place>(batch.place[lane]);
+        check_place(point[lane], corner[lane], found, {batch.found.low[lane], batch.found.high[lane]});
+      }
+    }
+  }
+  CHECK(certain > 5000);
+  std::cout << "compared " << certain << " places of eight triangles at once\n";
+}
+
+TEST_CASE("certain: several pairs of segments at once") {
+  std::size_t certain = 0;
+  for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
+    Generator generator(static_cast<Generator::Family>(family), family + 100);
+    for (int round = 0; round < 150; ++round) {
+      std::array<std::pair<Ends, Ends>, kernels::contact_lanes> segments;
+      kernels::SegmentPairBatch batch{};
+      for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
+        segments[lane] = two_segments(generator, round + static_cast<int>(lane));
+        for (std::size_t end = 0; end < 2; ++end) {
+          put(segments[lane].first[end], batch.a[end], lane);
+          put(segments[lane].second[end], batch.b[end], lane);
+        }
+      }
+      run(
+          batch, [](auto& asked) { kernels::places().segments(asked); },
+          [](const auto& a, const auto& b, std::size_t lane) {
+            return a.place_a[lane] == b.place_a[lane] && a.place_b[lane] == b.place_b[lane];
+          });
+      for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
+        INFO("family " << family << ", round " << round << ", lane " << lane);
+        const auto& [a, b] = segments[lane];
+        std::array<Along, 2> places{};
+        SquaredRange range;
+        const bool is_certain = certain_places(a, b, places, range);
+        if (!check_found(batch.found, lane, is_certain, range)) continue;
+        ++certain;
+        check_places(a, b, {static_cast<Along>(batch.place_a[lane]), static_cast<Along>(batch.place_b[lane])},
+                     {batch.found.low[lane], batch.found.high[lane]});
+      }
+    }
+  }
+  CHECK(certain > 5000);
+  std::cout << "compared " << certain << " places of eight pairs of segments at once\n";
 }
 
 TEST_CASE("certain: whether a segment passes through a triangle") {

@@ -1,17 +1,12 @@
 #pragma once
 
-#include <cstddef>
+#include "points.hpp"
 
 /// Kernels that measure several contacts or triangles at once. They are compiled once for each instruction
 /// set, so this header has no inline function that another translation unit might share with them. Those of
 /// contacts do what measure.cpp does in Ball arithmetic, operation by operation, so that their results are
 /// the same bits.
 namespace graze::kernels {
-
-inline constexpr std::size_t contact_lanes = 8;
-
-/// Coordinate k of the points of several contacts: [k][contact].
-using Points = double[3][contact_lanes];
 
 /// Pairs of simplices of the same sizes, `low` with at most as many corners as `high`, and their closest
 /// points, which are inside both, or where a segment pierces a triangle.

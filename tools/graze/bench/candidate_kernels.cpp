@@ -149,13 +149,15 @@ class CandidateKernels final : public Contender {
     const LocalObject& of_b = brought_up(b);
     const SurfacePair pair{of_a.surface, of_b.surface, count_};
     names_.clear();
+    CloseFeatures features(pair, world_.distance, scratch_, names_);
     for (std::size_t begin = 0; begin < candidates.size();) {
       const std::uint32_t triangle = candidates[begin].triangle_a;
       beside_.clear();
       for (; begin < candidates.size() && candidates[begin].triangle_a == triangle; ++begin)
         beside_.push_back(candidates[begin].triangle_b);
-      add_names(pair, of_a, triangle, of_b);
+      add_names(pair, of_a, triangle, of_b, features);
     }
+    features.finish();
     order_.sort(names_);
     keep_nearest_of_each(pair, names_);
     const std::size_t first = contacts_.size();
@@ -165,8 +167,8 @@ class CandidateKernels final : public Contender {
   }
 
   /// Of what belongs to a triangle of a and to those of b beside it.
-  void add_names(const SurfacePair& pair, const LocalObject& a, std::uint32_t triangle,
-                 const LocalObject& b) {
+  void add_names(const SurfacePair& pair, const LocalObject& a, std::uint32_t triangle, const LocalObject& b,
+                 CloseFeatures& features) {
     one_.take(a, std::span(&triangle, 1));
     others_.take(b, beside_);
     constexpr kernels::SlabInFrame no_slab{{0, 0, 0}, 0, 0};
@@ -178,7 +180,7 @@ class CandidateKernels final : public Contender {
     scratch_.b.take(others_.features, {near_a, overlap_of(near_a, box_b), no_slab, limit}, &near_b);
     if (is_empty(near_b)) return;
     scratch_.a.take(one_.features, {near_b, overlap_of(near_a, near_b), no_slab, limit}, nullptr);
-    add_close_features(pair, world_.distance, scratch_, names_);
+    features.add_taken();
   }
 
   const World& world_;
