@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "contact_name.hpp"
 #include "leaf_cache.hpp"

@@ -4,6 +4,7 @@
 #include <graze/cut_by_work.hpp>
 #include <tuple>
 
+#include "close_vertices.hpp"
 #include "feature_pairs.hpp"
 #include "last_witness.hpp"
 #include "measure.hpp"
@@ -23,6 +24,7 @@ constexpr std::size_t front_pairs_each = 256;
 constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound tight before others are cut
 constexpr std::size_t closest_each = 64;
 constexpr std::size_t leaf_pairs_each = 8;
+constexpr std::size_t leaf_pairs_each_of_vertices = 64;
 constexpr std::size_t contacts_each = 128;
 
 }  // namespace
@@ -301,45 +303,57 @@ void PairSearch::run_reach(Slice& slice, Worker& worker) {
 
 void PairSearch::begin_contacts(Worker& worker) {
   gather_found();
-  if (!from_front_) remember(query_.threshold, worker);
+  if (!from_front_) {
+    if (query_.detail == ContactDetail::vertices) sort_found(worker);
+    remember(query_.threshold, worker);
+  }
   stage_ = Stage::contacts;
   slice_count_ = 0;
   slice_leaves_in_contact();
+}
+
+/// By the leaf of a, which is compared with all leaves beside it at once. A front stays in this order.
+void PairSearch::sort_found(Worker& worker) {
+  worker.scratch.leaf_pairs.order.sort(found_.leaves, a_->mesh().regions().region_count());
 }
 
 /// Cuts the leaf pairs found so that every slice has as many to look into.
 void PairSearch::slice_leaves_in_contact() {
   const auto& leaves = found_.leaves;
   if (!sliced_) return add_slices_of(0, leaves.size(), leaves.size());
+  const bool of_vertices = query_.detail == ContactDetail::vertices;
   cut_by_work(
-      0, leaves.size(), leaf_pairs_each, [&](std::size_t i) { return may_touch(leaves[i].lower) ? 1U : 0U; },
+      0, leaves.size(), of_vertices ? leaf_pairs_each_of_vertices : leaf_pairs_each,
+      [&](std::size_t i) { return may_touch(leaves[i].lower) ? 1U : 0U; },
       [&](std::size_t begin, std::size_t end) { add_slices_of(begin, end, end - begin); });
 }
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
   worker.begin_leaves(found_);
   CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
+  CloseVertices vertices(worker.pair, query_.threshold, worker.scratch.vertices, slice.names);
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
     slice.complete = !from_front_ || worker.meter.spend();
     if (!slice.complete) return;
     if (!may_touch(leaves.lower)) continue;
     ++worker.meter.counters().leaf_pairs_tested;
+    const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
+    const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
     if (query_.detail == ContactDetail::features)
-      features.add(worker.leaf_pairs.leaf_a(leaves.pair), worker.leaf_pairs.leaf_b(leaves.pair));
+      features.add(a, b);
+    else if (query_.detail == ContactDetail::vertices)
+      vertices.add(a, b);
     else
-      add_contacts(leaves.pair, slice, worker);
+      add_closest_vertices(a, b, slice, worker);
   }
   features.finish();
+  vertices.finish();
 }
 
-void PairSearch::add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const {
-  const LeafOf a = worker.leaf_pairs.leaf_a(leaves);
-  const LeafOf b = worker.leaf_pairs.leaf_b(leaves);
-  LeafScratch& scratch = worker.scratch.features;
-  if (query_.detail == ContactDetail::vertices)
-    return add_close_vertices(worker.pair, a, b, query_.threshold, scratch, slice.names);
-  const ContactName name = closest_vertices(worker.pair, a, b, scratch, worker.scratch.nearest_of_leaves);
+void PairSearch::add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const {
+  SearchScratch& scratch = worker.scratch;
+  const ContactName name = closest_vertices(worker.pair, a, b, scratch.features, scratch.nearest_of_leaves);
   if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "close_vertices.hpp"
 #include "closest_range.hpp"
 #include "contact_name.hpp"
 #include "leaf_names.hpp"
@@ -20,6 +21,7 @@ namespace graze {
 struct SearchScratch {
   LeafPairScratch leaf_pairs;
   VertexSweepScratch sweep;
+  CloseVerticesScratch vertices;
   LeafScratch features;
   Closest nearest_of_leaves;
   PaperScratch paper;
@@ -30,8 +32,8 @@ struct SearchScratch {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.leaf_pairs, self.sweep, self.features, self.nearest_of_leaves, self.paper,
-                    self.lowest, self.parallel, self.order, self.measure);
+    return std::tie(self.leaf_pairs, self.sweep, self.vertices, self.features, self.nearest_of_leaves,
+                    self.paper, self.lowest, self.parallel, self.order, self.measure);
   }
 };
 
@@ -88,7 +90,7 @@ class PairSearch {
   void run_reach(Slice& slice, Worker& worker);
   void begin_contacts(Worker& worker);
   void run_contacts(Slice& slice, Worker& worker);
-  void add_contacts(const RegionPair& leaves, Slice& slice, Worker& worker) const;
+  void add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const;
   void finish_contacts(Worker& worker);
   void begin_measuring(Worker& worker);
   void gather_names(Worker& worker);
@@ -111,6 +113,7 @@ class PairSearch {
   void add_slices_of(std::span<const RegionPair> pairs, std::size_t each);
   void add_slices_of(std::size_t begin, std::size_t end, std::size_t each);
   void slice_front();
+  void sort_found(Worker& worker);
   void slice_leaves_in_contact();
   template <typename Keep, typename Meet>
   void slice_walk(Worker& worker, const Keep& keep, const Meet& meet);

@@ -67,8 +67,11 @@ class Paper {
     nearest_.offer(name);
     found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(name.a.feature.index),
                                                          pair_.b.position(name.b.feature.index)));
-    if (query_.detail == ContactDetail::vertices)
-      return add_close_vertices(pair_, leaf_a, leaf_b, query_.threshold, scratch_.leaves, names_);
+    if (query_.detail == ContactDetail::vertices) {
+      CloseVertices close(pair_, query_.threshold, scratch_.close, names_);
+      close.add(leaf_a, leaf_b);
+      return close.finish();
+    }
     while (step_to_neighbour(name)) {
     }
     nearest_.offer(name);

@@ -27,6 +27,13 @@ void for_each_triangle_from(std::uint32_t vertex, std::span<const std::uint32_t>
   }
 }
 
+/// The corners of a triangle from a vertex around. Without branches, which could not be foretold.
+Corners from_vertex(std::uint32_t vertex, std::span<const std::uint32_t> triangle) {
+  constexpr std::array<std::size_t, 6> around{0, 1, 2, 0, 1, 2};
+  const std::size_t place = (triangle[1] == vertex ? 1U : 0U) + (triangle[2] == vertex ? 2U : 0U);
+  return {vertex, triangle[around[place + 1]], triangle[around[place + 2]]};
+}
+
 }  // namespace
 
 void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNormal& normal) {
@@ -43,9 +50,14 @@ void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNor
 }
 
 void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal) {
-  for (const std::uint32_t face : surface.mesh().vertex_faces(vertex))
-    for_each_triangle_from(vertex, surface.mesh().face(face),
-                           [&](const Corners& corner) { add_triangle(surface, corner, 0, normal); });
+  for (const std::uint32_t index : surface.mesh().vertex_faces(vertex)) {
+    const auto face = surface.mesh().face(index);
+    const auto add = [&](const Corners& corner) { add_triangle(surface, corner, 0, normal); };
+    if (face.size() == 3)
+      add(from_vertex(vertex, face));
+    else
+      for_each_triangle_from(vertex, face, add);
+  }
 }
 
 void NormalSums::add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal) {

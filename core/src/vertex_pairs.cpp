@@ -7,15 +7,6 @@ ContactName vertex_pair(std::uint32_t a, std::uint32_t b) {
   return ContactName::of(vertex_piece(a), vertex_piece(b));
 }
 
-/// What is nearer than a fixed distance.
-struct Below {
-  double distance;
-
-  [[nodiscard]] double limit() const { return distance; }
-  [[nodiscard]] bool keep(double lower) const { return lower < distance; }
-  void left_out(double /*limit*/) const {}
-};
-
 /// What is at most as far as the nearest so far.
 struct AsNear {
   const ClosestSet& closest;
@@ -26,14 +17,6 @@ struct AsNear {
 };
 
 }  // namespace
-
-void add_close_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double limit,
-                        LeafScratch& scratch, std::vector<ContactName>& names) {
-  Below range{limit};
-  for_each_vertex_pair(pair, leaf_a, leaf_b, scratch, range, [&](std::uint32_t a, std::uint32_t b) {
-    if (is_closer_than(pair, vertex_pair(a, b), limit)) names.push_back(vertex_pair(a, b));
-  });
-}
 
 ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
                              LeafScratch& scratch, Closest& closest) {

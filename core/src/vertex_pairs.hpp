@@ -8,10 +8,6 @@
 
 namespace graze {
 
-/// Appends the pairs of vertices of two leaves that are strictly closer than `limit`.
-void add_close_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, double limit,
-                        LeafScratch& scratch, std::vector<ContactName>& names);
-
 /// The closest pair of vertices of two leaves (eq. 5), ties to the lowest a, then b. `closest` is
 /// overwritten.
 ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
