@@ -20,7 +20,8 @@ Box LocalVertices::take(const Surface& surface, std::span<const std::uint32_t> v
 void LocalVertices::take(const LocalVertices& all, std::span<const std::uint32_t> places) {
   begin(places.size());
   kernels::filter().gather(all.block(), 3, places.data(), places.size(), data_.data(), stride_);
-  for (const std::uint32_t place : places) vertices_.push_back(all.vertices_[place]);
+  vertices_.resize(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) vertices_[i] = all.vertices_[places[i]];
 }
 
 void LocalVertices::reserve(std::size_t most) {

@@ -22,7 +22,9 @@ class LocalVertices {
 
   [[nodiscard]] std::size_t count() const { return vertices_.size(); }
   [[nodiscard]] std::uint32_t vertex(std::size_t i) const { return vertices_[i]; }
-  [[nodiscard]] float coordinate(std::size_t axis, std::size_t i) const { return data_[axis * stride_ + i]; }
+  [[nodiscard]] std::span<const float> coordinates(std::size_t axis) const {
+    return {data_.data() + axis * stride_, count()};
+  }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, count()}; }
 
   template <typename Self>

@@ -51,8 +51,12 @@ std::size_t Surface::find_inside(const Box& box, std::span<std::uint32_t> found)
   if (stretches_version_ != version_) {
     pass(0, count);
   } else {
-    for (std::uint32_t i = 0; i < stretches_.size(); ++i)
-      if (!common(stretches_[i], box).empty()) pass(i * stretch, std::min((i + 1) * stretch, count));
+    // Stretches that follow one another go in one pass, since each has to be begun.
+    for (std::uint32_t i = 0; i < stretches_.size(); ++i) {
+      const std::uint32_t first = i;
+      while (i < stretches_.size() && !common(stretches_[i], box).empty()) ++i;
+      if (i > first) pass(first * stretch, std::min(i * stretch, count));
+    }
   }
   if (mesh_->uses_all_vertices()) return inside;
   const auto unused = [this](std::uint32_t vertex) { return !mesh_->is_used(vertex); };

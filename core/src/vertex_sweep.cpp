@@ -38,7 +38,9 @@ class Slabs {
   /// The slab of a coordinate, or that at the end where it lies beyond; ascends with the coordinate.
   [[nodiscard]] std::uint32_t at(float coordinate) const {
     const float place = (coordinate - first_) * per_unit_;
-    return place > 0 ? static_cast<std::uint32_t>(std::min(place, last_)) : 0;
+    const float above = place > 0 ? place : 0;
+    // Through an int, which vectors can do.
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(above < last_ ? above : last_));
   }
 
  private:
@@ -150,10 +152,9 @@ class VertexSweep {
     auto& begin = scratch_.begin;
     slab_of.resize(a.count());
     begin.assign(slabs.count() + 1, 0);
-    for (std::size_t i = 0; i < a.count(); ++i) {
-      slab_of[i] = slabs.at(a.coordinate(slabs.axis(), i));
-      ++begin[slab_of[i]];
-    }
+    const std::span<const float> along = a.coordinates(slabs.axis());
+    for (std::size_t i = 0; i < along.size(); ++i) slab_of[i] = slabs.at(along[i]);
+    for (const std::uint32_t slab : slab_of) ++begin[slab];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     make_room(a.count() + LocalVertices::padding);
     std::fill_n(scratch_.found.begin() + static_cast<std::ptrdiff_t>(a.count()), LocalVertices::padding, 0U);
@@ -177,12 +178,16 @@ class VertexSweep {
 
   /// For each vertex of b those of a in the slabs about it; how many in all.
   std::size_t list_beside(const Slabs& slabs) {
+    const std::span<const float> along = scratch_.b.coordinates(slabs.axis());
+    std::uint32_t* const first = scratch_.first.data();
+    std::uint32_t* const last = scratch_.last.data();
+    for (std::size_t row = 0; row < along.size(); ++row) first[row] = slabs.at(along[row] - reach_);
+    for (std::size_t row = 0; row < along.size(); ++row) last[row] = slabs.at(along[row] + reach_);
     std::size_t pairs = 0;
-    for (std::size_t row = 0; row < scratch_.b.count(); ++row) {
-      const float at = scratch_.b.coordinate(slabs.axis(), row);
-      scratch_.first[row] = scratch_.begin[slabs.at(at - reach_)];
-      scratch_.last[row] = scratch_.begin[slabs.at(at + reach_) + std::size_t{1}];
-      pairs += scratch_.last[row] - scratch_.first[row];
+    for (std::size_t row = 0; row < along.size(); ++row) {
+      first[row] = scratch_.begin[first[row]];
+      last[row] = scratch_.begin[last[row] + std::size_t{1}];
+      pairs += last[row] - first[row];
     }
     return pairs;
   }
