@@ -18,10 +18,13 @@ constexpr std::uint32_t small_region = 64;
 /// So few pairs are all compared.
 constexpr std::size_t few_pairs = 2048;
 constexpr std::size_t most_slabs = 256;
+/// So many slabs are as thick as what is looked for, so that those about a vertex are little thicker than
+/// they must be.
+constexpr float slabs_of_limit = 4;
 /// So many are looked at between two looks at what is left.
 constexpr std::size_t pairs_at_once = 4096;
 
-/// Cuts a box into slabs along its longest side, none thinner than what is looked for.
+/// Cuts a box into slabs along its longest side.
 class Slabs {
  public:
   Slabs(const kernels::BoxInFrame& box, float limit) {
@@ -29,7 +32,7 @@ class Slabs {
       if (box.max[axis] - box.min[axis] > box.max[axis_] - box.min[axis_]) axis_ = axis;
     first_ = box.min[axis_];
     const float length = box.max[axis_] - first_;
-    const float count = std::min(length / limit, static_cast<float>(most_slabs));
+    const float count = std::min(length / (limit / slabs_of_limit), static_cast<float>(most_slabs));
     per_unit_ = length > 0 && count > 1 ? count / length : 0;
     last_ = per_unit_ > 0 ? count - 1 : 0;
   }
