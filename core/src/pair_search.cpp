@@ -349,6 +349,12 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
   }
   features.finish();
   vertices.finish();
+  if (slice_count_ > 1 && query_.detail == ContactDetail::features) sort_names(slice.names, worker);
+}
+
+void PairSearch::sort_names(std::vector<ContactName>& names, Worker& worker) const {
+  worker.scratch.order.sort(names);
+  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, names);
 }
 
 void PairSearch::add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const {
@@ -383,8 +389,7 @@ void PairSearch::gather_names(Worker& worker) {
     for (std::size_t i = 0; i < slice_count_; ++i)
       names_.insert(names_.end(), slices_[i].names.begin(), slices_[i].names.end());
   }
-  worker.scratch.order.sort(names_);
-  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, names_);
+  sort_names(names_, worker);
 }
 
 void PairSearch::finish_measuring(Worker& worker) {

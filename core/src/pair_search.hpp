@@ -94,6 +94,7 @@ class PairSearch {
   void finish_contacts(Worker& worker);
   void begin_measuring(Worker& worker);
   void gather_names(Worker& worker);
+  void sort_names(std::vector<ContactName>& names, Worker& worker) const;
   void finish_measuring(Worker& worker);
   [[nodiscard]] ContactName lowest_measured(Worker& worker) const;
   [[nodiscard]] bool may_touch(double lower) const;
