@@ -5,12 +5,10 @@
 namespace graze {
 
 void CloseVerticesScratch::make_room(std::size_t of_leaf, std::size_t beside) {
-  const auto make = [](std::size_t count, auto&... lists) {
-    ((lists.size() < count ? lists.resize(count) : void()), ...);
-  };
-  make(of_leaf, found_a, first, last);
-  make(std::max(beside, most_beside), found_b);
-  make(std::max({beside, most_beside, most_pairs}), near_row, near);
+  const std::size_t most_b = std::max(beside, most_beside);
+  if (found_a.size() < of_leaf) found_a.resize(of_leaf);
+  if (found_b.size() < most_b) found_b.resize(most_b);
+  rows.make_room(of_leaf, most_b);
 }
 
 void CloseVerticesScratch::reserve(const PairRoom& room) {
@@ -51,25 +49,10 @@ void CloseVertices::compare() {
                                .find(pair_.a.mesh().regions().vertices(*leaf_), scratch_.found_a.data());
   if (rows == 0) return;
   scratch_.a.take(pair_.a, std::span(scratch_.found_a).first(rows), frame);
-  std::fill_n(scratch_.first.begin(), rows, 0U);
-  std::fill_n(scratch_.last.begin(), rows, static_cast<std::uint32_t>(points));
-  // What is not nearer in float is certainly not nearer than the limit.
-  const float reach = frame.to_local_limit(limit_) + 2 * frame.to_local(box_).size * kernels::margin;
-  const std::size_t rows_at_once = std::max<std::size_t>(CloseVerticesScratch::most_pairs / points, 1);
-  for (std::size_t row = 0; row < rows; row += rows_at_once)
-    compare_rows(row, std::min(rows, row + rows_at_once), reach);
-}
-
-void CloseVertices::compare_rows(std::size_t begin, std::size_t end, float reach) {
-  const std::size_t found = kernels::filter().near_rows(
-      scratch_.a.block(), begin, end, scratch_.b.block(), scratch_.first.data(), scratch_.last.data(),
-      reach * reach, {scratch_.near_row.data(), scratch_.near.data()});
-  pair_.count.discarded_in_float += (end - begin) * scratch_.b.count() - found;
-  for (std::size_t k = 0; k < found; ++k) {
-    const ContactName name = ContactName::of(vertex_piece(scratch_.a.vertex(scratch_.near_row[k])),
-                                             vertex_piece(scratch_.b.vertex(scratch_.near[k])));
-    if (is_closer_than(pair_, name, limit_)) names_.push_back(name);
-  }
+  std::fill_n(scratch_.rows.first.begin(), rows, 0U);
+  std::fill_n(scratch_.rows.last.begin(), rows, static_cast<std::uint32_t>(points));
+  add_close_rows(pair_, limit_, {scratch_.a, scratch_.b, true}, reach_of(frame, box_, limit_), scratch_.rows,
+                 names_);
 }
 
 }  // namespace graze

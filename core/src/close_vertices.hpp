@@ -9,29 +9,25 @@
 #include "leaf_features.hpp"
 #include "listed_vertices.hpp"
 #include "local_vertices.hpp"
+#include "vertex_rows.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
 
 /// Vertices of a leaf, and of the leaves beside it.
 struct CloseVerticesScratch {
-  /// So many of those beside a leaf are compared at once, or those of one leaf; and so many pairs.
+  /// So many of those beside a leaf are compared at once, or those of one leaf.
   static constexpr std::size_t most_beside = 512;
-  static constexpr std::size_t most_pairs = 4096;
 
   std::vector<std::uint32_t> found_a;  ///< longer than they are many
   std::vector<std::uint32_t> found_b;
   LocalVertices a;
   LocalVertices b;
-  std::vector<std::uint32_t> first;  ///< of those that each of a is compared with, and the end of them
-  std::vector<std::uint32_t> last;
-  std::vector<std::uint32_t> near_row;  ///< what a kernel left
-  std::vector<std::uint32_t> near;
+  VertexRowsScratch rows;  ///< of a
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.found_a, self.found_b, self.a, self.b, self.first, self.last, self.near_row,
-                    self.near);
+    return std::tie(self.found_a, self.found_b, self.a, self.b, self.rows);
   }
   void make_room(std::size_t of_leaf, std::size_t beside);
   void reserve(const PairRoom& room);
@@ -52,7 +48,6 @@ class CloseVertices {
  private:
   void begin(const LeafOf& leaf);
   void compare();
-  void compare_rows(std::size_t begin, std::size_t end, float reach);
 
   const SurfacePair& pair_;
   double limit_;

@@ -95,13 +95,9 @@ class LeafNames {
     else
       filter_.near(of_b(b), of_a(a), kernel, [&](std::size_t j, std::size_t i) { visit(i, j); });
   }
-  [[nodiscard]] SegmentPairNames segment_names(const FeaturePiece& a, const FeaturePiece& b,
-                                               SquaredRange& squared) const {
-    return nearest_pieces_of_segments(pair_.a, a, pair_.b, b, pair_.count, squared);
-  }
   void offer_inner(const FeaturePiece& a, const FeaturePiece& b) {
     SquaredRange squared;
-    const SegmentPairNames found = segment_names(a, b, squared);
+    const SegmentPairNames found = nearest_pieces_of_segments(pair_.a, a, pair_.b, b, pair_.count, squared);
     if (found.size == 1 && found.names[0][0] == a && found.names[0][1] == b)
       sink_(ContactName::of(a, b), squared);
   }

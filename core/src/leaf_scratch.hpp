@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "contact_name.hpp"
 #include "leaf_cache.hpp"

@@ -82,18 +82,26 @@ class NamingBatch {
     sink(pieces.name(piece), squared);
   }
   template <typename Sink>
+  void name_alone(const EdgePair& edges, const SurfacePair& pair, const Sink& sink) {
+    SquaredRange squared;
+    const SegmentPairNames names = nearest_pieces_of_segments(pair.a, edge_piece(edges.a), pair.b,
+                                                              edge_piece(edges.b), pair.count, squared);
+    for (std::uint32_t k = 0; k < names.size; ++k)
+      sink(ContactName::of(names.names[k][0], names.names[k][1]), squared);
+  }
+  template <typename Sink>
   void name_segments(const SurfacePair& pair, const Sink& sink);
   template <typename Sink>
   void name_points_and_triangles(const SurfacePair& pair, const Sink& sink);
+  template <typename Sink, typename CertainName, typename NameAlone>
+  static void name_lanes(const kernels::PlacesFound& found, std::size_t& count, const SurfacePair& pair,
+                         const Sink& sink, const CertainName& certain, const NameAlone& name_alone);
 
   template <std::size_t Corners>
   static void put(const Surface& surface, const std::array<std::uint32_t, Corners>& vertices,
                   kernels::Points* points, std::size_t lane) {
     for (std::size_t corner = 0; corner < Corners; ++corner)
       put_corner(surface, vertices[corner], points[corner], lane);
-  }
-  static SquaredRange range(const kernels::PlacesFound& found, std::size_t lane) {
-    return {found.low[lane], found.high[lane]};
   }
   static FeaturePiece piece_of_edge(const Mesh& mesh, std::uint32_t edge, double place) {
     const auto along = static_cast<Along>(static_cast<std::uint8_t>(place));
@@ -119,41 +127,40 @@ template <typename Sink>
 void NamingBatch::name_segments(const SurfacePair& pair, const Sink& sink) {
   if (segments_ == 0) return;
   kernels::places().segments(segment_batch_);
-  const kernels::PlacesFound& found = segment_batch_.found;
-  for (std::size_t lane = 0; lane < segments_; ++lane) {
-    const EdgePair& edges = segment_[lane];
-    if (found.certain[lane] > 0) {
-      ++pair.count.in_double;
-      sink(ContactName::of(piece_of_edge(pair.a.mesh(), edges.a, segment_batch_.place_a[lane]),
-                           piece_of_edge(pair.b.mesh(), edges.b, segment_batch_.place_b[lane])),
-           range(found, lane));
-      continue;
-    }
-    SquaredRange squared;
-    const SegmentPairNames names = nearest_pieces_of_segments(pair.a, edge_piece(edges.a), pair.b,
-                                                              edge_piece(edges.b), pair.count, squared);
-    for (std::uint32_t k = 0; k < names.size; ++k)
-      sink(ContactName::of(names.names[k][0], names.names[k][1]), squared);
-  }
-  segments_ = 0;
+  const auto certain = [&](std::size_t lane) {
+    const auto [a, b] = segment_[lane];
+    return ContactName::of(piece_of_edge(pair.a.mesh(), a, segment_batch_.place_a[lane]),
+                           piece_of_edge(pair.b.mesh(), b, segment_batch_.place_b[lane]));
+  };
+  name_lanes(segment_batch_.found, segments_, pair, sink, certain,
+             [&](std::size_t lane) { name_alone(segment_[lane], pair, sink); });
 }
 
 template <typename Sink>
 void NamingBatch::name_points_and_triangles(const SurfacePair& pair, const Sink& sink) {
   if (points_and_triangles_ == 0) return;
   kernels::places().points_and_triangles(triangle_batch_);
-  const kernels::PlacesFound& found = triangle_batch_.found;
-  for (std::size_t lane = 0; lane < points_and_triangles_; ++lane) {
+  const auto certain = [&](std::size_t lane) {
     const VertexAndFace& pieces = vertex_and_face_[lane];
+    return pieces.name(piece_of_face(pieces.of_face(pair).mesh(), pieces.face, triangle_batch_.place[lane]));
+  };
+  name_lanes(triangle_batch_.found, points_and_triangles_, pair, sink, certain,
+             [&](std::size_t lane) { name_alone(vertex_and_face_[lane], pair, sink); });
+}
+
+/// Empties a batch: gives the sink the names that a kernel is certain of, and has the others named alone.
+template <typename Sink, typename CertainName, typename NameAlone>
+void NamingBatch::name_lanes(const kernels::PlacesFound& found, std::size_t& count, const SurfacePair& pair,
+                             const Sink& sink, const CertainName& certain, const NameAlone& name_alone) {
+  for (std::size_t lane = 0; lane < count; ++lane) {
     if (!(found.certain[lane] > 0)) {
-      name_alone(pieces, pair, sink);
+      name_alone(lane);
       continue;
     }
     ++pair.count.in_double;
-    const Mesh& mesh = pieces.of_face(pair).mesh();
-    sink(pieces.name(piece_of_face(mesh, pieces.face, triangle_batch_.place[lane])), range(found, lane));
+    sink(certain(lane), SquaredRange{found.low[lane], found.high[lane]});
   }
-  points_and_triangles_ = 0;
+  count = 0;
 }
 
 }  // namespace graze

@@ -5,13 +5,13 @@
 #include <tuple>
 
 #include "close_vertices.hpp"
+#include "closest_vertices.hpp"
 #include "feature_pairs.hpp"
 #include "last_witness.hpp"
 #include "measure.hpp"
 #include "measure_batch.hpp"
 #include "parallel.hpp"
 #include "validate.hpp"
-#include "vertex_pairs.hpp"
 
 namespace graze {
 namespace {
@@ -349,6 +349,8 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
   }
   features.finish();
   vertices.finish();
+  // So that less is left for the thread that puts the slices together, where an edge between two slices'
+  // faces is met once more.
   if (slice_count_ > 1 && query_.detail == ContactDetail::features) sort_names(slice.names, worker);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bounds.hpp"
-#include "vertex_pairs.hpp"
+#include "closest_vertices.hpp"
 
 namespace graze {
 namespace {

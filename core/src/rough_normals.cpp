@@ -13,25 +13,21 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// The corners of each of a face's triangles that has the vertex, from it around.
-template <typename Use>
-void for_each_triangle_from(std::uint32_t vertex, std::span<const std::uint32_t> face, Use use) {
-  for (std::size_t last = 2; last < face.size(); ++last) {
-    const Corners corner{face[0], face[last - 1], face[last]};
-    if (corner[0] == vertex)
-      use(corner);
-    else if (corner[1] == vertex)
-      use(Corners{corner[1], corner[2], corner[0]});
-    else if (corner[2] == vertex)
-      use(Corners{corner[2], corner[0], corner[1]});
-  }
+/// The corners of a triangle from one of them around. Without branches, which could not be foretold.
+Corners turned_to(std::uint32_t vertex, std::span<const std::uint32_t> corner) {
+  constexpr std::array<std::size_t, 6> around{0, 1, 2, 0, 1, 2};
+  const std::size_t place = (corner[1] == vertex ? 1U : 0U) + (corner[2] == vertex ? 2U : 0U);
+  return {vertex, corner[around[place + 1]], corner[around[place + 2]]};
 }
 
-/// The corners of a triangle from a vertex around. Without branches, which could not be foretold.
-Corners from_vertex(std::uint32_t vertex, std::span<const std::uint32_t> triangle) {
-  constexpr std::array<std::size_t, 6> around{0, 1, 2, 0, 1, 2};
-  const std::size_t place = (triangle[1] == vertex ? 1U : 0U) + (triangle[2] == vertex ? 2U : 0U);
-  return {vertex, triangle[around[place + 1]], triangle[around[place + 2]]};
+/// The corners of each triangle that has the vertex, of a face that has it, from it around.
+template <typename Use>
+void for_each_triangle_from(std::uint32_t vertex, std::span<const std::uint32_t> face, Use use) {
+  if (face.size() == 3) return use(turned_to(vertex, face));
+  for (std::size_t last = 2; last < face.size(); ++last) {
+    const Corners corner{face[0], face[last - 1], face[last]};
+    if (std::find(corner.begin(), corner.end(), vertex) != corner.end()) use(turned_to(vertex, corner));
+  }
 }
 
 }  // namespace
@@ -50,14 +46,9 @@ void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNor
 }
 
 void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal) {
-  for (const std::uint32_t index : surface.mesh().vertex_faces(vertex)) {
-    const auto face = surface.mesh().face(index);
-    const auto add = [&](const Corners& corner) { add_triangle(surface, corner, 0, normal); };
-    if (face.size() == 3)
-      add(from_vertex(vertex, face));
-    else
-      for_each_triangle_from(vertex, face, add);
-  }
+  for (const std::uint32_t face : surface.mesh().vertex_faces(vertex))
+    for_each_triangle_from(vertex, surface.mesh().face(face),
+                           [&](const Corners& corner) { add_triangle(surface, corner, 0, normal); });
 }
 
 void NormalSums::add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal) {

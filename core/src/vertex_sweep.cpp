@@ -21,8 +21,6 @@ constexpr std::size_t most_slabs = 256;
 /// So many slabs are as thick as what is looked for, so that those about a vertex are little thicker than
 /// they must be.
 constexpr float slabs_of_limit = 4;
-/// So many are looked at between two looks at what is left.
-constexpr std::size_t pairs_at_once = 4096;
 
 /// Cuts a box into slabs along its longest side.
 class Slabs {
@@ -65,7 +63,7 @@ class VertexSweep {
         near_both_(near_both(pair, limit)),
         frame_(near_both_, near_both_),
         local_limit_(frame_.to_local_limit(limit)),
-        reach_(local_limit_ + 2 * frame_.to_local(near_both_).size * kernels::margin) {}
+        reach_(reach_of(frame_, near_both_, limit)) {}
 
   Swept run() {
     names_.clear();
@@ -76,17 +74,18 @@ class VertexSweep {
     if (scratch_.a.count() == 0) return Swept::all;
     if (!collect(pair_.b, common(near_both_, grown(box_a, limit_)), scratch_.b, box_b)) return gave_up_;
     if (scratch_.b.count() == 0) return Swept::all;
-    make_room_for_pairs();
+    scratch_.rows.make_room(scratch_.b.count(), scratch_.a.count());
     if (scratch_.a.count() * scratch_.b.count() <= few_pairs) {
-      std::fill_n(scratch_.first.begin(), scratch_.b.count(), 0U);
-      std::fill_n(scratch_.last.begin(), scratch_.b.count(), static_cast<std::uint32_t>(scratch_.a.count()));
-      compare_rows(scratch_.a);
+      std::fill_n(scratch_.rows.first.begin(), scratch_.b.count(), 0U);
+      std::fill_n(scratch_.rows.last.begin(), scratch_.b.count(),
+                  static_cast<std::uint32_t>(scratch_.a.count()));
+      compare_with(scratch_.a);
       return Swept::all;
     }
     const Slabs slabs(frame_.to_local(common(box_a, grown(box_b, limit_))), local_limit_);
     sort_into(slabs);
     if (list_beside(slabs) > most_pairs) return Swept::too_many;
-    compare_rows(scratch_.sorted);
+    compare_with(scratch_.sorted);
     return Swept::all;
   }
 
@@ -166,24 +165,11 @@ class VertexSweep {
     scratch_.sorted.take(a, std::span(scratch_.found).first(a.count()));
   }
 
-  void make_room_for_pairs() {
-    const std::size_t rows = scratch_.b.count();
-    if (scratch_.first.size() < rows) {
-      scratch_.first.resize(rows);
-      scratch_.last.resize(rows);
-    }
-    const std::size_t pairs = std::max(scratch_.a.count(), pairs_at_once);
-    if (scratch_.near.size() < pairs) {
-      scratch_.near.resize(pairs);
-      scratch_.near_row.resize(pairs);
-    }
-  }
-
   /// For each vertex of b those of a in the slabs about it; how many in all.
   std::size_t list_beside(const Slabs& slabs) {
     const std::span<const float> along = scratch_.b.coordinates(slabs.axis());
-    std::uint32_t* const first = scratch_.first.data();
-    std::uint32_t* const last = scratch_.last.data();
+    std::uint32_t* const first = scratch_.rows.first.data();
+    std::uint32_t* const last = scratch_.rows.last.data();
     for (std::size_t row = 0; row < along.size(); ++row) first[row] = slabs.at(along[row] - reach_);
     for (std::size_t row = 0; row < along.size(); ++row) last[row] = slabs.at(along[row] + reach_);
     std::size_t pairs = 0;
@@ -195,31 +181,8 @@ class VertexSweep {
     return pairs;
   }
 
-  /// Every vertex of b with those of a that are listed for it, so many at a time that there is room for all.
-  void compare_rows(const LocalVertices& a) {
-    const std::size_t rows = scratch_.b.count();
-    for (std::size_t begin = 0; begin < rows;) {
-      std::size_t end = begin;
-      std::size_t pairs = 0;
-      for (; end < rows; ++end) {
-        const std::size_t more = scratch_.last[end] - scratch_.first[end];
-        if (pairs + more > scratch_.near.size()) break;
-        pairs += more;
-      }
-      compare(a, begin, end, pairs);
-      begin = end;
-    }
-  }
-  void compare(const LocalVertices& a, std::size_t begin, std::size_t end, std::size_t pairs) {
-    const std::size_t found = kernels::filter().near_rows(
-        scratch_.b.block(), begin, end, a.block(), scratch_.first.data(), scratch_.last.data(),
-        reach_ * reach_, {scratch_.near_row.data(), scratch_.near.data()});
-    pair_.count.discarded_in_float += pairs - found;
-    for (std::size_t k = 0; k < found; ++k) {
-      const ContactName name = ContactName::of(vertex_piece(a.vertex(scratch_.near[k])),
-                                               vertex_piece(scratch_.b.vertex(scratch_.near_row[k])));
-      if (is_closer_than(pair_, name, limit_)) names_.push_back(name);
-    }
+  void compare_with(const LocalVertices& a) {
+    add_close_rows(pair_, limit_, {scratch_.b, a, false}, reach_, scratch_.rows, names_);
   }
 
   const SurfacePair& pair_;
@@ -249,10 +212,7 @@ void VertexSweepScratch::reserve(const PairRoom& room) {
   for (LocalVertices* const vertices : {&a, &b, &sorted}) vertices->reserve(most);
   slab.reserve(most);
   begin.reserve(most_slabs + 1);
-  for (auto* const of_rows : {&first, &last})
-    if (of_rows->size() < most) of_rows->resize(most);
-  for (auto* const of_pairs : {&near, &near_row})
-    if (of_pairs->size() < std::max(most, pairs_at_once)) of_pairs->resize(std::max(most, pairs_at_once));
+  rows.make_room(most, most);
 }
 
 }  // namespace graze

@@ -6,6 +6,7 @@
 #include "contact_name.hpp"
 #include "dmv.hpp"
 #include "local_vertices.hpp"
+#include "vertex_rows.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
@@ -18,15 +19,11 @@ struct VertexSweepScratch {
   LocalVertices sorted;              ///< those of a by their slabs
   std::vector<std::uint32_t> slab;   ///< of each vertex of a
   std::vector<std::uint32_t> begin;  ///< of the slabs
-  std::vector<std::uint32_t> first;  ///< of those that each vertex of b is compared with, and the end of them
-  std::vector<std::uint32_t> last;
-  std::vector<std::uint32_t> near_row;  ///< what a kernel left
-  std::vector<std::uint32_t> near;
+  VertexRowsScratch rows;            ///< of b
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.found, self.regions, self.a, self.b, self.sorted, self.slab, self.begin, self.first,
-                    self.last, self.near_row, self.near);
+    return std::tie(self.found, self.regions, self.a, self.b, self.sorted, self.slab, self.begin, self.rows);
   }
   void reserve(const PairRoom& room);
 };

@@ -1,4 +1,4 @@
-#include "vertex_pairs.hpp"
+#include "closest_vertices.hpp"
 
 namespace graze {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "closest_set.hpp"
 #include "contact_name.hpp"
 #include "leaf_names.hpp"
