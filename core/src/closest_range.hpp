@@ -76,9 +76,9 @@ class ClosestRange {
       if (!squared.is_beyond(set_.upper())) set_.offer(name);
     };
     if (!scratch.take(pair_, leaf_a, leaf_b, *this)) return;
-    scratch.naming.begin();
-    for_each_name_of_taken(pair_, scratch, *this, offer);
-    scratch.naming.finish(pair_, offer);
+    LeafNames names(pair_, scratch, *this, offer);
+    names.add_taken();
+    names.finish();
   }
   void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {

@@ -13,8 +13,8 @@ namespace graze {
 /// What a feature of a block is part of.
 enum class Part : std::uint8_t { vertex, edge, face, fold };
 
-/// Features of one kind as the kernels read them: `Corners` points each, of `Components` numbers in all.
-template <std::size_t Corners, std::size_t Components>
+/// Features of one kind as the kernels read them, of `Corners` points each.
+template <std::size_t Corners>
 class FeatureBlock {
  public:
   explicit FeatureBlock(Part part) : part_(part) {}
@@ -22,121 +22,116 @@ class FeatureBlock {
   /// Empties it, and makes room for `most` features.
   void begin(std::size_t most) {
     stride_ = stride_of(most);
-    if (data_.size() < stride_ * Components) data_.resize(stride_ * Components);
+    make_room(most);
     owners_.clear();
-    owner_count_ = 0;
   }
 
   /// Adds the feature that `owner` stands for, to be laid out.
-  void add(std::uint32_t owner) {
-    if (owners_.empty() || owners_.back() != owner) ++owner_count_;
-    owners_.push_back(owner);
-  }
-  /// Adds one for each of `owners`, which are all different.
+  void add(std::uint32_t owner) { owners_.push_back(owner); }
   void add(std::span<const std::uint32_t> owners) {
     owners_.insert(owners_.end(), owners.begin(), owners.end());
-    owner_count_ += owners.size();
   }
   /// Lays out all that were added; `corners` are the places among `vertices` of each one's corners, up to a
-  /// multiple of 4 features. What the kernels prepare is left open.
+  /// multiple of 4 features.
   void lay_out(const kernels::Point* vertices, const std::uint32_t* corners) {
     const kernels::Filter& filter = kernels::filter();
     const auto kernel = Corners == 1   ? filter.lay_out_points
                         : Corners == 2 ? filter.lay_out_segments
                                        : filter.lay_out_triangles;
-    kernel(vertices, corners, count(), data_.data(), stride_);
-  }
-  /// Makes the rest.
-  void prepare() {
-    if constexpr (Corners == 2) kernels::filter().prepare_segments(data_.data(), stride_, count());
-    if constexpr (Corners == 3) kernels::filter().prepare_triangles(data_.data(), stride_, count());
-  }
-
-  /// Extends `found` by the box of those features that `by` keeps.
-  void find_near(kernels::Filter::Clip kernel, const kernels::ClipBy& by, kernels::BoxInFrame& found) const {
-    if (count() > 0) kernel(block(), by, {nullptr, nullptr, &found});
-  }
-  /// Takes those features of another block that `by` keeps, those first that may touch, and prepares them.
-  /// Extends `found`, where there is one, by their box.
-  void take(const FeatureBlock& all, kernels::Filter::Clip kernel, const kernels::ClipBy& by,
-            kernels::BoxInFrame* found) {
-    begin(all.count());
-    touching_ = 0;
-    if (all.count() == 0) return;
-    if (index_.size() < stride_) {
-      index_.resize(stride_);
-      others_.resize(stride_);
-    }
-    const kernels::ClipCount clipped = kernel(all.block(), by, {index_.data(), others_.data(), found});
-    touching_ = clipped.touching;
-    const std::size_t count = clipped.touching + clipped.others;
-    const auto end = std::copy_n(others_.begin(), clipped.others,
-                                 index_.begin() + static_cast<std::ptrdiff_t>(clipped.touching));
-    std::fill_n(end, stride_of(count) - count, 0U);
-    for (std::size_t i = 0; i < count; ++i) add(all.owners_[index_[i]]);
-    constexpr std::size_t laid_out = Corners == 1   ? kernels::point::laid_out
-                                     : Corners == 2 ? kernels::segment::laid_out
-                                                    : kernels::triangle::laid_out;
-    kernels::filter().gather(all.block(), laid_out, index_.data(), count, data_.data(), stride_);
-    prepare();
+    kernel(vertices, corners, count(), data_.data(), stride_, points_.data());
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.data_, self.owners_, self.index_, self.others_);
+    return std::tie(self.data_, self.points_, self.owners_);
   }
   void reserve_as(const FeatureBlock& other) {
-    if (data_.size() < other.data_.size()) data_.resize(other.data_.size());
+    make_room(other.points_.size() / Corners);
     graze::reserve_as(owners_, other.owners_);
-    graze::reserve_as(index_, other.index_);
-    graze::reserve_as(others_, other.others_);
   }
   /// What it holds stays.
   void reserve(std::size_t most) {
-    if (data_.size() < stride_of(most) * Components) data_.resize(stride_of(most) * Components);
+    make_room(most);
     owners_.reserve(most);
-    index_.reserve(stride_of(most));
-    others_.reserve(stride_of(most));
   }
 
   [[nodiscard]] Part part() const { return part_; }
   [[nodiscard]] std::size_t count() const { return owners_.size(); }
-  /// Features of one owner, such as a quad's triangles, are added one after the other and count once here.
-  [[nodiscard]] std::size_t owner_count() const { return owner_count_; }
   [[nodiscard]] std::uint32_t owner(std::size_t i) const { return owners_[i]; }
-  /// Of features taken: how many of them, the first, may touch.
-  [[nodiscard]] std::size_t touching() const { return touching_; }
   [[nodiscard]] float component(std::size_t k, std::size_t i) const { return data_[k * stride_ + i]; }
+  /// The corners of a feature as they came.
+  [[nodiscard]] const kernels::Point* corners(std::size_t i) const { return points_.data() + i * Corners; }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }
-  [[nodiscard]] kernels::Block touching_block() const { return {data_.data(), stride_, touching_}; }
-
- private:
   static std::size_t stride_of(std::size_t most) {
     return (most + kernels::lanes - 1) / kernels::lanes * kernels::lanes;
   }
 
+ private:
+  void make_room(std::size_t most) {
+    const std::size_t floats = stride_of(most) * kernels::component_count<Corners>;
+    const std::size_t points = stride_of(most) * Corners;
+    if (data_.size() < floats) data_.resize(floats);
+    if (points_.size() < points) points_.resize(points);
+  }
+
   std::vector<float> data_;
   std::size_t stride_ = 0;
+  std::vector<kernels::Point> points_;
   std::vector<std::uint32_t> owners_;
-  std::vector<std::uint32_t> index_;   ///< of features taken, in the block they are from
-  std::vector<std::uint32_t> others_;  ///< of them, that do not touch
-  std::size_t touching_ = 0;
-  std::size_t owner_count_ = 0;
   Part part_;
 };
 
-using PointBlock = FeatureBlock<1, kernels::point::count>;
-using SegmentBlock = FeatureBlock<2, kernels::segment::count>;
-using TriangleBlock = FeatureBlock<3, kernels::triangle::count>;
+using PointBlock = FeatureBlock<1>;
+using SegmentBlock = FeatureBlock<2>;
+using TriangleBlock = FeatureBlock<3>;
 
-/// One feature by itself.
-inline kernels::Point row_of(const PointBlock& block, std::size_t i) {
-  return {{block.component(0, i), block.component(1, i), block.component(2, i)}, block.component(3, i)};
-}
-inline kernels::Segment row_of(const SegmentBlock& block, std::size_t i) {
-  return {{block.component(0, i), block.component(1, i), block.component(2, i)},
-          {block.component(3, i), block.component(4, i), block.component(5, i)},
-          block.component(6, i)};
-}
+/// Some features of a block, those first that may touch.
+template <std::size_t Corners>
+class TakenFeatures {
+ public:
+  /// Takes those that `by` keeps, and extends `found`, where there is one, by their box. The block stays.
+  void take(const FeatureBlock<Corners>& all, const kernels::ClipBy& by, kernels::BoxInFrame* found) {
+    all_ = &all;
+    count_ = touching_ = 0;
+    if (all.count() == 0) return;
+    make_room(all.count());
+    const kernels::Filter& filter = kernels::filter();
+    const auto kernel = Corners == 1   ? filter.clip_points
+                        : Corners == 2 ? filter.clip_segments
+                                       : filter.clip_triangles;
+    const kernels::ClipCount clipped = kernel(all.block(), by, {index_.data(), others_.data(), found});
+    touching_ = clipped.touching;
+    count_ = clipped.touching + clipped.others;
+    const auto end = std::copy_n(others_.begin(), clipped.others,
+                                 index_.begin() + static_cast<std::ptrdiff_t>(clipped.touching));
+    std::fill_n(end, FeatureBlock<Corners>::stride_of(count_) - count_, 0U);
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.index_, self.others_);
+  }
+  void reserve(std::size_t most) { make_room(most); }
+
+  [[nodiscard]] const FeatureBlock<Corners>& all() const { return *all_; }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  /// How many of them, the first, may touch.
+  [[nodiscard]] std::size_t touching() const { return touching_; }
+  /// Each one's number in the block; there are as many more as make a multiple of 4, of any features.
+  [[nodiscard]] const std::uint32_t* index() const { return index_.data(); }
+
+ private:
+  void make_room(std::size_t most) {
+    const std::size_t room = FeatureBlock<Corners>::stride_of(most) + kernels::lanes;
+    if (index_.size() < room) index_.resize(room);
+    if (others_.size() < room) others_.resize(room);
+  }
+
+  const FeatureBlock<Corners>* all_ = nullptr;
+  std::size_t count_ = 0;
+  std::size_t touching_ = 0;
+  std::vector<std::uint32_t> index_;
+  std::vector<std::uint32_t> others_;  ///< those that do not touch, until they are put behind the others
+};
 
 }  // namespace graze

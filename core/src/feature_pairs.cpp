@@ -34,14 +34,20 @@ void CloseFeatures::add(const LeafOf& leaf_a, const LeafOf& leaf_b) {
 }
 
 void CloseFeatures::add_taken() {
-  BelowThreshold range{threshold_};
-  for_each_name_of_taken(pair_, scratch_, range,
-                         [&](const ContactName& name, const SquaredRange& squared) { take(name, squared); });
+  with_names([](auto& names) { names.add_taken(); });
 }
 
 void CloseFeatures::finish() {
-  scratch_.naming.finish(pair_,
-                         [&](const ContactName& name, const SquaredRange& squared) { take(name, squared); });
+  with_names([](auto& names) { names.finish(); });
+}
+
+/// Calls `use` with what gives the names to `take`.
+template <typename Use>
+void CloseFeatures::with_names(const Use& use) {
+  BelowThreshold range{threshold_};
+  const auto sink = [&](const ContactName& name, const SquaredRange& squared) { take(name, squared); };
+  LeafNames names(pair_, scratch_, range, sink);
+  use(names);
 }
 
 void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names) {

@@ -14,9 +14,7 @@ class CloseFeatures {
   /// Names are appended to `names`; all are there after `finish`.
   CloseFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
                 std::vector<ContactName>& names)
-      : pair_(pair), threshold_(threshold), scratch_(scratch), names_(names) {
-    scratch_.naming.begin();
-  }
+      : pair_(pair), threshold_(threshold), scratch_(scratch), names_(names) {}
 
   void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
   /// The features that the scratch has taken, whatever they are of.
@@ -24,6 +22,8 @@ class CloseFeatures {
   void finish();
 
  private:
+  template <typename Use>
+  void with_names(const Use& use);
   [[nodiscard]] bool is_contact(const ContactName& name, const SquaredRange& squared) const;
   void take(const ContactName& name, const SquaredRange& squared);
 

@@ -48,24 +48,21 @@ class FilterFrame {
   [[nodiscard]] kernels::PointFrame for_points() const {
     return {{origin_.x(), origin_.y(), origin_.z(), 0}, scale_};
   }
-  /// A box as the kernels see it, no smaller where it is far larger than they can: within `largest_size`,
-  /// where all features are that they trust.
+  /// A box as the kernels see it, no smaller for rounding; and none where it is far larger than they can see,
+  /// but within `largest_size`, where all features are that they trust.
   [[nodiscard]] kernels::BoxInFrame to_local(const Box& box) const {
-    kernels::BoxInFrame local{};
-    local.size = kernels::least_size;
-    const Eigen::Vector3d low = to_local(box.min);
-    const Eigen::Vector3d high = to_local(box.max);
-    const auto clamped = [&](double coordinate) {
-      constexpr double largest = kernels::largest_size;
-      const auto rounded = static_cast<float>(std::clamp(coordinate, -largest, largest));
-      local.size = std::max(local.size, std::abs(rounded));
-      return rounded;
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-      local.min[axis] = clamped(low[axis]);
-      local.max[axis] = clamped(high[axis]);
-    }
-    return local;
+    return rounded(to_local(box.min), to_local(box.max));
+  }
+  /// The largest size of a feature in a box that the kernels trust.
+  [[nodiscard]] float size_of(const Box& box) const {
+    return static_cast<float>(clamped_size(to_local(box.min), to_local(box.max)));
+  }
+  /// That part of a box where something can be that is no further than a distance from what is in another;
+  /// perhaps empty.
+  [[nodiscard]] kernels::BoxInFrame to_local_beside(const Box& box, const Box& other, double distance) const {
+    const Eigen::Array3d reach = Eigen::Array3d::Constant(distance * scale_);
+    return rounded(to_local(box.min).array().max(to_local(other.min).array() - reach),
+                   to_local(box.max).array().min(to_local(other.max).array() + reach));
   }
   /// The slab of a leaf with this middle vertex.
   [[nodiscard]] kernels::SlabInFrame to_local(const LeafSlab& slab, const Eigen::Vector3d& middle) const {
@@ -94,6 +91,22 @@ class FilterFrame {
   }
 
  private:
+  static Eigen::Vector3d clamped(const Eigen::Vector3d& local) {
+    constexpr double largest = kernels::largest_size;
+    return local.cwiseMax(-largest).cwiseMin(largest);
+  }
+  static double clamped_size(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    return std::max({clamped(low).cwiseAbs().maxCoeff(), clamped(high).cwiseAbs().maxCoeff(),
+                     double{kernels::least_size}});
+  }
+  static kernels::BoxInFrame rounded(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    const Eigen::Vector3d grown =
+        Eigen::Vector3d::Constant(clamped_size(low, high) * double{kernels::margin});
+    const Eigen::Vector3f min = (clamped(low) - grown).cast<float>();
+    const Eigen::Vector3f max = (clamped(high) + grown).cast<float>();
+    return {{min.x(), min.y(), min.z()}, {max.x(), max.y(), max.z()}};
+  }
+
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double scale_ = 0;  ///< 0 for the frame of nothing
 };
@@ -101,10 +114,10 @@ class FilterFrame {
 /// Holds nothing, and is extended by what it is to hold.
 inline kernels::BoxInFrame empty_box() {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
+  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 }
 inline bool is_empty(const kernels::BoxInFrame& box) {
-  return box.min[0] > box.max[0];
+  return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
 }
 /// Where two boxes overlap; nothing, as least above greatest, where they do not.
 inline kernels::BoxInFrame overlap_of(const kernels::BoxInFrame& a, const kernels::BoxInFrame& b) {
@@ -113,7 +126,6 @@ inline kernels::BoxInFrame overlap_of(const kernels::BoxInFrame& a, const kernel
     overlap.min[axis] = std::max(a.min[axis], b.min[axis]);
     overlap.max[axis] = std::min(a.max[axis], b.max[axis]);
   }
-  overlap.size = std::max(a.size, b.size);
   return overlap;
 }
 

@@ -1,12 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
 #include <graze/box.hpp>
 #include <graze/surface.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "arithmetic.hpp"
+#include "bounds.hpp"
 #include "feature_block.hpp"
 #include "filter_frame.hpp"
 #include "working_memory.hpp"
@@ -16,129 +21,122 @@ namespace graze {
 /// The box of the corners of a feature.
 Box box_of(const Surface& surface, Part part, std::uint32_t index);
 
-/// The features of one kind of one leaf.
-template <typename Block>
-struct FeaturesOf {
-  const Surface& surface;
-  const Block& features;
+/// A feature of a surface, by the number of what it is part of.
+struct PartOf {
+  Part part = Part::vertex;
+  std::uint32_t index = 0;
+
+  friend bool operator==(const PartOf&, const PartOf&) = default;
 };
 
+/// Two numbers of each pair of features that a kernel has left, with room for so many pairs or those of one
+/// row.
 struct FloatFilterScratch {
-  std::vector<std::uint32_t> index;
+  static constexpr std::size_t pairs_at_once = 4096;
+
+  std::vector<std::uint32_t> row;
+  std::vector<std::uint32_t> column;
   std::vector<float> bound;
+  std::vector<float> columns;  ///< components of the features that are compared with each row
+
+  kernels::NearPairs room_for(std::size_t columns_in_row) {
+    const std::size_t pairs = std::max(columns_in_row, pairs_at_once) + kernels::lanes;
+    if (row.size() < pairs) {
+      row.resize(pairs);
+      column.resize(pairs);
+    }
+    return {row.data(), column.data()};
+  }
+  kernels::Survivors room_for_row(std::size_t columns_in_row) {
+    room_for(columns_in_row);
+    if (bound.size() < columns_in_row) bound.resize(columns_in_row);
+    return {column.data(), bound.data()};
+  }
+  /// The first components from `first` on of what was taken of a block.
+  template <std::size_t Corners>
+  kernels::Block gather(const TakenFeatures<Corners>& taken, std::size_t first, std::size_t components,
+                        std::size_t count) {
+    const std::size_t stride = FeatureBlock<Corners>::stride_of(count);
+    if (columns.size() < components * stride) columns.resize(components * stride);
+    const kernels::Block all = taken.all().block();
+    kernels::filter().gather({all.data + first * all.stride, all.stride, all.count}, components,
+                             taken.index(), count, columns.data(), stride);
+    return {columns.data(), stride, count};
+  }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.index, self.bound);
+    return std::tie(self.row, self.column, self.bound, self.columns);
   }
   void reserve(const PairRoom& room) {
     const std::size_t most = std::max({room.leaf_vertices, room.leaf_edges, 2 * room.leaf_faces});
-    index.reserve(most);
-    bound.reserve(most);
+    room_for_row(most);
+    const std::size_t floats = kernels::box_components * PointBlock::stride_of(most);
+    if (columns.size() < floats) columns.resize(floats);
   }
 };
 
-/// Lets the float kernels look at all pairs of two blocks of features, and hands on what they leave. A quad
-/// is handed on once, by one of its triangles.
-///
-/// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile.
-/// `range.left_out(limit)` is told when something further than that was discarded, and `range.keep(lower)` is
-/// asked, with a bound from double, about features that are too large for float.
-template <typename Range>
-class FloatFilter {
+/// Pairs of features whose distance float is to bound from below, which is done several at once.
+template <std::size_t CornersA, std::size_t CornersB>
+class FloatBatch {
  public:
-  FloatFilter(const FilterFrame& frame, Range& range, FloatFilterScratch& scratch, DecisionCount& count)
-      : frame_(frame), range_(range), scratch_(scratch), count_(count) {}
+  void begin() { count_ = 0; }
+  [[nodiscard]] bool is_full() const { return count_ == kernels::lanes; }
 
-  /// Calls `visit(i, j)` for every feature i of `rows` and j of `columns` that `kernel` does not find to be
-  /// beyond the range's limit.
-  template <typename Rows, typename Columns, typename Kernel, typename Visit>
-  void near(const FeaturesOf<Rows>& rows, const FeaturesOf<Columns>& columns, Kernel kernel,
-            const Visit& visit) {
-    const auto keep = [&](float bound, const auto& lower_in_double) {
-      if (bound == untrusted) return range_.keep(lower_in_double());
-      const double limit = range_.limit();
-      if (bound < local(limit)) return true;
-      range_.left_out(limit);
-      ++count_.discarded_in_float;
-      return false;
-    };
-    const kernels::Survivors survivors = room_for(columns.features.count());
-    if (columns.features.count() == 0) return;
-    for (std::size_t row = 0; row < rows.features.count(); ++row) {
-      const double limit = range_.limit();
-      const std::size_t found =
-          kernel(row_of(rows.features, row), columns.features.block(), local(limit), survivors);
-      if (hand_on(rows, columns, row, found, keep, visit) > 0) range_.left_out(limit);
-    }
+  void add(const FeatureBlock<CornersA>& a, std::size_t i, const FeatureBlock<CornersB>& b, std::size_t j) {
+    const std::size_t lane = count_++;
+    std::memcpy(pairs_.a[lane], a.corners(i), sizeof pairs_.a[lane]);
+    std::memcpy(pairs_.b[lane], b.corners(j), sizeof pairs_.b[lane]);
+    parts_[lane] = {{a.part(), a.owner(i)}, {b.part(), b.owner(j)}};
   }
-
-  /// The same for every segment i of `rows` and triangle j of `columns` that may touch.
-  template <typename Visit>
-  void touching(const FeaturesOf<SegmentBlock>& rows, const FeaturesOf<TriangleBlock>& columns,
-                const Visit& visit) {
-    const auto keep = [](float bound, const auto& lower_in_double) {
-      return bound != untrusted || lower_in_double() == 0;
-    };
-    const kernels::Block block = columns.features.touching_block();
-    const kernels::Survivors survivors = room_for(block.count);
-    if (block.count == 0) return;
-    const auto kernel = kernels::filter().maybe_pierced;
-    for (std::size_t row = 0; row < rows.features.touching(); ++row) {
-      const std::size_t found = kernel(row_of(rows.features, row), block, survivors);
-      hand_on(rows, columns, row, found, keep, visit);
+  /// Empties it: `visit(part of a, part of b, whether the bound says anything)` for each pair that is not
+  /// certainly further than a limit in the frame, but once for what comes again right away, as a quad's
+  /// second triangle does. How many were.
+  template <typename Kernel, typename Visit>
+  std::size_t bound(Kernel kernel, float limit, const Visit& visit) {
+    const std::size_t count = std::exchange(count_, 0);
+    if (count == 0) return 0;
+    std::uint32_t left = kernel(pairs_, limit) & ((1U << count) - 1);
+    const std::size_t discarded = count - static_cast<std::size_t>(std::popcount(left));
+    for (std::size_t last = kernels::lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      if (last == kernels::lanes || parts_[lane] != parts_[last])
+        visit(parts_[lane].first, parts_[lane].second,
+              pairs_.bound[lane] > -std::numeric_limits<float>::infinity());
+      last = lane;
     }
+    return discarded;
   }
 
  private:
-  /// A limit in the frame. It mostly is the one of the last call.
-  float local(double limit) {
-    if (limit != limit_) {
-      limit_ = limit;
-      local_limit_ = frame_.to_local_limit(limit);
-    }
-    return local_limit_;
+  kernels::FeaturePairs<CornersA, CornersB> pairs_{};
+  std::array<std::pair<PartOf, PartOf>, kernels::lanes> parts_;
+  std::size_t count_ = 0;
+};
+
+/// The pairs of features of two surfaces that are near by their boxes.
+struct FloatBatches {
+  FloatFilterScratch lists;
+  FilterFrame frame;           ///< that all of them are in
+  FloatBatch<1, 3> vertex_a;   ///< a vertex of a, a triangle of b
+  FloatBatch<1, 3> vertex_b;   ///< a vertex of b, a triangle of a
+  FloatBatch<2, 2> segments;   ///< one of a, one of b
+  FloatBatch<2, 3> through_b;  ///< a segment of a, a triangle of b
+  FloatBatch<2, 3> through_a;  ///< a segment of b, a triangle of a
+
+  /// Before the first of a query or slice.
+  void begin() {
+    vertex_a.begin();
+    vertex_b.begin();
+    segments.begin();
+    through_b.begin();
+    through_a.begin();
   }
 
-  static constexpr float untrusted = -std::numeric_limits<float>::infinity();
-
-  kernels::Survivors room_for(std::size_t columns) {
-    if (scratch_.index.size() < columns) {
-      scratch_.index.resize(columns);
-      scratch_.bound.resize(columns);
-    }
-    return {scratch_.index.data(), scratch_.bound.data()};
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.lists);
   }
-
-  /// Visits the first `found` survivors that `keep` does not take out; how many owners none survived of.
-  template <typename Rows, typename Columns, typename Keep, typename Visit>
-  std::size_t hand_on(const FeaturesOf<Rows>& rows, const FeaturesOf<Columns>& columns, std::size_t row,
-                      std::size_t found, const Keep& keep, const Visit& visit) {
-    const std::size_t owners = columns.features.owner_count();
-    std::size_t survived = 0;
-    for (std::size_t k = 0; k < found; ++k) {
-      const std::size_t column = scratch_.index[k];
-      const std::uint32_t owner = columns.features.owner(column);
-      float bound = scratch_.bound[k];
-      for (; k + 1 < found && columns.features.owner(scratch_.index[k + 1]) == owner; ++k)
-        bound = std::min(bound, scratch_.bound[k + 1]);
-      ++survived;
-      const auto lower_in_double = [&] {
-        return lower_distance(box_of(rows.surface, rows.features.part(), rows.features.owner(row)),
-                              box_of(columns.surface, columns.features.part(), owner));
-      };
-      if (keep(bound, lower_in_double)) visit(row, column);
-    }
-    count_.discarded_in_float += owners - survived;
-    return owners - survived;
-  }
-
-  const FilterFrame& frame_;
-  double limit_ = -1;  ///< none yet
-  float local_limit_ = 0;
-  Range& range_;
-  FloatFilterScratch& scratch_;
-  DecisionCount& count_;
 };
 
 }  // namespace graze

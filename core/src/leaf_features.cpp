@@ -80,45 +80,24 @@ void LeafFeatures::lay_out_faces(const Surface& surface, const Region& leaf, Lea
   folds.lay_out(from.data(), from.fold_corners.padded());
 }
 
-kernels::BoxInFrame LeafFeatures::near_box_of_vertices(const kernels::ClipBy& by) const {
-  kernels::BoxInFrame found = empty_box();
-  vertices.find_near(kernels::filter().clip_points, by, found);
-  return found;
+void TakenLeaf::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by,
+                              kernels::BoxInFrame* found) {
+  vertices.take(all.vertices, by, found);
 }
 
-kernels::BoxInFrame LeafFeatures::near_box(const kernels::ClipBy& by) const {
-  const kernels::Filter& filter = kernels::filter();
-  kernels::BoxInFrame found = near_box_of_vertices(by);
-  edges.find_near(filter.clip_segments, by, found);
-  triangles.find_near(filter.clip_triangles, by, found);
-  folds.find_near(filter.clip_segments, by, found);
-  return found;
+void TakenLeaf::take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found) {
+  vertices.take(all.vertices, by, found);
+  edges.take(all.edges, by, found);
+  triangles.take(all.triangles, by, found);
+  folds.take(all.folds, by, found);
 }
 
-void LeafFeatures::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by,
-                                 kernels::BoxInFrame* found) {
-  vertices.take(all.vertices, kernels::filter().clip_points, by, found);
-}
-
-void LeafFeatures::take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found) {
-  const kernels::Filter& filter = kernels::filter();
-  take_vertices(all, by, found);
-  edges.take(all.edges, filter.clip_segments, by, found);
-  triangles.take(all.triangles, filter.clip_triangles, by, found);
-  folds.take(all.folds, filter.clip_segments, by, found);
-}
-
-void FoldAnswers::begin(const Surface& surface, const SegmentBlock& diagonals) {
-  surface_ = &surface;
-  diagonals_ = &diagonals;
-  answers_.assign(diagonals.count(), Folded::unknown);
-}
-
-bool FoldAnswers::is_fold(std::size_t diagonal, DecisionCount& count) {
-  Folded& folded = answers_[diagonal];
-  if (folded == Folded::unknown)
-    folded = is_folded(*surface_, diagonals_->owner(diagonal), count) ? Folded::yes : Folded::no;
-  return folded == Folded::yes;
+bool FoldAnswers::is_fold(const Surface& surface, std::uint32_t face, DecisionCount& count) {
+  Answer& answer = answers_[face % answers_.size()];
+  if (answer.surface != &surface || answer.face != face)
+    answer = {&surface, face, is_folded(surface, face, count)};
+  any_ = true;
+  return answer.is_fold;
 }
 
 }  // namespace graze

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <graze/box.hpp>
 #include <graze/pair_query.hpp>
 #include <graze/region_tree.hpp>
@@ -32,13 +33,6 @@ class LeafFeatures {
   void collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame,
                         LeafVertices& corners);
 
-  /// The box of those that `by` keeps.
-  [[nodiscard]] kernels::BoxInFrame near_box(const kernels::ClipBy& by) const;
-  [[nodiscard]] kernels::BoxInFrame near_box_of_vertices(const kernels::ClipBy& by) const;
-  /// Takes those of `all` that `by` keeps, and extends `found`, where there is one, by their box.
-  void take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
-  void take_vertices(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
-
   [[nodiscard]] std::size_t count() const {
     return vertices.count() + edges.count() + triangles.count() + folds.count();
   }
@@ -60,24 +54,54 @@ class LeafFeatures {
   void lay_out_faces(const Surface& surface, const Region& leaf, LeafVertices& from);
 };
 
-/// Whether diagonals of quads are folds (see `is_folded`); asked of few, so decided when asked.
-class FoldAnswers {
+/// Those features of a leaf that are near another.
+class TakenLeaf {
  public:
-  void begin(const Surface& surface, const SegmentBlock& diagonals);
-  bool is_fold(std::size_t diagonal, DecisionCount& count);
+  TakenFeatures<1> vertices;
+  TakenFeatures<2> edges;
+  TakenFeatures<3> triangles;
+  TakenFeatures<2> folds;
+
+  /// Takes those that `by` keeps, and extends `found`, where there is one, by their box. What they are taken
+  /// from stays.
+  void take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
+  void take_vertices(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
+
+  [[nodiscard]] std::size_t count() const {
+    return vertices.count() + edges.count() + triangles.count() + folds.count();
+  }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.answers_);
+    return std::tie(self.vertices, self.edges, self.triangles, self.folds);
   }
-  void reserve(const PairRoom& room) { answers_.reserve(room.leaf_faces); }
+  void reserve(const PairRoom& room) {
+    vertices.reserve(room.leaf_vertices);
+    edges.reserve(room.leaf_edges);
+    triangles.reserve(2 * room.leaf_faces);
+    folds.reserve(room.leaf_faces);
+  }
+};
+
+/// Whether diagonals of quads are folds (see `is_folded`); asked of few, again and again, so decided when
+/// asked and kept for a while.
+class FoldAnswers {
+ public:
+  /// Forgets all, so that what is decided does not depend on earlier queries.
+  void begin() {
+    if (any_) answers_.fill({});
+    any_ = false;
+  }
+  bool is_fold(const Surface& surface, std::uint32_t face, DecisionCount& count);
 
  private:
-  enum class Folded : std::uint8_t { unknown, no, yes };
-
-  const Surface* surface_ = nullptr;
-  const SegmentBlock* diagonals_ = nullptr;
-  std::vector<Folded> answers_;
+  struct Answer {
+    const Surface* surface = nullptr;
+    std::uint32_t face = 0;
+    bool is_fold = false;
+  };
+  std::array<Answer, 64> answers_;
+  bool any_ = false;
 };
 
 }  // namespace graze

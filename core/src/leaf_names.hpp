@@ -6,149 +6,279 @@
 
 namespace graze {
 
-/// Gives a sink the names of what two leaves' features have to do with each other, but for those that are
-/// left in the scratch's batch.
+/// Gives a sink the names of what features of two surfaces have to do with each other: the closest points of
+/// every vertex-face and edge-edge pair between the features that are taken, every edge that pierces a face,
+/// and every fold's contacts with edges, folds and faces, leaving out what is certainly too far for a range
+/// (a piercing never is). A name may be met several times. What is near goes from boxes to float and from
+/// there to double several at once, so names may come later than the features; all are there after `finish`.
+///
+/// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile.
+/// `range.left_out(limit)` is told when something further than that was discarded, and `range.keep(lower)` is
+/// asked, with a bound from double, about features that are too large for float.
 template <typename Range, typename Sink>
 class LeafNames {
  public:
   LeafNames(const SurfacePair& pair, LeafScratch& scratch, Range& range, const Sink& sink)
       : pair_(pair),
-        a_(scratch.a),
-        b_(scratch.b),
-        folds_a_(scratch.folds_a),
-        folds_b_(scratch.folds_b),
-        filter_(scratch.frame, range, scratch.filter, pair.count),
-        batch_(scratch.naming),
-        sink_(sink) {
-    folds_a_.begin(pair.a, a_.folds);
-    folds_b_.begin(pair.b, b_.folds);
+        scratch_(scratch),
+        lists_(scratch.filter.lists),
+        batches_(scratch.filter),
+        range_(range),
+        sink_(sink) {}
+
+  /// The features that the scratch has taken.
+  void add_taken() {
+    if (!(batches_.frame == scratch_.frame)) {
+      finish_batches();
+      batches_.frame = scratch_.frame;
+      limit_ = -1;
+    }
+    const TakenLeaf& a = scratch_.a;
+    const TakenLeaf& b = scratch_.b;
+    if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
+      near_vertices(a.vertices, b.triangles, faces, batches_.vertex_a, take_vertex_a());
+      touching(a.edges, b.triangles, faces, batches_.through_b, take_through_b());
+      touching(a.folds, b.triangles, faces, batches_.through_b, take_through_b());
+    }
+    if (const kernels::Block faces = boxes_of(a.triangles); faces.count > 0) {
+      near_vertices(b.vertices, a.triangles, faces, batches_.vertex_b, take_vertex_b());
+      touching(b.edges, a.triangles, faces, batches_.through_a, take_through_a());
+      touching(b.folds, a.triangles, faces, batches_.through_a, take_through_a());
+    }
+    near_segments(a.edges, b.edges);
+    near_segments(a.edges, b.folds);
+    near_segments(a.folds, b.edges);
+    near_segments(a.folds, b.folds);
   }
 
-  void vertices_and_faces() {
-    const auto kernel = kernels::filter().near_triangles;
-    filter_.near(of_a(a_.vertices), of_b(b_.triangles), kernel, [&](std::size_t i, std::size_t j) {
-      batch_.add_vertex_and_face(pair_, a_.vertices.owner(i), b_.triangles.owner(j), sink_);
-    });
-    filter_.near(of_b(b_.vertices), of_a(a_.triangles), kernel, [&](std::size_t i, std::size_t j) {
-      batch_.add_face_and_vertex(pair_, a_.triangles.owner(j), b_.vertices.owner(i), sink_);
-    });
-  }
-
-  void edges() {
-    near_segments(a_.edges, b_.edges, [&](std::size_t i, std::size_t j) {
-      batch_.add_edges(pair_, a_.edges.owner(i), b_.edges.owner(j), sink_);
-    });
-  }
-
-  /// A fold gives contacts only where the closest points are inside both segments: at its ends are the quad's
-  /// corners.
-  void folds() {
-    near_segments(a_.edges, b_.folds, [&](std::size_t i, std::size_t j) {
-      if (folds_b_.is_fold(j, pair_.count)) offer_inner(edge_of(a_, i), fold_of(b_, j));
-    });
-    near_segments(a_.folds, b_.edges, [&](std::size_t i, std::size_t j) {
-      if (folds_a_.is_fold(i, pair_.count)) offer_inner(fold_of(a_, i), edge_of(b_, j));
-    });
-    near_segments(a_.folds, b_.folds, [&](std::size_t i, std::size_t j) {
-      if (folds_a_.is_fold(i, pair_.count) && folds_b_.is_fold(j, pair_.count))
-        offer_inner(fold_of(a_, i), fold_of(b_, j));
-    });
-  }
-
-  void piercings() {
-    filter_.touching(of_a(a_.edges), of_b(b_.triangles),
-                     [&](std::size_t i, std::size_t j) { offer_a_through_b(edge_of(a_, i), j); });
-    filter_.touching(of_b(b_.edges), of_a(a_.triangles),
-                     [&](std::size_t i, std::size_t j) { offer_b_through_a(j, edge_of(b_, i)); });
-    filter_.touching(of_a(a_.folds), of_b(b_.triangles), [&](std::size_t i, std::size_t j) {
-      if (folds_a_.is_fold(i, pair_.count)) offer_a_through_b(fold_of(a_, i), j);
-    });
-    filter_.touching(of_b(b_.folds), of_a(a_.triangles), [&](std::size_t i, std::size_t j) {
-      if (folds_b_.is_fold(i, pair_.count)) offer_b_through_a(j, fold_of(b_, i));
-    });
+  void finish() {
+    finish_batches();
+    scratch_.naming.finish(pair_, sink_);
   }
 
  private:
-  template <typename Block>
-  [[nodiscard]] FeaturesOf<Block> of_a(const Block& features) const {
-    return {pair_.a, features};
-  }
-  template <typename Block>
-  [[nodiscard]] FeaturesOf<Block> of_b(const Block& features) const {
-    return {pair_.b, features};
-  }
-  static FeaturePiece edge_of(const LeafFeatures& features, std::size_t i) {
-    return edge_piece(features.edges.owner(i));
-  }
-  static FeaturePiece fold_of(const LeafFeatures& features, std::size_t i) {
-    return face_piece(features.folds.owner(i), Piece::fold);
+  // ---- By boxes
+
+  template <std::size_t Corners>
+  kernels::Block boxes_of(const TakenFeatures<Corners>& taken) {
+    return lists_.gather(taken, kernels::box_at<Corners>, kernels::box_components, taken.count());
   }
 
-  template <typename Visit>
-  void near_segments(const SegmentBlock& a, const SegmentBlock& b, const Visit& visit) {
-    const auto kernel = kernels::filter().near_segments;
-    const auto cost = [](const SegmentBlock& rows, const SegmentBlock& columns) {
-      return rows.count() * ((columns.count() + kernels::lanes - 1) / kernels::lanes);
-    };
-    if (cost(a, b) <= cost(b, a))
-      filter_.near(of_a(a), of_b(b), kernel, visit);
-    else
-      filter_.near(of_b(b), of_a(a), kernel, [&](std::size_t j, std::size_t i) { visit(i, j); });
+  /// Calls `visit(i, j)` for the first `row_count` of `rows` and those of `columns` whose boxes are not
+  /// certainly further than a limit from each other; whether that was not all.
+  template <std::size_t RowCorners, std::size_t Corners, typename Visit>
+  bool near_boxes(const TakenFeatures<RowCorners>& rows, std::size_t row_count,
+                  const TakenFeatures<Corners>& columns, const kernels::Block& boxes, float limit,
+                  const Visit& visit) {
+    if (row_count == 0 || boxes.count == 0) return false;
+    const kernels::NearPairs near = lists_.room_for(boxes.count);
+    const std::size_t each = std::max<std::size_t>(1, FloatFilterScratch::pairs_at_once / boxes.count);
+    std::size_t discarded = 0;
+    for (std::size_t begin = 0; begin < row_count; begin += each) {
+      const std::size_t count = std::min(each, row_count - begin);
+      const std::size_t found = kernels::filter().near_boxes(
+          {rows.all().block(), kernels::box_at<RowCorners>, rows.index() + begin, count}, boxes, limit, near);
+      discarded += count * boxes.count - found;
+      for (std::size_t k = 0; k < found; ++k)
+        visit(rows.index()[begin + near.row[k]], columns.index()[near.column[k]]);
+    }
+    pair_.count.discarded_in_float += discarded;
+    return discarded > 0;
   }
+  /// The same of those that are not certainly further than the range's limit.
+  template <std::size_t RowCorners, std::size_t Corners, typename Visit>
+  void near_boxes(const TakenFeatures<RowCorners>& rows, const TakenFeatures<Corners>& columns,
+                  const kernels::Block& boxes, const Visit& visit) {
+    const double limit = range_.limit();
+    if (near_boxes(rows, rows.count(), columns, boxes, local(limit), visit)) range_.left_out(limit);
+  }
+
+  template <typename Take>
+  void near_vertices(const TakenFeatures<1>& vertices, const TakenFeatures<3>& triangles,
+                     const kernels::Block& boxes, FloatBatch<1, 3>& batch, const Take& take) {
+    near_boxes(vertices, triangles, boxes, [&](std::size_t i, std::size_t j) {
+      batch.add(vertices.all(), i, triangles.all(), j);
+      if (batch.is_full()) bound(batch, take);
+    });
+  }
+
+  template <typename Take>
+  void touching(const TakenFeatures<2>& segments, const TakenFeatures<3>& triangles,
+                const kernels::Block& boxes, FloatBatch<2, 3>& batch, const Take& take) {
+    const kernels::Block touching_boxes{boxes.data, boxes.stride, triangles.touching()};
+    near_boxes(segments, segments.touching(), triangles, touching_boxes, 0,
+               [&](std::size_t i, std::size_t j) {
+                 batch.add(segments.all(), i, triangles.all(), j);
+                 if (batch.is_full()) bound(batch, take);
+               });
+  }
+
+  void near_segments(const TakenFeatures<2>& a, const TakenFeatures<2>& b) {
+    if (a.count() == 0 || b.count() == 0) return;
+    const auto add = [&](std::size_t i, std::size_t j) {
+      batches_.segments.add(a.all(), i, b.all(), j);
+      if (batches_.segments.is_full()) bound(batches_.segments, take_segments());
+    };
+    if (a.count() <= b.count())
+      near_boxes(a, b, boxes_of(b), add);
+    else
+      near_boxes(b, a, boxes_of(a), [&](std::size_t j, std::size_t i) { add(i, j); });
+  }
+
+  // ---- By the bounds of float
+
+  void finish_batches() {
+    bound(batches_.vertex_a, take_vertex_a());
+    bound(batches_.vertex_b, take_vertex_b());
+    bound(batches_.segments, take_segments());
+    bound(batches_.through_b, take_through_b());
+    bound(batches_.through_a, take_through_a());
+  }
+
+  template <typename Take>
+  void bound(FloatBatch<1, 3>& batch, const Take& take) {
+    bound_near(batch, kernels::filter().bound_points_and_triangles, take);
+  }
+  template <typename Take>
+  void bound(FloatBatch<2, 2>& batch, const Take& take) {
+    bound_near(batch, kernels::filter().bound_segments, take);
+  }
+  template <typename Take>
+  void bound(FloatBatch<2, 3>& batch, const Take& take) {
+    pair_.count.discarded_in_float += batch.bound(kernels::filter().bound_segments_and_triangles, 0, take);
+  }
+  template <typename Batch, typename Kernel, typename Take>
+  void bound_near(Batch& batch, Kernel kernel, const Take& take) {
+    const double limit = range_.limit();
+    const std::size_t discarded = batch.bound(kernel, local(limit), take);
+    pair_.count.discarded_in_float += discarded;
+    if (discarded > 0) range_.left_out(limit);
+  }
+
+  auto take_vertex_a() {
+    return [this](const PartOf& vertex, const PartOf& face, bool is_bounded) {
+      if (may_be_near(pair_.a, vertex, pair_.b, face, is_bounded))
+        scratch_.naming.add_vertex_and_face(pair_, vertex.index, face.index, sink_);
+    };
+  }
+  auto take_vertex_b() {
+    return [this](const PartOf& vertex, const PartOf& face, bool is_bounded) {
+      if (may_be_near(pair_.b, vertex, pair_.a, face, is_bounded))
+        scratch_.naming.add_face_and_vertex(pair_, face.index, vertex.index, sink_);
+    };
+  }
+  auto take_segments() {
+    return [this](const PartOf& a, const PartOf& b, bool is_bounded) {
+      if (!may_be_near(pair_.a, a, pair_.b, b, is_bounded)) return;
+      if (a.part == Part::edge && b.part == Part::edge)
+        scratch_.naming.add_edges(pair_, a.index, b.index, sink_);
+      else if (is_segment(pair_.a, a) && is_segment(pair_.b, b))
+        offer_inner(piece_of(a), piece_of(b));
+    };
+  }
+  auto take_through_b() {
+    return [this](const PartOf& segment, const PartOf& face, bool is_bounded) {
+      if (!may_touch(pair_.a, segment, pair_.b, face, is_bounded) || !is_segment(pair_.a, segment)) return;
+      const FeaturePiece a = piece_of(segment);
+      if (const auto b = pierced_piece(pair_.a, a, pair_.b, face.index, pair_.count))
+        sink_(ContactName::of(a, *b, Meeting::pierced), SquaredRange{});
+    };
+  }
+  auto take_through_a() {
+    return [this](const PartOf& segment, const PartOf& face, bool is_bounded) {
+      if (!may_touch(pair_.b, segment, pair_.a, face, is_bounded) || !is_segment(pair_.b, segment)) return;
+      const FeaturePiece b = piece_of(segment);
+      if (const auto a = pierced_piece(pair_.b, b, pair_.a, face.index, pair_.count))
+        sink_(ContactName::of(*a, b, Meeting::pierced), SquaredRange{});
+    };
+  }
+
+  /// Whether what float has left may be near: features that are too large for it have not been looked at.
+  bool may_be_near(const Surface& a, const PartOf& of_a, const Surface& b, const PartOf& of_b,
+                   bool is_bounded) {
+    return is_bounded || range_.keep(lower_in_double(a, of_a, b, of_b));
+  }
+  static bool may_touch(const Surface& a, const PartOf& of_a, const Surface& b, const PartOf& of_b,
+                        bool is_bounded) {
+    return is_bounded || lower_in_double(a, of_a, b, of_b) == 0;
+  }
+  static double lower_in_double(const Surface& a, const PartOf& of_a, const Surface& b, const PartOf& of_b) {
+    return lower_distance(box_of(a, of_a.part, of_a.index), box_of(b, of_b.part, of_b.index));
+  }
+  /// A limit in the frame. It mostly is the one of the last call.
+  float local(double limit) {
+    if (limit != limit_) {
+      limit_ = limit;
+      local_limit_ = batches_.frame.to_local_limit(limit);
+    }
+    return local_limit_;
+  }
+
+  // ---- Exactly
+
+  /// A diagonal of a quad is one only where it is a fold.
+  bool is_segment(const Surface& surface, const PartOf& of) {
+    return of.part == Part::edge || scratch_.folds.is_fold(surface, of.index, pair_.count);
+  }
+  static FeaturePiece piece_of(const PartOf& segment) {
+    return segment.part == Part::edge ? edge_piece(segment.index) : face_piece(segment.index, Piece::fold);
+  }
+  /// A fold gives contacts only where the closest points are inside both segments: at its ends are the quad's
+  /// corners.
   void offer_inner(const FeaturePiece& a, const FeaturePiece& b) {
     SquaredRange squared;
     const SegmentPairNames found = nearest_pieces_of_segments(pair_.a, a, pair_.b, b, pair_.count, squared);
     if (found.size == 1 && found.names[0][0] == a && found.names[0][1] == b)
       sink_(ContactName::of(a, b), squared);
   }
-  void offer_a_through_b(const FeaturePiece& segment, std::size_t triangle) {
-    const std::uint32_t face = b_.triangles.owner(triangle);
-    if (const auto piece = pierced_piece(pair_.a, segment, pair_.b, face, pair_.count))
-      sink_(ContactName::of(segment, *piece, Meeting::pierced), SquaredRange{});
-  }
-  void offer_b_through_a(std::size_t triangle, const FeaturePiece& segment) {
-    const std::uint32_t face = a_.triangles.owner(triangle);
-    if (const auto piece = pierced_piece(pair_.b, segment, pair_.a, face, pair_.count))
-      sink_(ContactName::of(*piece, segment, Meeting::pierced), SquaredRange{});
-  }
 
   const SurfacePair& pair_;
-  const LeafFeatures& a_;
-  const LeafFeatures& b_;
-  FoldAnswers& folds_a_;
-  FoldAnswers& folds_b_;
-  FloatFilter<Range> filter_;
-  NamingBatch& batch_;
+  LeafScratch& scratch_;
+  FloatFilterScratch& lists_;
+  FloatBatches& batches_;
+  Range& range_;
   const Sink& sink_;
+  double limit_ = -1;  ///< none yet
+  float local_limit_ = 0;
 };
 
-/// Gives `sink` the name, and what is known of the distance, of the closest points of every vertex-face and
-/// edge-edge pair between the features that were taken, of every edge that pierces a face, and of every
-/// fold's contacts with edges, folds and faces, leaving out what is certainly too far for `range` (see
-/// FloatFilter; a piercing never is). A name may be met several times. Some of the names are those of
-/// features that were taken before, and some of these features' are left in `scratch.naming`, which is to be
-/// finished.
-template <typename Range, typename Sink>
-void for_each_name_of_taken(const SurfacePair& pair, LeafScratch& scratch, Range& range, const Sink& sink) {
-  LeafNames<Range, Sink> names(pair, scratch, range, sink);
-  names.vertices_and_faces();
-  names.edges();
-  names.folds();
-  names.piercings();
-}
-
 /// Calls `visit(vertex of a, vertex of b)` for all pairs of the leaves' vertices but what is certainly too
-/// far for `range`.
+/// far for `range` (see LeafNames).
 template <typename Range, typename Visit>
 void for_each_vertex_pair(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
                           LeafScratch& scratch, Range& range, const Visit& visit) {
   if (!scratch.take_vertices(pair, leaf_a, leaf_b, range)) return;
-  const PointBlock& a = scratch.a.vertices;
-  const PointBlock& b = scratch.b.vertices;
-  FloatFilter<Range>(scratch.frame, range, scratch.filter, pair.count)
-      .near(FeaturesOf<PointBlock>{pair.a, a}, FeaturesOf<PointBlock>{pair.b, b},
-            kernels::filter().near_points,
-            [&](std::size_t i, std::size_t j) { visit(a.owner(i), b.owner(j)); });
+  const PointBlock& a = scratch.a.vertices.all();
+  const PointBlock& b = scratch.b.vertices.all();
+  FloatFilterScratch& lists = scratch.filter.lists;
+  constexpr std::size_t laid_out = kernels::size_at<1> + 1;
+  const kernels::Block columns = lists.gather(scratch.b.vertices, 0, laid_out, scratch.b.vertices.count());
+  const kernels::Survivors survivors = lists.room_for_row(columns.count);
+  for (std::size_t row = 0; row < scratch.a.vertices.count(); ++row) {
+    const std::uint32_t i = scratch.a.vertices.index()[row];
+    const kernels::Point point{{a.component(0, i), a.component(1, i), a.component(2, i)},
+                               a.component(kernels::size_at<1>, i)};
+    const double limit = range.limit();
+    const std::size_t found =
+        kernels::filter().near_points(point, columns, scratch.frame.to_local_limit(limit), survivors);
+    pair.count.discarded_in_float += columns.count - found;
+    if (found < columns.count) range.left_out(limit);
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::uint32_t j = scratch.b.vertices.index()[survivors.index[k]];
+      const double now = range.limit();
+      const float bound = survivors.bound[k];
+      if (bound == -std::numeric_limits<float>::infinity()) {
+        if (!range.keep(lower_distance(box_of(pair.a, Part::vertex, a.owner(i)),
+                                       box_of(pair.b, Part::vertex, b.owner(j)))))
+          continue;
+      } else if (now < limit && bound >= scratch.frame.to_local_limit(now)) {
+        range.left_out(now);
+        ++pair.count.discarded_in_float;
+        continue;
+      }
+      visit(a.owner(i), b.owner(j));
+    }
+  }
 }
 
 }  // namespace graze

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "contact_name.hpp"
+#include "float_filter.hpp"
 #include "leaf_cache.hpp"
 #include "leaf_features.hpp"
 #include "leaf_slab.hpp"
@@ -30,35 +31,38 @@ struct LeafScratch {
   MadeOfLeaves<LeafSlab> slabs_a;
   MadeOfLeaves<LeafSlab> slabs_b;
   LeafVertices corners;
-  LeafFeatures a;
-  LeafFeatures b;
-  FoldAnswers folds_a;
-  FoldAnswers folds_b;
-  FloatFilterScratch filter;
+  TakenLeaf a;
+  TakenLeaf b;
+  FoldAnswers folds;
+  FloatBatches filter;
   NamingBatch naming;
   RecentNames recent_names;
   FilterFrame frame;
 
-  /// Before the first pair of leaves of a query or slice: the frame is then that of this pair, or of the
-  /// first that is met.
-  void begin() { frame = {}; }
+  /// Before the first pair of leaves of a query or slice: nothing is left of another, and the frame is that
+  /// of this pair, or of the first that is met.
+  void begin() {
+    frame = {};
+    folds.begin();
+    filter.begin();
+    naming.begin();
+  }
   void begin(const LeafOf& leaf_a, const LeafOf& leaf_b) { frame = FilterFrame(leaf_a.box, leaf_b.box); }
 
   /// Takes what is near of two leaves; false where there is nothing of either.
   template <typename Range>
   bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
-    return take(pair, leaf_a, leaf_b, range, false, &LeafFeatures::near_box, &LeafFeatures::take);
+    return take(pair, leaf_a, leaf_b, range, false, &TakenLeaf::take);
   }
   template <typename Range>
   bool take_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
-    return take(pair, leaf_a, leaf_b, range, true, &LeafFeatures::near_box_of_vertices,
-                &LeafFeatures::take_vertices);
+    return take(pair, leaf_a, leaf_b, range, true, &TakenLeaf::take_vertices);
   }
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.all_a, self.all_b, self.slabs_a, self.slabs_b, self.corners, self.a, self.b,
-                    self.folds_a, self.folds_b, self.filter);
+                    self.filter);
   }
 
  private:
@@ -68,9 +72,9 @@ struct LeafScratch {
     return slabs.of(number, [&] { return slab_of(surface, leaf); });
   }
 
-  template <typename Range, typename BoxOfNear, typename Take>
+  template <typename Range, typename Take>
   bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
-            bool vertices_only, const BoxOfNear& box_of_near, const Take& take_near) {
+            bool vertices_only, const Take& take_near) {
     const double limit = range.limit();
     const auto nothing_near = [&] {
       range.left_out(limit);
@@ -87,23 +91,23 @@ struct LeafScratch {
       if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
     }
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
+    // What of b is near where a can be near b's leaf, and what of a is near that. Two features can only touch
+    // where both sides' boxes overlap.
+    const kernels::BoxInFrame box_b = frame.to_local(leaf_b.box);
+    const kernels::BoxInFrame near_a = frame.to_local_beside(leaf_a.box, leaf_b.box, limit);
+    if (is_empty(near_a)) return nothing_near();
     all_a.begin(pair.a, frame, vertices_only);
     all_b.begin(pair.b, frame, vertices_only);
     const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
     const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region, corners);
     const float local_limit = frame.to_local_limit(limit);
-    // What of b is near those of a that are near b's leaf, and what of a is near that. Two features can only
-    // touch where both sides' boxes overlap.
-    const kernels::BoxInFrame box_b = frame.to_local(leaf_b.box);
-    const kernels::SlabInFrame local_slab_a = frame.to_local(slab_a, middle_a);
-    const kernels::SlabInFrame local_slab_b = frame.to_local(slab_b, middle_b);
-    const kernels::BoxInFrame near_a = (of_a.*box_of_near)({box_b, box_b, local_slab_b, local_limit});
-    if (is_empty(near_a)) return nothing_near();
     kernels::BoxInFrame near_b = empty_box();
-    (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), local_slab_a, local_limit}, &near_b);
+    (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), frame.to_local(slab_a, middle_a), local_limit},
+                   &near_b);
     if (is_empty(near_b)) return nothing_near();
-    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), local_slab_b, local_limit}, nullptr);
-    const auto of_all = [&](const LeafFeatures& features) {
+    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), frame.to_local(slab_b, middle_b), local_limit},
+                   nullptr);
+    const auto of_all = [&](const auto& features) {
       return vertices_only ? features.vertices.count() : features.count();
     };
     if (of_all(a) < of_all(of_a) || of_all(b) < of_all(of_b)) range.left_out(limit);

@@ -36,7 +36,7 @@ void VertexRowsScratch::make_room(std::size_t rows, std::size_t points) {
 }
 
 float reach_of(const FilterFrame& frame, const Box& box, double limit) {
-  return frame.to_local_limit(limit) + 2 * frame.to_local(box).size * kernels::margin;
+  return frame.to_local_limit(limit) + 2 * frame.size_of(box) * kernels::margin;
 }
 
 void add_close_rows(const SurfacePair& pair, double limit, const VertexRows& vertices, float reach,

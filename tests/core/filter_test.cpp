@@ -13,6 +13,7 @@
 
 #include "feature_block.hpp"
 #include "filter_frame.hpp"
+#include "float_filter.hpp"
 #include "leaf_slab.hpp"
 #include "leaf_vertices.hpp"
 #include "support/catch.hpp"
@@ -188,10 +189,9 @@ struct Tally {
   }
 };
 
-template <std::size_t Corners, std::size_t Components>
-FeatureBlock<Corners, Components> block_of(const std::vector<Corner<Corners>>& features, Part part,
-                                           const FilterFrame& frame) {
-  FeatureBlock<Corners, Components> block(part);
+template <std::size_t Corners>
+FeatureBlock<Corners> block_of(const std::vector<Corner<Corners>>& features, const FilterFrame& frame) {
+  FeatureBlock<Corners> block(Corners == 1 ? Part::vertex : Corners == 2 ? Part::edge : Part::face);
   std::vector<Vector3d> positions;
   CornerList corners;
   block.begin(features.size());
@@ -210,18 +210,15 @@ FeatureBlock<Corners, Components> block_of(const std::vector<Corner<Corners>>& f
     kernels::position_passes().doubles.bring({positions[0].data(), all.back()}, all.data(), all.size(),
                                              frame.for_points(), vertices.data());
   block.lay_out(vertices.data(), corners.padded());
-  block.prepare();
   return block;
 }
 
-PointBlock block_of(const std::vector<Corner<1>>& points, const FilterFrame& frame) {
-  return block_of<1, kernels::point::count>(points, Part::vertex, frame);
+template <std::size_t Corners>
+float size_of(const FeatureBlock<Corners>& block, std::size_t i) {
+  return block.component(kernels::size_at<Corners>, i);
 }
-SegmentBlock block_of(const std::vector<Corner<2>>& segments, const FilterFrame& frame) {
-  return block_of<2, kernels::segment::count>(segments, Part::edge, frame);
-}
-TriangleBlock block_of(const std::vector<Corner<3>>& triangles, const FilterFrame& frame) {
-  return block_of<3, kernels::triangle::count>(triangles, Part::face, frame);
+kernels::Point point_of(const PointBlock& block, std::size_t i) {
+  return {{block.component(0, i), block.component(1, i), block.component(2, i)}, size_of(block, i)};
 }
 
 /// The survivors of one call, with room for a block.
@@ -233,29 +230,90 @@ struct Found {
   std::vector<float> bound;
 };
 
-/// Compares the bounds of all pairs with the truth.
-template <typename Kernel, typename Row, typename Column>
-void check_bounds(Kernel kernel, const FilterFrame& frame, const std::vector<Row>& rows,
-                  const std::vector<Column>& columns, Tally& tally) {
-  const auto row_block = block_of(rows, frame);
-  const auto column_block = block_of(columns, frame);
-  constexpr std::size_t row_size = 3 * std::tuple_size_v<Row>;
-  constexpr std::size_t column_size = 3 * std::tuple_size_v<Column>;
-  Found found(columns.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::size_t count = kernel(row_of(row_block, i), column_block.block(), infinity, found.out());
-    REQUIRE(count == columns.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t j = found.index[k];
-      const Real sizes =
-          Real(row_block.component(row_size, i)) + Real(column_block.component(column_size, j));
-      const Real truth = distance(rows[i], columns[j]) * Real(frame.scale());
-      if (std::isinf(static_cast<double>(sizes)))
-        REQUIRE(found.bound[k] == -infinity);
-      else
-        tally.add(found.bound[k], truth, sizes);
+/// What a kernel says of the pairs of feature `row` of one block and all of another.
+struct Bounds {
+  std::vector<float> bound;
+  std::vector<bool> is_left;
+};
+Bounds bounds_of(const PointBlock& rows, std::size_t row, const PointBlock& columns, float limit) {
+  Bounds bounds{std::vector<float>(columns.count(), infinity), std::vector<bool>(columns.count())};
+  Found found(columns.count());
+  const std::size_t count =
+      kernels::filter().near_points(point_of(rows, row), columns.block(), limit, found.out());
+  for (std::size_t k = 0; k < count; ++k) {
+    bounds.bound[found.index[k]] = found.bound[k];
+    bounds.is_left[found.index[k]] = true;
+  }
+  return bounds;
+}
+template <std::size_t RowCorners, std::size_t Corners, typename Kernel>
+Bounds bounds_of(const FeatureBlock<RowCorners>& rows, std::size_t row, const FeatureBlock<Corners>& columns,
+                 float limit, Kernel kernel) {
+  Bounds bounds;
+  for (std::size_t first = 0; first < columns.count(); first += kernels::lanes) {
+    kernels::FeaturePairs<RowCorners, Corners> pairs{};
+    const std::size_t count = std::min(kernels::lanes, columns.count() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      std::copy_n(rows.corners(row), RowCorners, pairs.a[lane]);
+      std::copy_n(columns.corners(first + lane), Corners, pairs.b[lane]);
+    }
+    const std::uint32_t left = kernel(pairs, limit);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      bounds.bound.push_back(pairs.bound[lane]);
+      bounds.is_left.push_back((left >> lane & 1U) != 0);
     }
   }
+  return bounds;
+}
+Bounds bounds_of(const PointBlock& rows, std::size_t row, const TriangleBlock& columns, float limit) {
+  return bounds_of(rows, row, columns, limit, kernels::filter().bound_points_and_triangles);
+}
+Bounds bounds_of(const SegmentBlock& rows, std::size_t row, const SegmentBlock& columns, float limit) {
+  return bounds_of(rows, row, columns, limit, kernels::filter().bound_segments);
+}
+Bounds bounds_of(const SegmentBlock& rows, std::size_t row, const TriangleBlock& columns, float limit) {
+  return bounds_of(rows, row, columns, limit, kernels::filter().bound_segments_and_triangles);
+}
+
+/// Compares the bounds of all pairs with the truth.
+template <typename Row, typename Column>
+void check_bounds(const FilterFrame& frame, const std::vector<Row>& rows, const std::vector<Column>& columns,
+                  Tally& tally) {
+  const auto row_block = block_of(rows, frame);
+  const auto column_block = block_of(columns, frame);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Bounds bounds = bounds_of(row_block, i, column_block, infinity);
+    REQUIRE(bounds.bound.size() == columns.size());
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      REQUIRE(bounds.is_left[j]);
+      const Real sizes = Real(size_of(row_block, i)) + Real(size_of(column_block, j));
+      const Real truth = distance(rows[i], columns[j]) * Real(frame.scale());
+      if (std::isinf(static_cast<double>(sizes)))
+        REQUIRE(bounds.bound[j] == -infinity);
+      else
+        tally.add(bounds.bound[j], truth, sizes);
+    }
+  }
+}
+
+/// Pairs of features whose boxes a kernel leaves.
+template <std::size_t RowCorners, std::size_t Corners>
+std::vector<std::pair<std::uint32_t, std::uint32_t>> near_boxes(const FeatureBlock<RowCorners>& rows,
+                                                                const FeatureBlock<Corners>& columns,
+                                                                float limit) {
+  std::vector<std::uint32_t> index(rows.count());
+  std::iota(index.begin(), index.end(), 0U);
+  const std::size_t room = rows.count() * columns.count() + kernels::lanes;
+  std::vector<std::uint32_t> row(room);
+  std::vector<std::uint32_t> column(room);
+  const kernels::Block all = columns.block();
+  const kernels::Block boxes{all.data + kernels::box_at<Corners> * all.stride, all.stride, all.count};
+  const std::size_t count =
+      kernels::filter().near_boxes({rows.block(), kernels::box_at<RowCorners>, index.data(), index.size()},
+                                   boxes, limit, {row.data(), column.data()});
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::size_t k = 0; k < count; ++k) pairs.emplace_back(row[k], column[k]);
+  return pairs;
 }
 
 Vector3d beside_of(std::uint64_t seed) {
@@ -287,34 +345,39 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
   const PointBlock other_points = block_of(b.points, frame);
   const SegmentBlock other_segments = block_of(b.segments, frame);
   const TriangleBlock triangles = block_of(b.triangles, frame);
-  Found found(a.points.size());
   std::vector<std::uint32_t> words;
-  const auto take = [&](std::size_t count) {
-    words.push_back(static_cast<std::uint32_t>(count));
-    for (std::size_t k = 0; k < count; ++k) {
-      words.push_back(found.index[k]);
+  const auto take = [&](const Bounds& bounds) {
+    for (std::size_t k = 0; k < bounds.bound.size(); ++k) {
       std::uint32_t bits = 0;
-      std::memcpy(&bits, &found.bound[k], sizeof bits);
+      std::memcpy(&bits, &bounds.bound[k], sizeof bits);
       words.push_back(bits);
+      words.push_back(bounds.is_left[k] ? 1 : 0);
     }
   };
-  for (std::size_t i = 0; i < a.points.size(); ++i) {
-    for (const float limit : {infinity, 0.5F, 0.0F}) {
-      take(filter.near_points(row_of(points, i), other_points.block(), limit, found.out()));
-      take(filter.near_triangles(row_of(points, i), triangles.block(), limit, found.out()));
-      take(filter.near_segments(row_of(segments, i), other_segments.block(), limit, found.out()));
+  const auto take_pairs = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+    for (const auto& [row, column] : pairs) words.insert(words.end(), {row, column});
+  };
+  for (const float limit : {infinity, 0.5F, 0.0F}) {
+    for (std::size_t i = 0; i < a.points.size(); ++i) {
+      take(bounds_of(points, i, other_points, limit));
+      take(bounds_of(points, i, triangles, limit));
+      take(bounds_of(segments, i, other_segments, limit));
+      take(bounds_of(segments, i, triangles, limit));
     }
-    take(filter.maybe_pierced(row_of(segments, i), triangles.block(), found.out()));
+    take_pairs(near_boxes(points, triangles, limit));
+    take_pairs(near_boxes(segments, other_segments, limit));
+    take_pairs(near_boxes(segments, triangles, limit));
   }
   const auto take_clipped = [&](const kernels::Block& block, kernels::Filter::Clip clip, float limit) {
-    std::vector<std::uint32_t> others(block.count);
-    kernels::BoxInFrame box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
+    std::vector<std::uint32_t> touching(block.count + kernels::lanes);
+    std::vector<std::uint32_t> others(block.count + kernels::lanes);
+    kernels::BoxInFrame box = empty_box();
     const kernels::SlabInFrame slab = frame.to_local(slab_of(a.triangles.front()), a.triangles.front()[0]);
     const kernels::ClipCount count = clip(block, {frame.to_local(a.box), frame.to_local(b.box), slab, limit},
-                                          {found.index.data(), others.data(), &box});
+                                          {touching.data(), others.data(), &box});
     words.push_back(static_cast<std::uint32_t>(count.touching));
-    words.insert(words.end(), found.index.begin(),
-                 found.index.begin() + static_cast<std::ptrdiff_t>(count.touching));
+    words.insert(words.end(), touching.begin(),
+                 touching.begin() + static_cast<std::ptrdiff_t>(count.touching));
     words.insert(words.end(), others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count.others));
     std::array<std::uint32_t, sizeof box / sizeof(std::uint32_t)> bits{};
     std::memcpy(bits.data(), &box, sizeof box);
@@ -353,10 +416,9 @@ TEST_CASE("filter: no lower bound is above the truth, and few are far below") {
       const Batch a = generator.batch(Vector3d::Zero(), 25);
       const Batch b = generator.batch(beside_of(seed), 33);
       const FilterFrame frame(a.box, b.box);
-      const kernels::Filter& filter = kernels::filter();
-      check_bounds(filter.near_points, frame, a.points, b.points, tallies[0]);
-      check_bounds(filter.near_triangles, frame, a.points, b.triangles, tallies[1]);
-      check_bounds(filter.near_segments, frame, a.segments, b.segments, tallies[2]);
+      check_bounds(frame, a.points, b.points, tallies[0]);
+      check_bounds(frame, a.points, b.triangles, tallies[1]);
+      check_bounds(frame, a.segments, b.segments, tallies[2]);
     }
     for (const Tally& tally : tallies) {
       INFO("family " << family << ", compared " << tally.compared << ", loose " << tally.loose
@@ -386,12 +448,11 @@ TEST_CASE("filter: what a segment crosses survives, and little else") {
       const FilterFrame frame(a.box, b.box);
       const SegmentBlock segments = block_of(a.segments, frame);
       const TriangleBlock triangles = block_of(b.triangles, frame);
-      Found found(b.triangles.size());
+      std::vector<std::vector<bool>> boxes_meet(a.segments.size(), std::vector<bool>(b.triangles.size()));
+      for (const auto& [row, column] : near_boxes(segments, triangles, 0)) boxes_meet[row][column] = true;
       for (std::size_t i = 0; i < a.segments.size(); ++i) {
-        const std::size_t count =
-            kernels::filter().maybe_pierced(row_of(segments, i), triangles.block(), found.out());
-        std::vector<bool> survives(b.triangles.size(), false);
-        for (std::size_t k = 0; k < count; ++k) survives[found.index[k]] = true;
+        std::vector<bool> survives = bounds_of(segments, i, triangles, 0).is_left;
+        for (std::size_t j = 0; j < survives.size(); ++j) survives[j] = survives[j] && boxes_meet[i][j];
         for (std::size_t j = 0; j < b.triangles.size(); ++j) {
           const bool is_crossed = crosses(a.segments[i], b.triangles[j]);
           if (is_crossed) REQUIRE(survives[j]);
@@ -495,29 +556,26 @@ Real gap_of(const Corner<Corners>& corners, const LeafSlab& slab, const Vector3d
 
 /// Takes the features near a box and a slab, and compares what is left out, said not to touch, or outside the
 /// box that is found with the truth.
-template <std::size_t Corners, std::size_t Components>
-void check_clip(const FeatureBlock<Corners, Components>& block, const std::vector<Corner<Corners>>& features,
-                kernels::Filter::Clip clip, const FilterFrame& frame, const Box& box, const LeafSlab& slab,
-                const Vector3d& middle, float limit, ClipTally& tally) {
-  kernels::BoxInFrame found{
-      {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, kernels::least_size};
-  FeatureBlock<Corners, Components> taken(block.part());
+template <std::size_t Corners>
+void check_clip(const FeatureBlock<Corners>& block, const std::vector<Corner<Corners>>& features,
+                const FilterFrame& frame, const Box& box, const LeafSlab& slab, const Vector3d& middle,
+                float limit, ClipTally& tally) {
+  kernels::BoxInFrame found = empty_box();
+  TakenFeatures<Corners> taken;
   const kernels::BoxInFrame local = frame.to_local(box);
-  taken.take(block, clip, {local, local, frame.to_local(slab, middle), limit}, &found);
+  taken.take(block, {local, local, frame.to_local(slab, middle), limit}, &found);
   std::vector<bool> is_kept(features.size(), false);
   for (std::size_t i = 0; i < taken.count(); ++i) {
-    const std::uint32_t feature = taken.owner(i);
+    const std::uint32_t feature = taken.index()[i];
     is_kept[feature] = true;
     for (std::size_t k = 0; k < 3 * Corners; ++k) {
-      REQUIRE(taken.component(k, i) == block.component(k, feature));
-      REQUIRE(taken.component(k, i) >= found.min[k % 3]);
-      REQUIRE(taken.component(k, i) <= found.max[k % 3]);
+      REQUIRE(block.component(k, feature) >= found.min[k % 3]);
+      REQUIRE(block.component(k, feature) <= found.max[k % 3]);
     }
     Box own;
     for (const Vector3d& corner : features[feature]) own.add(corner);
     const bool touches = gap_of(own, box) == 0;
     if (touches) REQUIRE(i < taken.touching());
-    REQUIRE(found.size >= block.component(3 * Corners, feature));
     tally.touching += touches ? 1U : 0U;
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -546,17 +604,14 @@ TEST_CASE(
       const PointBlock points = block_of(a.points, frame);
       const SegmentBlock segments = block_of(a.segments, frame);
       const TriangleBlock triangles = block_of(a.triangles, frame);
-      const kernels::Filter& filter = kernels::filter();
       for (const float limit : {0.0F, 0.01F, 0.3F, infinity})
         for (const auto& corners : b.triangles) {
           Box box;
           for (const Vector3d& corner : corners) box.add(corner);
           for (const LeafSlab& slab : {LeafSlab{}, slab_of(corners)}) {
-            check_clip(points, a.points, filter.clip_points, frame, box, slab, corners[0], limit, tally);
-            check_clip(segments, a.segments, filter.clip_segments, frame, box, slab, corners[0], limit,
-                       tally);
-            check_clip(triangles, a.triangles, filter.clip_triangles, frame, box, slab, corners[0], limit,
-                       tally);
+            check_clip(points, a.points, frame, box, slab, corners[0], limit, tally);
+            check_clip(segments, a.segments, frame, box, slab, corners[0], limit, tally);
+            check_clip(triangles, a.triangles, frame, box, slab, corners[0], limit, tally);
           }
         }
     }
@@ -567,6 +622,160 @@ TEST_CASE(
   std::cout << "clipped " << tally.kept + tally.left_out << " features: " << tally.kept << " kept, "
             << tally.left_out << " left out, " << tally.left_out_by_slab << " of them by the slab, "
             << tally.touching << " touch\n";
+}
+
+namespace {
+
+struct BoxTally {
+  std::size_t left = 0;
+  std::size_t discarded = 0;
+};
+
+/// The largest gap of two boxes along an axis, below 0 where they overlap along each.
+Real gap_along_axes(const Box& a, const Box& b) {
+  Real gap = -std::numeric_limits<Real>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    gap = std::max<Real>({gap, Real(a.min[axis]) - Real(b.max[axis]), Real(b.min[axis]) - Real(a.max[axis])});
+  return gap;
+}
+template <std::size_t Corners>
+Box box_of(const Corner<Corners>& corners) {
+  Box box;
+  for (const Vector3d& corner : corners) box.add(corner);
+  return box;
+}
+
+/// Compares the pairs that are left by their boxes with the truth: those within the limit are there, and none
+/// that is further than the margins.
+template <std::size_t RowCorners, std::size_t Corners>
+void check_near_boxes(const std::vector<Corner<RowCorners>>& rows,
+                      const std::vector<Corner<Corners>>& columns, const FilterFrame& frame, float limit,
+                      BoxTally& tally) {
+  const FeatureBlock<RowCorners> row_block = block_of(rows, frame);
+  const FeatureBlock<Corners> column_block = block_of(columns, frame);
+  const auto pairs = near_boxes(row_block, column_block, limit);
+  REQUIRE(std::is_sorted(pairs.begin(), pairs.end()));
+  for (std::uint32_t i = 0; i < rows.size(); ++i)
+    for (std::uint32_t j = 0; j < columns.size(); ++j) {
+      const Real gap = gap_along_axes(box_of(rows[i]), box_of(columns[j])) * Real(frame.scale());
+      const Real sizes = Real(size_of(row_block, i)) + Real(size_of(column_block, j));
+      const bool is_left = std::binary_search(pairs.begin(), pairs.end(), std::pair(i, j));
+      if (gap <= Real(limit)) REQUIRE(is_left);
+      if (gap > Real(limit) + 2 * Real(kernels::margin) * sizes) REQUIRE_FALSE(is_left);
+      ++(is_left ? tally.left : tally.discarded);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("filter: pairs are left by their boxes where these are within the limit along each axis") {
+  BoxTally tally;
+  for (std::size_t family = 0; family < family_count; ++family)
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      Generator generator(static_cast<Family>(family), seed);
+      const std::size_t columns = 1 + seed * 5 % 37;
+      const Batch a = generator.batch(Vector3d::Zero(), 19);
+      const Batch b = generator.batch(beside_of(seed), columns);
+      const FilterFrame frame(a.box, b.box);
+      for (const float limit : {0.0F, 0.02F, 0.4F, infinity}) {
+        check_near_boxes(a.points, b.triangles, frame, limit, tally);
+        check_near_boxes(a.segments, b.segments, frame, limit, tally);
+        check_near_boxes(a.segments, b.triangles, frame, limit, tally);
+      }
+    }
+  CHECK(tally.left > 50'000);
+  CHECK(tally.discarded > 50'000);
+  std::cout << "compared " << tally.left + tally.discarded << " pairs of boxes, " << tally.left << " left\n";
+}
+
+TEST_CASE("filter: what can be beside another box is what is within the distance of it") {
+  Random random(12);
+  std::size_t inside = 0;
+  std::size_t empty = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double scale = std::ldexp(1.0, static_cast<int>(random.below(60)) - 30);
+    const auto point = [&](double spread) -> Vector3d {
+      return scale * Vector3d(random.between(-spread, spread), random.between(-spread, spread),
+                              random.between(-spread, spread));
+    };
+    Box a;
+    Box b;
+    const Vector3d away = point(2);
+    for (int corner = 0; corner < 2; ++corner) {
+      a.add(point(1));
+      b.add(away + point(1));
+    }
+    const FilterFrame frame(a, b);
+    const double distance = scale * random.between(0, 1);
+    const kernels::BoxInFrame beside = frame.to_local_beside(a, b, distance);
+    for (int k = 0; k < 20; ++k) {
+      Vector3d p;
+      Vector3d q;
+      for (int axis = 0; axis < 3; ++axis) {
+        p[axis] = a.min[axis] + random.between(0, 1) * (a.max[axis] - a.min[axis]);
+        q[axis] = std::clamp(p[axis], b.min[axis], b.max[axis]);
+      }
+      if ((p - q).norm() > distance) continue;
+      ++inside;
+      REQUIRE_FALSE(is_empty(beside));
+      for (int axis = 0; axis < 3; ++axis) {
+        REQUIRE(double{beside.min[axis]} <= frame.to_local(p)[axis]);
+        REQUIRE(double{beside.max[axis]} >= frame.to_local(p)[axis]);
+      }
+    }
+    const bool is_far = gap_along_axes(a, b) > Real(distance) * (1 + 1e-3L);
+    if (is_far) REQUIRE(is_empty(beside));
+    empty += is_far ? 1U : 0U;
+  }
+  CHECK(inside > 4'000);
+  CHECK(empty > 500);
+}
+
+TEST_CASE("filter: a batch hands on what is left, and a quad once") {
+  Box box;
+  box.add(Vector3d::Zero());
+  box.add(Vector3d::Ones());
+  const FilterFrame frame(box, box);
+  // Above both halves of a quad, nearer to one, far away, and where float does not reach.
+  const PointBlock vertices = block_of<1>({{Vector3d(0.3, 0.2, 0.3)},
+                                           {Vector3d(0.9, 0.2, 0.3)},
+                                           {Vector3d(50, 0.2, 0.3)},
+                                           {Vector3d(1e30, 0.2, 0.3)}},
+                                          frame);
+  const std::vector<kernels::Point> places{
+      {{0, 0, 0}, kernels::least_size}, {{1, 0, 0}, 1}, {{1, 1, 0}, 1}, {{0, 1, 0}, 1}};
+  const auto halves = [&](std::uint32_t first_owner, std::uint32_t second_owner) {
+    TriangleBlock block(Part::face);
+    CornerList corners;
+    block.begin(2);
+    block.add(first_owner);
+    block.add(second_owner);
+    corners.begin(6);
+    for (const std::uint32_t place : {0U, 1U, 2U, 0U, 2U, 3U}) corners.add(place);
+    block.lay_out(places.data(), corners.padded());
+    return block;
+  };
+  using HandedOn = std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>>;
+  const auto run = [&](const TriangleBlock& faces, std::size_t expected_discarded) {
+    FloatBatch<1, 3> batch;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 2; ++j) batch.add(vertices, i, faces, j);
+    CHECK_FALSE(batch.is_full());
+    HandedOn handed_on;
+    const auto visit = [&](const PartOf& vertex, const PartOf& face, bool is_bounded) {
+      CHECK((vertex.part == Part::vertex && face.part == Part::face));
+      handed_on.emplace_back(vertex.index, face.index, is_bounded);
+    };
+    const auto kernel = kernels::filter().bound_points_and_triangles;
+    CHECK(batch.bound(kernel, 0.5F, visit) == expected_discarded);
+    CHECK(batch.bound(kernel, 0.5F, visit) == 0);
+    for (std::size_t k = 0; k < kernels::lanes; ++k) batch.add(vertices, 0, faces, 0);
+    CHECK(batch.is_full());
+    return handed_on;
+  };
+  CHECK(run(halves(5, 6), 3) ==
+        HandedOn{{0, 5, true}, {0, 6, true}, {1, 5, true}, {3, 5, false}, {3, 6, false}});
+  CHECK(run(halves(7, 7), 3) == HandedOn{{0, 7, true}, {1, 7, true}, {3, 7, false}});
 }
 
 TEST_CASE("filter: a frame serves leaves of about its size near it, and no others") {

@@ -42,7 +42,10 @@ class Expected {
                 (fits ? static_cast<float>(local(corner)[axis]) : 0.0F));
     REQUIRE(block_.component(component, next_) ==
             (fits ? static_cast<float>(size) : std::numeric_limits<float>::infinity()));
-    if (corners.size() == 3) check_box();
+    if (fits) check_box(corners.size(), static_cast<float>(size));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      for (std::size_t axis = 0; fits && axis < 3; ++axis)
+        REQUIRE(block_.corners(next_)[i].position[axis] == block_.component(3 * i + axis, next_));
     ++next_;
     ++(fits ? fitting : unfit);
   }
@@ -54,11 +57,18 @@ class Expected {
   [[nodiscard]] Vector3d local(std::uint32_t vertex) const {
     return frame_.to_local(surface_.position(vertex));
   }
-  void check_box() const {
+  void check_box(std::size_t corners, float size) const {
+    const float grown = kernels::margin * size;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto of = [&](std::size_t component) { return block_.component(component + axis, next_); };
-      REQUIRE(of(kernels::triangle::box_min) == std::min({of(0), of(3), of(6)}));
-      REQUIRE(of(kernels::triangle::box_max) == std::max({of(0), of(3), of(6)}));
+      float low = std::numeric_limits<float>::infinity();
+      float high = -low;
+      for (std::size_t corner = 0; corner < corners; ++corner) {
+        low = std::min(low, block_.component(3 * corner + axis, next_));
+        high = std::max(high, block_.component(3 * corner + axis, next_));
+      }
+      const std::size_t box = 3 * corners + 1;
+      REQUIRE(block_.component(box + axis, next_) == low - grown);
+      REQUIRE(block_.component(box + 3 + axis, next_) == high + grown);
     }
   }
 
@@ -87,7 +97,6 @@ void check_leaf(const Surface& surface, const Region& leaf, const FilterFrame& f
     triangles.next(face, {c[0], c[2], c[3]});
     if (diagonal_of(mesh, face).feature.kind == FeatureKind::face) folds.next(face, {c[0], c[2]});
   }
-  CHECK(all.triangles.owner_count() == leaf.face_count);
 }
 
 }  // namespace

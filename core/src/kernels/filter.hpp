@@ -17,22 +17,16 @@ struct Block {
 };
 inline constexpr std::size_t lanes = 16;
 
-/// Components of a block. A feature's `size` is the largest magnitude of its coordinates, at least
-/// `least_size`; infinite where they are not to be trusted, and then the feature survives everything. Those
-/// below `laid_out` are filled in by `lay_out_…`, the others by `prepare_…`.
-namespace point {
-inline constexpr std::size_t position = 0, size = 3, laid_out = 4, count = 4;
-}
-namespace segment {
-inline constexpr std::size_t p = 0, q = 3, size = 6, laid_out = 7;
-inline constexpr std::size_t inverse_length_squared = 7, count = 8;
-}  // namespace segment
-namespace triangle {
-inline constexpr std::size_t corner0 = 0, corner1 = 3, corner2 = 6, size = 9;
-inline constexpr std::size_t box_min = 10, box_max = 13, laid_out = 16, normal = 16;
-inline constexpr std::size_t uu = 19, uv = 20, vv = 21;  // products of the sides u = 0-1 and v = 0-2
-inline constexpr std::size_t inverse_uu = 22, inverse_vv = 23, inverse_ww = 24, count = 25;  // w = 1-2
-}  // namespace triangle
+/// Components of a block: the corners of a feature, its `size`, and its box, grown by `margin * size`. The
+/// size is the largest magnitude of its coordinates, at least `least_size`; infinite where they are not to be
+/// trusted: then all coordinates are 0, the box is everything, and the feature survives whatever is asked.
+template <std::size_t Corners>
+inline constexpr std::size_t size_at = 3 * Corners;
+template <std::size_t Corners>
+inline constexpr std::size_t box_at = size_at<Corners> + 1;
+inline constexpr std::size_t box_components = 6;
+template <std::size_t Corners>
+inline constexpr std::size_t component_count = box_at<Corners> + box_components;
 
 /// How far a lower bound may be above the truth, relative to the sum of the two features' sizes: 24 units of
 /// 2^-24, of which the analysis needs 17.
@@ -44,28 +38,22 @@ inline constexpr float largest_size = 0x1p20F;
 /// A separating axis shorter than this says nothing.
 inline constexpr float least_axis_squared = 0x1p-60F;
 
-/// One feature of a block by itself: its components up to and with its size. Of a point with an infinite
-/// size the position is 0.
+/// A vertex in a frame.
 struct Point {
   float position[3];
   float size;
 };
-struct Segment {
-  float p[3], q[3];
-  float size;
-};
 
-/// What is left: numbers into the block, ascending, and a lower bound of each one's distance, which minus
-/// infinity stands for where a size is not to be trusted. Room for a whole block each.
+/// Numbers into a block of points, ascending, and a lower bound of each one's distance, which minus infinity
+/// stands for where a size is not to be trusted. Room for a whole block each.
 struct Survivors {
   std::uint32_t* index = nullptr;
   float* bound = nullptr;
 };
 
-/// A box by itself; `size` as of a feature.
+/// A box by itself, no smaller for rounding than what it is the box of.
 struct BoxInFrame {
   float min[3], max[3];
-  float size;
 };
 
 /// What is between two planes: `low` and `high` are at most and at least the products of points with the
@@ -86,7 +74,7 @@ struct ClipBy {
 };
 
 /// What is kept: numbers into the block, ascending, of those that may touch and of the others, with room for
-/// a whole block each; or both null. And the box of all of them, which is extended; or null.
+/// a whole block and `lanes` more each. And the box of all of them, which is extended; or null.
 struct Clipped {
   std::uint32_t* touching = nullptr;
   std::uint32_t* others = nullptr;
@@ -98,38 +86,61 @@ struct ClipCount {
   std::size_t others = 0;
 };
 
-/// Two points' numbers each, with room for as many as were looked at.
+/// Two numbers each, with room for as many pairs as were looked at and `lanes` more.
 struct NearPairs {
   std::uint32_t* row;
-  std::uint32_t* point;
+  std::uint32_t* column;
 };
 
+/// Some features of a block that boxes are compared with, one after the other.
+struct RowsOfBoxes {
+  const Block& features;
+  std::size_t box;  ///< the component where their boxes begin
+  const std::uint32_t* index;
+  std::size_t count;
+};
+
+/// Pairs of features by their corners, and lower bounds of their distances, which minus infinity stands for
+/// where a size is not to be trusted.
+template <std::size_t CornersA, std::size_t CornersB>
+struct FeaturePairs {
+  Point a[lanes][CornersA];
+  Point b[lanes][CornersB];
+  float bound[lanes];
+};
+using SegmentPairs = FeaturePairs<2, 2>;
+using PointTrianglePairs = FeaturePairs<1, 3>;
+using SegmentTrianglePairs = FeaturePairs<2, 3>;
+
 /// The kernels of one instruction set. `lay_out_…` fills blocks from vertices and the places of each
-/// feature's corners among them, one feature after the other; it reads corners and writes features up to a
-/// multiple of 4, of which those behind `count` may be any. `prepare_…` computes the rest. `near_…` discards
-/// what is certainly further than `limit`, `maybe_pierced` the triangles that the segment certainly does not
-/// touch; both, and `clip_…`, return how many are left. `gather` copies the features of a block that are
-/// listed; the list goes on up to a multiple of 4, with anything of the block.
+/// feature's corners among them, one feature after the other, and lists these corners as they are; it reads
+/// corners and writes features up to a multiple of 4, of which those behind `count` may be any. `clip_…`
+/// returns how many are left.
 struct Filter {
   using LayOut = void (*)(const Point* vertices, const std::uint32_t* corners, std::size_t count, float* data,
-                          std::size_t stride);
+                          std::size_t stride, Point* points);
   LayOut lay_out_points;
   LayOut lay_out_segments;
   LayOut lay_out_triangles;
-  void (*prepare_segments)(float* data, std::size_t stride, std::size_t count);
-  void (*prepare_triangles)(float* data, std::size_t stride, std::size_t count);
-  std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
-  std::size_t (*near_segments)(const Segment& segment, const Block& segments, float limit,
-                               const Survivors& out);
-  std::size_t (*near_triangles)(const Point& point, const Block& triangles, float limit,
-                                const Survivors& out);
-  std::size_t (*maybe_pierced)(const Segment& segment, const Block& triangles, const Survivors& out);
   using Clip = ClipCount (*)(const Block& features, const ClipBy& by, const Clipped& out);
   Clip clip_points;
   Clip clip_segments;
   Clip clip_triangles;
+  /// Copies components of the features of a block that are listed; the list goes on up to a multiple of 4,
+  /// with anything of the block.
   void (*gather)(const Block& from, std::size_t components, const std::uint32_t* index, std::size_t count,
                  float* to, std::size_t to_stride);
+  /// Lists the pairs of a row and a box, whose six components are `boxes`, that are not certainly further
+  /// than `limit` from each other along an axis of the frame, row after row; how many.
+  std::size_t (*near_boxes)(const RowsOfBoxes& rows, const Block& boxes, float limit, const NearPairs& out);
+  /// The points that are not certainly further than `limit`; how many.
+  std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
+  /// Bounds all pairs, and gives one bit for each that is not certainly further than `limit`. Of lanes that
+  /// hold nothing in particular they say nothing in particular.
+  std::uint32_t (*bound_segments)(SegmentPairs& pairs, float limit);
+  std::uint32_t (*bound_points_and_triangles)(PointTrianglePairs& pairs, float limit);
+  /// By a few axes only, of which one parts what does not touch; to be asked with a limit of 0.
+  std::uint32_t (*bound_segments_and_triangles)(SegmentTrianglePairs& pairs, float limit);
   /// Compares every row from `first` to `last` with the points from `begin[row]` to `end[row]`, and lists
   /// those whose squared distance is below `reach_squared`, row after row; how many. Behind the points
   /// `lanes` more may be read.

@@ -174,7 +174,8 @@ class CandidateKernels final : public Contender {
     constexpr kernels::SlabInFrame no_slab{{0, 0, 0}, 0, 0};
     const float limit = scratch_.frame.to_local_limit(world_.distance);
     const kernels::BoxInFrame box_b = scratch_.frame.to_local(pair.b.box());
-    const kernels::BoxInFrame near_a = one_.features.near_box({box_b, box_b, no_slab, limit});
+    kernels::BoxInFrame near_a = empty_box();
+    scratch_.a.take(one_.features, {box_b, box_b, no_slab, limit}, &near_a);
     if (is_empty(near_a)) return;
     kernels::BoxInFrame near_b = empty_box();
     scratch_.b.take(others_.features, {near_a, overlap_of(near_a, box_b), no_slab, limit}, &near_b);
