@@ -131,7 +131,7 @@ struct Filter {
   void (*gather)(const Block& from, std::size_t components, const std::uint32_t* index, std::size_t count,
                  float* to, std::size_t to_stride);
   /// Lists the pairs of a row and a box, whose six components are `boxes`, that are not certainly further
-  /// than `limit` from each other along an axis of the frame, row after row; how many.
+  /// than `limit` from each other, row after row; how many.
   std::size_t (*near_boxes)(const RowsOfBoxes& rows, const Block& boxes, float limit, const NearPairs& out);
   /// The points that are not certainly further than `limit`; how many.
   std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
