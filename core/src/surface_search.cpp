@@ -15,6 +15,8 @@ constexpr std::uint32_t stretch = 64;
 /// Fewer vertices are gone through as quickly as their boxes are made.
 constexpr std::uint32_t least_in_stretches = 8 * stretch;
 
+static_assert(Surface::beyond_found >= kernels::lanes);
+
 }  // namespace
 
 void Surface::box_stretches() {

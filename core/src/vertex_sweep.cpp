@@ -102,7 +102,7 @@ class VertexSweep {
     std::size_t count = 0;
     if (surface.mesh().vertex_count() <= Surface::most_searched) {
       if (!meter_.spend()) return give_up(Swept::out_of_budget);
-      make_room(surface.mesh().vertex_count());
+      make_room(surface.mesh().vertex_count() + Surface::beyond_found);
       count = surface.find_inside(box, scratch_.found);
     } else if (!collect_from_tree(surface, box, count)) {
       return false;

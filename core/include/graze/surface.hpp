@@ -131,8 +131,10 @@ class GRAZE_API Surface {
   /// The box of a region's vertices at the present positions, or of a leaf's faces.
   [[nodiscard]] Box box_now(const Region& region, RefitOf what) const;
 
-  /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices.
+  /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices and for
+  /// `beyond_found` more.
   [[nodiscard]] std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
+  static constexpr std::size_t beyond_found = 16;
   /// So many vertices are searched in memory order; of larger surfaces the regions are quicker.
   static constexpr std::uint32_t most_searched = 2048;
   /// Makes boxes of stretches of vertices, as they follow one another in memory, of which `find_inside`

@@ -48,7 +48,7 @@ struct PassesOf {
   /// The largest square of a point's motion: differences, squares and sums rounded in double.
   double (*furthest)(const Number* now, const Number* before, std::size_t count);
   /// Numbers of the points from `begin` to `end` that no coordinate leads out of a box, ascending; how many.
-  /// Room for all of them.
+  /// Room for all of them and `lanes` more.
   std::size_t (*inside)(const Number* points, std::uint32_t begin, std::uint32_t end, const Number* low,
                         const Number* high, std::uint32_t* index);
   /// The box of the points from `begin` to `end`; x, y and z.
