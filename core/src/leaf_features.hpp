@@ -19,6 +19,15 @@ struct LeafOf {
   const Box& box;
 };
 
+/// Makes room for the features of a leaf, in what holds those of each kind.
+template <typename Features>
+void reserve_features(Features& features, const PairRoom& room) {
+  features.vertices.reserve(room.leaf_vertices);
+  features.edges.reserve(room.leaf_edges);
+  features.triangles.reserve(2 * room.leaf_faces);
+  features.folds.reserve(room.leaf_faces);
+}
+
 /// Features that a leaf owns, in a frame.
 class LeafFeatures {
  public:
@@ -41,12 +50,7 @@ class LeafFeatures {
   static auto parts(Self& self) {
     return std::tie(self.vertices, self.edges, self.triangles, self.folds);
   }
-  void reserve(const PairRoom& room) {
-    vertices.reserve(room.leaf_vertices);
-    edges.reserve(room.leaf_edges);
-    triangles.reserve(2 * room.leaf_faces);
-    folds.reserve(room.leaf_faces);
-  }
+  void reserve(const PairRoom& room) { reserve_features(*this, room); }
 
  private:
   void lay_out_vertices(const Surface& surface, const Region& leaf, LeafVertices& from);
@@ -75,12 +79,7 @@ class TakenLeaf {
   static auto parts(Self& self) {
     return std::tie(self.vertices, self.edges, self.triangles, self.folds);
   }
-  void reserve(const PairRoom& room) {
-    vertices.reserve(room.leaf_vertices);
-    edges.reserve(room.leaf_edges);
-    triangles.reserve(2 * room.leaf_faces);
-    folds.reserve(room.leaf_faces);
-  }
+  void reserve(const PairRoom& room) { reserve_features(*this, room); }
 };
 
 /// Whether diagonals of quads are folds (see `is_folded`); asked of few, again and again, so decided when
