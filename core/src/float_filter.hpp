@@ -52,16 +52,15 @@ struct FloatFilterScratch {
     if (bound.size() < columns_in_row) bound.resize(columns_in_row);
     return {column.data(), bound.data()};
   }
-  /// The first components from `first` on of what was taken of a block.
+  /// So many components of all that was taken of a block, from `first` on.
   template <std::size_t Corners>
-  kernels::Block gather(const TakenFeatures<Corners>& taken, std::size_t first, std::size_t components,
-                        std::size_t count) {
-    const std::size_t stride = FeatureBlock<Corners>::stride_of(count);
+  kernels::Block gather(const TakenFeatures<Corners>& taken, std::size_t first, std::size_t components) {
+    const std::size_t stride = FeatureBlock<Corners>::stride_of(taken.count());
     if (columns.size() < components * stride) columns.resize(components * stride);
     const kernels::Block all = taken.all().block();
     kernels::filter().gather({all.data + first * all.stride, all.stride, all.count}, components,
-                             taken.index(), count, columns.data(), stride);
-    return {columns.data(), stride, count};
+                             taken.index(), taken.count(), columns.data(), stride);
+    return {columns.data(), stride, taken.count()};
   }
 
   template <typename Self>
@@ -91,7 +90,7 @@ class FloatBatch {
   }
   /// Empties it: `visit(part of a, part of b, whether the bound says anything)` for each pair that is not
   /// certainly further than a limit in the frame, but once for what comes again right away, as a quad's
-  /// second triangle does. How many were.
+  /// second triangle does. Returns how many are further.
   template <typename Kernel, typename Visit>
   std::size_t bound(Kernel kernel, float limit, const Visit& visit) {
     const std::size_t count = std::exchange(count_, 0);

@@ -61,7 +61,7 @@ class LeafNames {
 
   template <std::size_t Corners>
   kernels::Block boxes_of(const TakenFeatures<Corners>& taken) {
-    return lists_.gather(taken, kernels::box_at<Corners>, kernels::box_components, taken.count());
+    return lists_.gather(taken, kernels::box_at<Corners>, kernels::box_components);
   }
 
   /// Calls `visit(i, j)` for the first `row_count` of `rows` and those of `columns` whose boxes are not
@@ -252,7 +252,7 @@ void for_each_vertex_pair(const SurfacePair& pair, const LeafOf& leaf_a, const L
   const PointBlock& b = scratch.b.vertices.all();
   FloatFilterScratch& lists = scratch.filter.lists;
   constexpr std::size_t laid_out = kernels::size_at<1> + 1;
-  const kernels::Block columns = lists.gather(scratch.b.vertices, 0, laid_out, scratch.b.vertices.count());
+  const kernels::Block columns = lists.gather(scratch.b.vertices, 0, laid_out);
   const kernels::Survivors survivors = lists.room_for_row(columns.count);
   for (std::size_t row = 0; row < scratch.a.vertices.count(); ++row) {
     const std::uint32_t i = scratch.a.vertices.index()[row];
