@@ -1,5 +1,8 @@
 #include "bench/run.hpp"
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -11,6 +14,7 @@
 #include "bench/candidate_kernels.hpp"
 #include "bench/graze_contender.hpp"
 #include "bench/verification.hpp"
+#include "check_failed.hpp"
 #include "progress.hpp"
 #include "scenes/random.hpp"
 #include "stress/clocks.hpp"
@@ -126,6 +130,16 @@ class Entrant {
   GrazeFigures figures_;
 };
 
+/// A contender's library may hold the whole process to fewer threads than are asked for, graze too.
+void require_threads(unsigned threads) {
+  using oneapi::tbb::global_control;
+  const auto there_are = static_cast<unsigned>(oneapi::tbb::info::default_concurrency());
+  const auto allowed =
+      static_cast<unsigned>(global_control::active_value(global_control::max_allowed_parallelism));
+  if (allowed < std::min(threads, there_are))
+    throw tools::CheckFailed(tools::format("bench: a contender holds the process to %u threads", allowed));
+}
+
 std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& options,
                                  const PeerModule& module) {
   std::vector<Entrant> entrants;
@@ -233,6 +247,7 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
       entrant.take_turn(frame >= warm_up);
       if (is_verified) entrant.verify(verification);
     }
+    if (frame == 0) require_threads(options.threads);
   }
   compare_reports(std::span(entrants).first(options.instruction_sets.size()));
   for (const Entrant& entrant : entrants) run.timings.push_back(entrant.timing());

@@ -1,24 +1,44 @@
 #include <embree3/rtcore.h>
 
+#include <mutex>
+#include <string>
+#include <vector>
+
 #include "bench/peers/lazy_trees.hpp"
 #include "bench/peers/peers.hpp"
 
 namespace graze::bench {
 namespace {
 
-/// Embree's own threads stay away: objects and pairs are what is divided between threads.
-RTCDevice device() {
-  static const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
-  return device;
-}
+/// Embree as a library: one at a time. Its own threads are as many as divide objects and pairs among them,
+/// since it limits those of the whole process to the number that it is given.
+class Device {
+ public:
+  explicit Device(unsigned threads)
+      : device_(rtcNewDevice(("threads=" + std::to_string(threads) + ",set_affinity=0").c_str())) {
+    in_use_ = device_;
+  }
+  ~Device() {
+    in_use_ = nullptr;
+    rtcReleaseDevice(device_);
+  }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  static RTCDevice in_use() { return in_use_; }
+
+ private:
+  static inline RTCDevice in_use_ = nullptr;
+  RTCDevice device_;
+};
 
 /// Embree: a scene for each object with one user geometry, a primitive for each vertex or triangle, refitted;
 /// pairs of scenes by rtcCollide.
 class EmbreeTree {
  public:
   EmbreeTree(const World& world, Task task, std::uint32_t object)
-      : parts_(world, task, object), scene_(rtcNewScene(device())) {
-    geometry_ = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
+      : parts_(world, task, object), scene_(rtcNewScene(Device::in_use())) {
+    geometry_ = rtcNewGeometry(Device::in_use(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
     rtcSetGeometryUserPrimitiveCount(geometry_, parts_.count());
     rtcSetGeometryUserData(geometry_, &parts_);
@@ -43,15 +63,17 @@ class EmbreeTree {
   }
 
   void match(EmbreeTree& other, Found& found) {
-    Match match{&parts_, &other.parts_, &found};
+    Match match;
     rtcCollide(scene_, other.scene_, take, &match);
+    for (const RTCCollision& each : match.collisions)
+      parts_.test(each.primID0, other.parts_, each.primID1, found);
   }
 
  private:
+  /// What one of several threads of Embree's tells at a time.
   struct Match {
-    const Parts* parts;
-    const Parts* other;
-    Found* found;
+    std::vector<RTCCollision> collisions;
+    std::mutex telling;
   };
 
   static void write_bounds(const RTCBoundsFunctionArguments* arguments) {
@@ -65,9 +87,9 @@ class EmbreeTree {
     bounds.upper_z = box.max[2];
   }
   static void take(void* user, RTCCollision* collisions, unsigned count) {
-    const Match& match = *static_cast<const Match*>(user);
-    for (unsigned i = 0; i < count; ++i)
-      match.parts->test(collisions[i].primID0, *match.other, collisions[i].primID1, *match.found);
+    Match& match = *static_cast<Match*>(user);
+    const std::lock_guard lock(match.telling);
+    match.collisions.insert(match.collisions.end(), collisions, collisions + count);
   }
 
   Parts parts_;
@@ -75,10 +97,22 @@ class EmbreeTree {
   RTCGeometry geometry_ = nullptr;
 };
 
+class Embree final : public Contender {
+ public:
+  Embree(const World& world, Task task, unsigned threads) : device_(threads), trees_(world, task, threads) {}
+
+  void frame() override { trees_.frame(); }
+  void collect(Found& found) const override { trees_.collect(found); }
+
+ private:
+  Device device_;
+  LazyTrees<EmbreeTree> trees_;
+};
+
 }  // namespace
 
 std::unique_ptr<Contender> make_embree(const World& world, Task task, unsigned threads) {
-  return std::make_unique<LazyTrees<EmbreeTree>>(world, task, threads);
+  return std::make_unique<Embree>(world, task, threads);
 }
 
 }  // namespace graze::bench
