@@ -6,6 +6,7 @@
 #include "closest_set.hpp"
 #include "leaf_names.hpp"
 #include "leaf_pairs.hpp"
+#include "leaf_vertex_pairs.hpp"
 
 namespace graze {
 

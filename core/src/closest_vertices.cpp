@@ -1,5 +1,7 @@
 #include "closest_vertices.hpp"
 
+#include "leaf_vertex_pairs.hpp"
+
 namespace graze {
 namespace {
 

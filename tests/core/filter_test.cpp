@@ -11,123 +11,16 @@
 #include <iostream>
 #include <string>
 
-#include "feature_block.hpp"
-#include "filter_frame.hpp"
+#include "core/filter_families.hpp"
 #include "float_filter.hpp"
-#include "leaf_slab.hpp"
-#include "leaf_vertices.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
-#include "support/random_scenes.hpp"
 #include "support/real.hpp"
 
 namespace graze::tests {
 namespace {
 
-using Eigen::Vector3d;
-using oracle::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double unit = 0x1p-24;  // the rounding of a float
-
-/// What a batch of features looks like.
-enum class Family {
-  plain,
-  grid,
-  needles,
-  flat,
-  tiny_and_large,
-  far,
-  minute,
-  huge,
-  degenerate,
-  interlocked,
-  count
-};
-
-template <std::size_t Corners>
-using Corner = std::array<Vector3d, Corners>;
-
-/// The features of two leaves.
-struct Batch {
-  std::vector<Corner<1>> points;
-  std::vector<Corner<2>> segments;
-  std::vector<Corner<3>> triangles;
-  Box box;
-};
-
-/// About three corners, a tenth of a side thick to either side of the first.
-LeafSlab slab_of(const Corner<3>& corner) {
-  const Vector3d u = corner[1] - corner[0];
-  const Vector3d across = u.stableNormalized().cross((corner[2] - corner[0]).stableNormalized());
-  LeafSlab slab;
-  if (across.norm() < 0x1p-20) return slab;
-  slab.normal = (across.normalized() * (1 - 0x1p-22)).cast<float>();
-  slab.radius = static_cast<float>(4 * u.stableNorm());
-  slab.high = static_cast<float>(u.stableNorm() / 10);
-  slab.low = -slab.high;
-  return slab;
-}
-
-class Generator {
- public:
-  Generator(Family family, std::uint64_t seed) : family_(family), random_(seed) {
-    if (family == Family::far) origin_ = {0x1p40, -0x1p39, 0x1p38};
-    if (family == Family::minute) scale_ = 0x1p-400;
-    if (family == Family::huge) scale_ = 0x1p100;
-  }
-
-  Batch batch(const Vector3d& beside, std::size_t count) {
-    Batch batch;
-    for (std::size_t i = 0; i < count; ++i) {
-      batch.points.push_back(feature<1>(beside));
-      batch.segments.push_back(feature<2>(beside));
-      batch.triangles.push_back(feature<3>(beside));
-    }
-    for (const auto& corners : batch.points) grow(batch.box, corners);
-    for (const auto& corners : batch.segments) grow(batch.box, corners);
-    for (const auto& corners : batch.triangles) grow(batch.box, corners);
-    return batch;
-  }
-
- private:
-  template <std::size_t Corners>
-  Corner<Corners> feature(const Vector3d& beside) {
-    const Vector3d middle = beside + vector(1);
-    double size = 0.3;
-    if (family_ == Family::tiny_and_large) size = std::ldexp(1.0, -static_cast<int>(random_.below(30)) + 8);
-    if (family_ == Family::interlocked) size = 1.5;
-    Corner<Corners> corners;
-    const Vector3d along = vector(1);
-    for (Vector3d& corner : corners) {
-      Vector3d offset = vector(size);
-      if (family_ == Family::needles) offset = along * random_.between(-1, 1) + offset * 1e-9;
-      if (family_ == Family::degenerate && random_.chance(0.7)) offset = along * random_.below(3);
-      if (family_ == Family::flat) offset.z() *= 1e-7;
-      corner = middle + offset;
-      if (family_ == Family::flat) corner.z() = beside.z() + offset.z();
-      if (family_ == Family::grid) corner = (corner * 4).array().round().matrix() / 4;
-      corner = corner * scale_ + origin_;
-    }
-    return corners;
-  }
-
-  Vector3d vector(double size) {
-    const double x = random_.between(-size, size);
-    const double y = random_.between(-size, size);
-    return {x, y, random_.between(-size, size)};
-  }
-
-  template <std::size_t Corners>
-  static void grow(Box& box, const Corner<Corners>& corners) {
-    for (const Vector3d& corner : corners) box.add(corner);
-  }
-
-  Family family_;
-  Random random_;
-  Vector3d origin_ = Vector3d::Zero();
-  double scale_ = 1;
-};
 
 Vector real(const Vector3d& point) {
   return point.cast<Real>();
@@ -189,34 +82,6 @@ struct Tally {
   }
 };
 
-template <std::size_t Corners>
-FeatureBlock<Corners> block_of(const std::vector<Corner<Corners>>& features, const FilterFrame& frame) {
-  FeatureBlock<Corners> block(Corners == 1 ? Part::vertex : Corners == 2 ? Part::edge : Part::face);
-  std::vector<Vector3d> positions;
-  CornerList corners;
-  block.begin(features.size());
-  corners.begin(Corners * features.size());
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    block.add(static_cast<std::uint32_t>(i));
-    for (const Vector3d& corner : features[i]) {
-      corners.add(static_cast<std::uint32_t>(positions.size()));
-      positions.push_back(corner);
-    }
-  }
-  std::vector<std::uint32_t> all(positions.size());
-  std::iota(all.begin(), all.end(), 0U);
-  std::vector<kernels::Point> vertices(positions.size());
-  if (!all.empty())
-    kernels::position_passes().doubles.bring({positions[0].data(), all.back()}, all.data(), all.size(),
-                                             frame.for_points(), vertices.data());
-  block.lay_out(vertices.data(), corners.padded());
-  return block;
-}
-
-template <std::size_t Corners>
-float size_of(const FeatureBlock<Corners>& block, std::size_t i) {
-  return block.component(kernels::size_at<Corners>, i);
-}
 kernels::Point point_of(const PointBlock& block, std::size_t i) {
   return {{block.component(0, i), block.component(1, i), block.component(2, i)}, size_of(block, i)};
 }
@@ -296,31 +161,6 @@ void check_bounds(const FilterFrame& frame, const std::vector<Row>& rows, const 
   }
 }
 
-/// Pairs of features whose boxes a kernel leaves.
-template <std::size_t RowCorners, std::size_t Corners>
-std::vector<std::pair<std::uint32_t, std::uint32_t>> near_boxes(const FeatureBlock<RowCorners>& rows,
-                                                                const FeatureBlock<Corners>& columns,
-                                                                float limit) {
-  std::vector<std::uint32_t> index(rows.count());
-  std::iota(index.begin(), index.end(), 0U);
-  const std::size_t room = rows.count() * columns.count() + kernels::lanes;
-  std::vector<std::uint32_t> row(room);
-  std::vector<std::uint32_t> column(room);
-  const kernels::Block all = columns.block();
-  const kernels::Block boxes{all.data + kernels::box_at<Corners> * all.stride, all.stride, all.count};
-  const std::size_t count =
-      kernels::filter().near_boxes({rows.block(), kernels::box_at<RowCorners>, index.data(), index.size()},
-                                   boxes, limit, {row.data(), column.data()});
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (std::size_t k = 0; k < count; ++k) pairs.emplace_back(row[k], column[k]);
-  return pairs;
-}
-
-Vector3d beside_of(std::uint64_t seed) {
-  Random random(seed * 77 + 5);
-  return {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)};
-}
-
 /// Whether a segment crosses a triangle strictly, in rational arithmetic.
 bool crosses(const Corner<2>& segment, const Corner<3>& triangle) {
   using namespace oracle;
@@ -390,8 +230,6 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
   }
   return words;
 }
-
-constexpr std::size_t family_count = static_cast<std::size_t>(Family::count);
 
 }  // namespace
 
@@ -516,219 +354,6 @@ TEST_CASE("filter: a limit is never rounded down") {
     CHECK(double{frame.to_local_limit(limit)} >= limit * frame.scale());
   }
   CHECK(FilterFrame(Box{}, Box{}).to_local_limit(std::numeric_limits<double>::infinity()) == infinity);
-}
-
-namespace {
-
-/// What clipping kept, left out, and found to touch.
-struct ClipTally {
-  std::size_t kept = 0;
-  std::size_t left_out = 0;
-  std::size_t left_out_by_slab = 0;  ///< and not by the box
-  std::size_t touching = 0;
-};
-
-/// The gap of two boxes.
-Real gap_of(const Box& a, const Box& b) {
-  Real squared = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Real gap =
-        std::max<Real>({Real(a.min[axis]) - Real(b.max[axis]), Real(b.min[axis]) - Real(a.max[axis]), 0});
-    squared += gap * gap;
-  }
-  return std::sqrt(squared);
-}
-
-/// How far corners are outside a slab, along its normal.
-template <std::size_t Corners>
-Real gap_of(const Corner<Corners>& corners, const LeafSlab& slab, const Vector3d& middle) {
-  Real least = std::numeric_limits<Real>::infinity();
-  Real most = -least;
-  for (const Vector3d& corner : corners) {
-    Real along = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      along += Real(slab.normal[axis]) * (Real(corner[axis]) - Real(middle[axis]));
-    least = std::min(least, along);
-    most = std::max(most, along);
-  }
-  return std::max<Real>({least - Real(slab.high), Real(slab.low) - most, 0});
-}
-
-/// Takes the features near a box and a slab, and compares what is left out, said not to touch, or outside the
-/// box that is found with the truth.
-template <std::size_t Corners>
-void check_clip(const FeatureBlock<Corners>& block, const std::vector<Corner<Corners>>& features,
-                const FilterFrame& frame, const Box& box, const LeafSlab& slab, const Vector3d& middle,
-                float limit, ClipTally& tally) {
-  kernels::BoxInFrame found = empty_box();
-  TakenFeatures<Corners> taken;
-  const kernels::BoxInFrame local = frame.to_local(box);
-  taken.take(block, {local, local, frame.to_local(slab, middle), limit}, &found);
-  std::vector<bool> is_kept(features.size(), false);
-  for (std::size_t i = 0; i < taken.count(); ++i) {
-    const std::uint32_t feature = taken.index()[i];
-    is_kept[feature] = true;
-    for (std::size_t k = 0; k < 3 * Corners; ++k) {
-      REQUIRE(block.component(k, feature) >= found.min[k % 3]);
-      REQUIRE(block.component(k, feature) <= found.max[k % 3]);
-    }
-    Box own;
-    for (const Vector3d& corner : features[feature]) own.add(corner);
-    const bool touches = gap_of(own, box) == 0;
-    if (touches) REQUIRE(i < taken.touching());
-    tally.touching += touches ? 1U : 0U;
-  }
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    Box own;
-    for (const Vector3d& corner : features[i]) own.add(corner);
-    const bool is_near_box = gap_of(own, box) * Real(frame.scale()) <= Real(limit);
-    if (is_near_box && gap_of(features[i], slab, middle) * Real(frame.scale()) <= Real(limit))
-      REQUIRE(is_kept[i]);
-    ++(is_kept[i] ? tally.kept : tally.left_out);
-    if (is_near_box && !is_kept[i]) ++tally.left_out_by_slab;
-  }
-}
-
-}  // namespace
-
-TEST_CASE(
-    "filter: clipping by a box and a slab leaves out nothing that is within the limit, and finds what "
-    "touches") {
-  ClipTally tally;
-  for (std::size_t family = 0; family < family_count; ++family)
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      Generator generator(static_cast<Family>(family), seed);
-      const Batch a = generator.batch(Vector3d::Zero(), 37);
-      Batch b = generator.batch(beside_of(seed), 4);
-      const FilterFrame frame(a.box, b.box);
-      const PointBlock points = block_of(a.points, frame);
-      const SegmentBlock segments = block_of(a.segments, frame);
-      const TriangleBlock triangles = block_of(a.triangles, frame);
-      for (const float limit : {0.0F, 0.01F, 0.3F, infinity})
-        for (const auto& corners : b.triangles) {
-          Box box;
-          for (const Vector3d& corner : corners) box.add(corner);
-          for (const LeafSlab& slab : {LeafSlab{}, slab_of(corners)}) {
-            check_clip(points, a.points, frame, box, slab, corners[0], limit, tally);
-            check_clip(segments, a.segments, frame, box, slab, corners[0], limit, tally);
-            check_clip(triangles, a.triangles, frame, box, slab, corners[0], limit, tally);
-          }
-        }
-    }
-  CHECK(tally.kept > 40'000);
-  CHECK(tally.left_out > 40'000);
-  CHECK(tally.left_out_by_slab > 2'000);
-  CHECK(tally.touching > 4'000);
-  std::cout << "clipped " << tally.kept + tally.left_out << " features: " << tally.kept << " kept, "
-            << tally.left_out << " left out, " << tally.left_out_by_slab << " of them by the slab, "
-            << tally.touching << " touch\n";
-}
-
-namespace {
-
-struct BoxTally {
-  std::size_t left = 0;
-  std::size_t discarded = 0;
-};
-
-/// The largest gap of two boxes along an axis, below 0 where they overlap along each.
-Real gap_along_axes(const Box& a, const Box& b) {
-  Real gap = -std::numeric_limits<Real>::infinity();
-  for (int axis = 0; axis < 3; ++axis)
-    gap = std::max<Real>({gap, Real(a.min[axis]) - Real(b.max[axis]), Real(b.min[axis]) - Real(a.max[axis])});
-  return gap;
-}
-template <std::size_t Corners>
-Box box_of(const Corner<Corners>& corners) {
-  Box box;
-  for (const Vector3d& corner : corners) box.add(corner);
-  return box;
-}
-
-/// Compares the pairs that are left by their boxes with the truth: those within the limit are there, and none
-/// that is further than the margins.
-template <std::size_t RowCorners, std::size_t Corners>
-void check_near_boxes(const std::vector<Corner<RowCorners>>& rows,
-                      const std::vector<Corner<Corners>>& columns, const FilterFrame& frame, float limit,
-                      BoxTally& tally) {
-  const FeatureBlock<RowCorners> row_block = block_of(rows, frame);
-  const FeatureBlock<Corners> column_block = block_of(columns, frame);
-  const auto pairs = near_boxes(row_block, column_block, limit);
-  REQUIRE(std::is_sorted(pairs.begin(), pairs.end()));
-  for (std::uint32_t i = 0; i < rows.size(); ++i)
-    for (std::uint32_t j = 0; j < columns.size(); ++j) {
-      const Real gap = gap_of(box_of(rows[i]), box_of(columns[j])) * Real(frame.scale());
-      const Real sizes = Real(size_of(row_block, i)) + Real(size_of(column_block, j));
-      const bool is_left = std::binary_search(pairs.begin(), pairs.end(), std::pair(i, j));
-      if (gap <= Real(limit)) REQUIRE(is_left);
-      if (gap > Real(limit) * (1 + 1e-6L) + 4 * Real(kernels::margin) * sizes) REQUIRE_FALSE(is_left);
-      ++(is_left ? tally.left : tally.discarded);
-    }
-}
-
-}  // namespace
-
-TEST_CASE("filter: pairs are left by their boxes where these are within the limit") {
-  BoxTally tally;
-  for (std::size_t family = 0; family < family_count; ++family)
-    for (std::uint64_t seed = 0; seed < 12; ++seed) {
-      Generator generator(static_cast<Family>(family), seed);
-      const std::size_t columns = 1 + seed * 5 % 37;
-      const Batch a = generator.batch(Vector3d::Zero(), 19);
-      const Batch b = generator.batch(beside_of(seed), columns);
-      const FilterFrame frame(a.box, b.box);
-      for (const float limit : {0.0F, 0.02F, 0.4F, infinity}) {
-        check_near_boxes(a.points, b.triangles, frame, limit, tally);
-        check_near_boxes(a.segments, b.segments, frame, limit, tally);
-        check_near_boxes(a.segments, b.triangles, frame, limit, tally);
-      }
-    }
-  CHECK(tally.left > 50'000);
-  CHECK(tally.discarded > 50'000);
-  std::cout << "compared " << tally.left + tally.discarded << " pairs of boxes, " << tally.left << " left\n";
-}
-
-TEST_CASE("filter: what can be beside another box is what is within the distance of it") {
-  Random random(12);
-  std::size_t inside = 0;
-  std::size_t empty = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const double scale = std::ldexp(1.0, static_cast<int>(random.below(60)) - 30);
-    const auto point = [&](double spread) -> Vector3d {
-      return scale * Vector3d(random.between(-spread, spread), random.between(-spread, spread),
-                              random.between(-spread, spread));
-    };
-    Box a;
-    Box b;
-    const Vector3d away = point(2);
-    for (int corner = 0; corner < 2; ++corner) {
-      a.add(point(1));
-      b.add(away + point(1));
-    }
-    const FilterFrame frame(a, b);
-    const double distance = scale * random.between(0, 1);
-    const kernels::BoxInFrame beside = frame.to_local_beside(a, b, distance);
-    for (int k = 0; k < 20; ++k) {
-      Vector3d p;
-      Vector3d q;
-      for (int axis = 0; axis < 3; ++axis) {
-        p[axis] = a.min[axis] + random.between(0, 1) * (a.max[axis] - a.min[axis]);
-        q[axis] = std::clamp(p[axis], b.min[axis], b.max[axis]);
-      }
-      if ((p - q).norm() > distance) continue;
-      ++inside;
-      REQUIRE_FALSE(is_empty(beside));
-      for (int axis = 0; axis < 3; ++axis) {
-        REQUIRE(double{beside.min[axis]} <= frame.to_local(p)[axis]);
-        REQUIRE(double{beside.max[axis]} >= frame.to_local(p)[axis]);
-      }
-    }
-    const bool is_far = gap_along_axes(a, b) > Real(distance) * (1 + 1e-3L);
-    if (is_far) REQUIRE(is_empty(beside));
-    empty += is_far ? 1U : 0U;
-  }
-  CHECK(inside > 4'000);
-  CHECK(empty > 500);
 }
 
 TEST_CASE("filter: a batch hands on what is left, and a quad once") {
