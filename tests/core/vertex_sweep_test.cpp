@@ -179,8 +179,8 @@ TEST_CASE("vertex sweep: small surfaces of all kinds") {
 }
 
 TEST_CASE("vertex sweep: large surfaces that meet in a corner") {
-  const Surface a = surface_of(cloth(70, 1, 1));
-  Surface b = surface_of(mapped(cloth(60, 1, 2), 1, {0.8, 0.85, 0.005}));
+  const Surface a = surface_of(cloth(100, 1, 1));
+  Surface b = surface_of(mapped(cloth(95, 1, 2), 1, {0.8, 0.85, 0.005}));
   CHECK(check(a, b, 0.03, Swept::all) > 100);
   // Boxes are those of an earlier place.
   std::vector<Eigen::Vector3d> moved;
@@ -192,7 +192,7 @@ TEST_CASE("vertex sweep: large surfaces that meet in a corner") {
 }
 
 TEST_CASE("vertex sweep: a large surface and a small one far below its size") {
-  const Surface ground = surface_of(cloth(80, 1, 3));
+  const Surface ground = surface_of(cloth(100, 1, 3));
   const Surface pebble = surface_of(mapped(shape_of(models::sphere(12, 8)), 0.02, {0.4, 0.3, 0.01}));
   CHECK(check(ground, pebble, 0.01, Swept::all) > 10);
   CHECK(check(pebble, ground, 0.01, Swept::all) > 10);
@@ -209,8 +209,8 @@ TEST_CASE("vertex sweep: surfaces that lie along each other are walked") {
 }
 
 TEST_CASE("vertex sweep: stops where the budget does") {
-  const Surface a = surface_of(cloth(70, 1, 1));
-  const Surface b = surface_of(mapped(cloth(60, 1, 2), 1, {0.8, 0.85, 0.005}));
+  const Surface a = surface_of(cloth(100, 1, 1));
+  const Surface b = surface_of(mapped(cloth(95, 1, 2), 1, {0.8, 0.85, 0.005}));
   const std::uint64_t whole = sweep(a, b, 0.03).counters.region_pairs_tested;
   CHECK(whole > 20);
   for (std::uint64_t limit = 0; limit <= whole + 1; ++limit) {

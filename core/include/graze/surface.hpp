@@ -136,7 +136,7 @@ class GRAZE_API Surface {
   [[nodiscard]] std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
   static constexpr std::size_t beyond_found = 16;
   /// So many vertices are searched in memory order; of larger surfaces the regions are quicker.
-  static constexpr std::uint32_t most_searched = 2048;
+  static constexpr std::uint32_t most_searched = 8192;
   /// Makes boxes of stretches of vertices, as they follow one another in memory, of which `find_inside`
   /// passes over those that are not in its box, until the surface moves. Worth it from the third search on;
   /// none are made where there are few vertices, or more than `most_searched`.
