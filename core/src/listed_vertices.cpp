@@ -5,19 +5,6 @@
 #include "passes_for.hpp"
 
 namespace graze {
-namespace {
-
-/// Calls `use` with the surface's points, which are floats or doubles.
-template <typename Use>
-auto with_points(const Surface& surface, const Use& use) {
-  const PositionView positions = surface.positions();
-  const std::uint32_t last = surface.mesh().vertex_count() - 1;
-  if (positions.is_double())
-    return use(kernels::PointArray<double>{static_cast<const double*>(positions.data()), last});
-  return use(kernels::PointArray<float>{static_cast<const float*>(positions.data()), last});
-}
-
-}  // namespace
 
 void bring(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
            kernels::Point* brought) {

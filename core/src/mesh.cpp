@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "limits.hpp"
+#include "vertex_fans.hpp"
 
 namespace graze {
 namespace {
@@ -85,6 +86,7 @@ Mesh Mesh::from_polygons(PositionView rest, std::span<const std::uint32_t> corne
   mesh.check_faces();
   mesh.number_edges();
   mesh.list_incidence();
+  list_fans(mesh, mesh.fans_, mesh.fan_begin_);
   mesh.check_rest();
   mesh.look_for_unused();
   mesh.regions_ = RegionTree(mesh);
@@ -154,8 +156,8 @@ void Mesh::list_incidence() {
 std::size_t Mesh::byte_count() const {
   return sizeof(Mesh) + bytes_of(rest_) + bytes_of(corners_) + bytes_of(face_begin_) + bytes_of(face_edges_) +
          bytes_of(edges_) + bytes_of(neighbours_) + bytes_of(neighbour_begin_) + bytes_of(vertex_faces_) +
-         bytes_of(vertex_face_begin_) + bytes_of(edge_faces_) + bytes_of(edge_face_begin_) +
-         regions_.byte_count();
+         bytes_of(vertex_face_begin_) + bytes_of(fans_) + bytes_of(fan_begin_) + bytes_of(edge_faces_) +
+         bytes_of(edge_face_begin_) + regions_.byte_count();
 }
 
 }  // namespace graze

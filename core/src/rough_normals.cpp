@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <span>
+#include <type_traits>
 
 #include "corner_lane.hpp"
+#include "passes_for.hpp"
 
 namespace graze {
 
@@ -30,6 +32,19 @@ void for_each_triangle_from(std::uint32_t vertex, std::span<const std::uint32_t>
   }
 }
 
+/// Where both are at one place there is no edge, nor a triangle with area at it. Edges that are none in float
+/// alone are made such that nothing is certain.
+template <typename Number>
+void put_edge(const Number* from, const Number* to, kernels::FanBatch& batch, std::size_t edge,
+              std::size_t lane) {
+  std::array<float, 3> way;
+  for (std::size_t axis = 0; axis < 3; ++axis) way[axis] = static_cast<float>(to[axis] - from[axis]);
+  if constexpr (std::is_same_v<Number, double>)
+    if (way[0] == 0 && way[1] == 0 && way[2] == 0 && !std::equal(from, from + 3, to))
+      way[0] = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t axis = 0; axis < 3; ++axis) batch.edge[edge][axis][lane] = way[axis];
+}
+
 }  // namespace
 
 void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNormal& normal) {
@@ -41,46 +56,80 @@ void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNor
     case FeatureKind::edge:
       return add_edge(surface, index, normal);
     case FeatureKind::face:
-      if (piece.piece != Piece::fold) add_triangle(surface, corners_of(surface.mesh(), piece), 1, normal);
+      if (piece.piece != Piece::fold) add_triangle(surface, corners_of(surface.mesh(), piece), normal);
   }
 }
 
+/// A long fan is walked in parts, of which each begins with the last edge of the one before.
 void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal) {
-  for (const std::uint32_t face : surface.mesh().vertex_faces(vertex))
-    for_each_triangle_from(vertex, surface.mesh().face(face),
-                           [&](const Corners& corner) { add_triangle(surface, corner, 0, normal); });
+  std::span<const std::uint32_t> around = surface.mesh().vertex_fans(vertex);
+  while (around.size() > kernels::fan_edges) {
+    add_fan(surface, vertex, around.first(kernels::fan_edges), normal);
+    around = around.subspan(kernels::fan_edges - 1);
+  }
+  add_fan(surface, vertex, around, normal);
+}
+
+void NormalSums::add_fan(const Surface& surface, std::uint32_t vertex, std::span<const std::uint32_t> around,
+                         RoughNormal& normal) {
+  with_points(surface, [&]<typename Number>(const kernels::PointArray<Number>& points) {
+    const Number* const centre = points.numbers + std::size_t{3} * vertex;
+    for (std::size_t k = 0; k < around.size(); ++k)
+      put_edge(centre, points.numbers + std::size_t{3} * around[k], fan_batch_, k, fans_);
+  });
+  fan_edges_[fans_] = around.size();
+  of_fan_[fans_] = &normal;
+  if (++fans_ == of_fan_.size()) finish_fans();
+}
+
+void NormalSums::finish_fans() {
+  if (fans_ == 0) return;
+  fan_batch_.edges = *std::max_element(fan_edges_.begin(), fan_edges_.begin() + fans_);
+  for (std::size_t i = 0; i < fans_; ++i)
+    for (std::size_t k = fan_edges_[i]; k < fan_batch_.edges; ++k)
+      for (auto& coordinates : fan_batch_.edge[k]) coordinates[i] = 0;
+  kernels::measure().fans(fan_batch_);
+  for (std::size_t i = 0; i < fans_; ++i) {
+    const auto& normal = fan_batch_.normal;
+    of_fan_[i]->sum += Eigen::Vector3f(normal[0][i], normal[1][i], normal[2][i]).cast<double>();
+    of_fan_[i]->error += fan_batch_.error[i];
+  }
+  fans_ = 0;
 }
 
 void NormalSums::add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal) {
   const std::array<std::uint32_t, 2> end = surface.mesh().edge(edge);
   for (const std::uint32_t face : surface.mesh().edge_faces(edge))
     for_each_triangle_from(end[0], surface.mesh().face(face), [&](const Corners& corner) {
-      if (corner[1] == end[1] || corner[2] == end[1]) add_triangle(surface, corner, std::numbers::pi, normal);
+      if (corner[1] == end[1] || corner[2] == end[1]) add_triangle(surface, corner, normal);
     });
 }
 
-void NormalSums::add_triangle(const Surface& surface, const Corners& corner, double weight,
-                              RoughNormal& normal) {
-  for (std::size_t i = 0; i < 3; ++i) put_corner(surface, corner[i], batch_.corner[i], count_);
-  batch_.weight[count_] = weight;
-  normal_[count_] = &normal;
-  if (++count_ == normal_.size()) finish();
+void NormalSums::add_triangle(const Surface& surface, const Corners& corner, RoughNormal& normal) {
+  for (std::size_t i = 0; i < 3; ++i) put_corner(surface, corner[i], triangle_batch_.corner[i], triangles_);
+  of_triangle_[triangles_] = &normal;
+  if (++triangles_ == of_triangle_.size()) finish_triangles();
+}
+
+void NormalSums::finish_triangles() {
+  if (triangles_ == 0) return;
+  kernels::measure().normals(triangle_batch_);
+  for (std::size_t i = 0; i < triangles_; ++i) {
+    const auto& normal = triangle_batch_.normal;
+    of_triangle_[i]->sum += Eigen::Vector3d(normal[0][i], normal[1][i], normal[2][i]);
+    of_triangle_[i]->error += triangle_batch_.error[i];
+  }
+  triangles_ = 0;
 }
 
 void NormalSums::finish() {
-  if (count_ == 0) return;
-  kernels::measure().normals(batch_);
-  for (std::size_t i = 0; i < count_; ++i) {
-    normal_[i]->sum += Eigen::Vector3d(batch_.part[0][i], batch_.part[1][i], batch_.part[2][i]);
-    normal_[i]->weights += batch_.weight[i];
-  }
-  count_ = 0;
+  finish_triangles();
+  finish_fans();
 }
 
 std::optional<Side> certain_side(const RoughNormal& normal, const Eigen::Vector3d& direction) {
   const double along = normal.sum.dot(direction);
-  if (!(std::abs(along) > std::max(normal.weights * 0x1p-20, 0x1p-34)) || normal.weights == 0)
-    return std::nullopt;
+  if (!(std::abs(along) > normal.error + 0x1p-34)) return std::nullopt;
   return along > 0 ? Side::front : Side::back;
 }
 

@@ -79,6 +79,13 @@ class GRAZE_API Mesh {
   [[nodiscard]] std::span<const std::uint32_t> edge_faces(std::uint32_t edge) const {
     return row(edge_faces_, edge_face_begin_, edge);
   }
+  /// The vertices around `vertex` in the order of its triangles, of which each has one of them and the next
+  /// for its other corners, in its own sense. Where no triangle is between two of them `vertex` itself stands,
+  /// so that there is a triangle without area; quads are two triangles, and others without area at any
+  /// position are left out.
+  [[nodiscard]] std::span<const std::uint32_t> vertex_fans(std::uint32_t vertex) const {
+    return row(fans_, fan_begin_, vertex);
+  }
   /// Whether any face uses `vertex`.
   [[nodiscard]] bool is_used(std::uint32_t vertex) const { return !vertex_faces(vertex).empty(); }
   /// Whether every vertex is used.
@@ -112,6 +119,8 @@ class GRAZE_API Mesh {
   std::vector<std::uint32_t> neighbour_begin_;
   std::vector<std::uint32_t> vertex_faces_;
   std::vector<std::uint32_t> vertex_face_begin_;
+  std::vector<std::uint32_t> fans_;
+  std::vector<std::uint32_t> fan_begin_;
   std::vector<std::uint32_t> edge_faces_;
   std::vector<std::uint32_t> edge_face_begin_;
   RegionTree regions_;

@@ -21,12 +21,24 @@ struct ContactBatch {
   double certain[contact_lanes];  ///< 1, or 0 where double is not good enough, and the rest means nothing
 };
 
-/// Triangles that are parts of weighted normals.
 struct NormalBatch {
   Points corner[3];
-  double weight[contact_lanes];  ///< or 0 where it is the angle at the first corner; the kernel puts in what
-                                 ///< it took, or infinity where double is not good enough
-  Points part;                   ///< filled in: the unit normal by its weight
+  // What the kernel fills in.
+  Points normal;                ///< the unit normals of the triangles
+  double error[contact_lanes];  ///< of them at most; infinite where double is not good enough
+};
+
+/// How many edges of a fan are walked at once.
+inline constexpr std::size_t fan_edges = 16;
+
+/// Fans of triangles, each about a vertex, as the edges from it to those around it: each triangle is between
+/// an edge and the next. An edge of 0 is none, and no triangle has it.
+struct FanBatch {
+  float edge[fan_edges][3][contact_lanes];
+  std::size_t edges;  ///< of the longest fan; the others go on with edges of 0
+  // What the kernel fills in.
+  float normal[3][contact_lanes];  ///< the unit normals, each by its triangle's angle at the vertex
+  float error[contact_lanes];      ///< of that at most; infinite where float is not good enough
 };
 
 /// The kernels of one instruction set. All lanes are worked on, whatever is in them.
@@ -38,6 +50,7 @@ struct Measure {
   Kernel lines;
   Kernel piercing;  ///< the distance is 0, the normal minus the triangle's
   void (*normals)(NormalBatch& batch);
+  void (*fans)(FanBatch& batch);
 };
 
 /// The kernels in use, chosen once; see graze/instruction_set.hpp.
