@@ -71,6 +71,7 @@ void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& quer
   front_ = &front;
   answer_ = &answer;
   sliced_ = sliced;
+  front.walked = true;
   stage_ = Stage::start;
   slice_count_ = 0;
   answer.in_contact = answer.listed = false;
@@ -283,6 +284,7 @@ void PairSearch::begin_contact(Worker& worker) {
       sweep_close_vertices(worker.pair, query_.threshold, worker.scratch.sweep, worker.meter, names_);
   if (swept == Swept::out_of_budget) return give_up();
   if (swept == Swept::too_many) return begin_reach(worker);
+  front_->walked = false;
   worker.scratch.order.sort(names_);
   begin_measuring(worker);
 }
@@ -425,6 +427,7 @@ Ties PairSearch::ties() const {
 }
 
 void PairSearch::begin_approach(Worker& worker) {
+  front_->walked = true;
   beyond_front_ = front_->beyond_now(*a_, *b_);
   from_front_ = beyond_front_ > 0;
   closest_.clear();

@@ -50,6 +50,12 @@ struct Object {
   bool to_survey = false;  ///< and not read, in the read that is under way
   bool moved = false;      ///< it was elsewhere than before when it was read last
   bool looked_at = false;  ///< in a pair of the last step
+  /// What the refit under way counted; of another one where the numbers differ.
+  struct Asked {
+    std::uint64_t refit = 0;
+    std::size_t jobs = 0;  ///< that look at it
+    bool walked = false;   ///< one of them went from region to region in the last step
+  } asked;
   /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
   bool frozen = false;
 

@@ -1,6 +1,5 @@
 #include "region_refit.hpp"
 
-#include <algorithm>
 #include <graze/bytes_of.hpp>
 #include <graze/cut_by_work.hpp>
 #include <graze/pair_query.hpp>
@@ -10,6 +9,9 @@ namespace {
 
 /// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
 constexpr double stale_leaf_sizes = 0.25;
+/// The same where no job went from region to region in the last step. Should one do so in this, it finds the
+/// bounds looser once.
+constexpr double stale_leaf_sizes_unwalked = 2;
 
 /// A small object of whose faces as many jobs want boxes is refitted whenever it moved: otherwise each of
 /// them makes boxes of its leaves for itself. Vertices are mostly found by stretches.
@@ -45,7 +47,7 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
   }
   // A task writes the bounds of its own object, or of its own regions of one.
   tasks_.run(parts_.size() + small_.size(), [&](unsigned, std::size_t item) {
-    if (item >= parts_.size()) return refit_small(small_[item - parts_.size()], what);
+    if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()], what);
     const Part& part = parts_[item];
     const AccessScope access({AccessRight::write(part.object), {}});
     part.object->surface_to_write().refit_regions(what, part.begin, part.end);
@@ -62,24 +64,28 @@ void RegionRefit::make_ready(Surface& surface) const {
   if (with_radii()) surface.refit(RefitOf::radii);
 }
 
-/// Each once, however many jobs look at it.
+void RegionRefit::count_job(Object& object, bool walked) {
+  if (object.asked.refit != refits_) {
+    object.asked = {refits_, 0, false};
+    objects_.push_back(&object);
+  }
+  ++object.asked.jobs;
+  object.asked.walked = object.asked.walked || walked;
+}
+
 void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
+  ++refits_;
   objects_.clear();
   for (const PairJob& job : jobs)
-    if (job.is_looked_at()) objects_.insert(objects_.end(), {job.a, job.b});
-  std::sort(objects_.begin(), objects_.end(),
-            [](const Object* left, const Object* right) { return left->serial < right->serial; });
+    if (job.is_looked_at())
+      for (Object* const object : {job.a, job.b}) count_job(*object, job.memory->front.walked);
   small_.clear();
   large_.clear();
-  for (auto object = objects_.begin(); object != objects_.end();) {
-    const auto next =
-        std::find_if(object, objects_.end(), [&](const Object* other) { return other != *object; });
-    if (!(*object)->in_parts)
-      small_.push_back({*object, static_cast<std::size_t>(next - object)});
-    else if (is_stale((*object)->surface(), what))
-      large_.push_back(*object);
-    object = next;
-  }
+  for (Object* const object : objects_)
+    if (!object->in_parts)
+      small_.push_back(object);
+    else if (is_stale(*object, what))
+      large_.push_back(object);
 }
 
 void RegionRefit::reserve(std::size_t jobs) {
@@ -92,8 +98,10 @@ std::size_t RegionRefit::byte_count() const {
   return bytes_of(objects_) + bytes_of(small_) + bytes_of(large_) + bytes_of(parts_);
 }
 
-bool RegionRefit::is_stale(const Surface& surface, RefitOf what) const {
-  return surface.motion_since_refit(what) > (to_the_letter_ ? 0 : stale_leaf_sizes * surface.leaf_size());
+bool RegionRefit::is_stale(const Object& object, RefitOf what) const {
+  const Surface& surface = object.surface();
+  const double allowed = object.asked.walked ? stale_leaf_sizes : stale_leaf_sizes_unwalked;
+  return surface.motion_since_refit(what) > (to_the_letter_ ? 0 : allowed * surface.leaf_size());
 }
 
 void RegionRefit::list_parts(Object& object, RefitOf what) {
@@ -106,12 +114,12 @@ void RegionRefit::list_parts(Object& object, RefitOf what) {
       });
 }
 
-void RegionRefit::refit_small(const Small& small, RefitOf what) const {
-  const AccessScope access({AccessRight::write(small.object), {}});
-  Surface& surface = small.object->surface_to_write();
-  const bool is_asked_often = small.jobs >= jobs_worth_a_refit;
+void RegionRefit::refit_small(Object& object, RefitOf what) const {
+  const AccessScope access({AccessRight::write(&object), {}});
+  Surface& surface = object.surface_to_write();
+  const bool is_asked_often = object.asked.jobs >= jobs_worth_a_refit;
   if (is_asked_often && what == RefitOf::vertices) surface.box_stretches();
-  if ((is_asked_often && what == RefitOf::faces) || is_stale(surface, what)) surface.refit(what);
+  if ((is_asked_often && what == RefitOf::faces) || is_stale(object, what)) surface.refit(what);
 }
 
 }  // namespace graze

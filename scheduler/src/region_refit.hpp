@@ -32,23 +32,20 @@ class RegionRefit {
     std::uint32_t end;
   };
 
-  struct Small {
-    Object* object;
-    std::size_t jobs;  ///< that look at it
-  };
-
   void refit(std::span<const PairJob> jobs, RefitOf what);
   [[nodiscard]] bool with_radii() const { return to_the_letter_ && boxes_ == RefitOf::vertices; }
   void list_objects(std::span<const PairJob> jobs, RefitOf what);
-  [[nodiscard]] bool is_stale(const Surface& surface, RefitOf what) const;
+  void count_job(Object& object, bool walked);
+  [[nodiscard]] bool is_stale(const Object& object, RefitOf what) const;
   void list_parts(Object& object, RefitOf what);
-  void refit_small(const Small& small, RefitOf what) const;
+  void refit_small(Object& object, RefitOf what) const;
 
   TaskPool& tasks_;
   RefitOf boxes_;
   bool to_the_letter_;            ///< bounds are told of or compared as they are in the paper
-  std::vector<Object*> objects_;  ///< of the jobs, each as often as jobs look at it
-  std::vector<Small> small_;
+  std::uint64_t refits_ = 0;      ///< made so far, by which objects know the one under way
+  std::vector<Object*> objects_;  ///< of the jobs, each once
+  std::vector<Object*> small_;
   std::vector<Object*> large_;  ///< that are refitted
   std::vector<Part> parts_;     ///< of `large_`
 };

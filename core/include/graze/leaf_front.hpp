@@ -42,6 +42,8 @@ struct LeafFront {
   Travel travel_b;
   /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
   LastWitness witness;
+  /// Whether the last query went from region to region: if not, their bounds may grow looser than others'.
+  bool walked = true;
 
   void forget() {
     leaves.clear();
