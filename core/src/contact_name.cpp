@@ -77,16 +77,8 @@ int compare_distances(const SurfacePair& pair, const ContactName& left, const Co
   });
 }
 
-bool is_closer_than(const SurfacePair& pair, const ContactName& name, double limit) {
+bool decide_closer_than(const SurfacePair& pair, const ContactName& name, double limit) {
   if (name.meeting == Meeting::pierced || limit == 0 || std::isinf(limit)) return limit > 0;
-  if (name.kind == ContactKind::VV) {
-    const SquaredRange squared =
-        squared_range(pair.a.position(name.a.feature.index), pair.b.position(name.b.feature.index));
-    if (squared.is_below(limit) || squared.is_beyond(limit)) {
-      ++pair.count.in_double;
-      return squared.is_below(limit);
-    }
-  }
   return decide(pair.count, [&]<typename Number>(bool& unsure) {
     const Ratio<Number> square = squared<Number>(pair, name);
     return sign(Number(limit) * Number(limit) * square.denominator - square.numerator, unsure) > 0;

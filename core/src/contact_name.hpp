@@ -5,6 +5,7 @@
 #include <graze/surface.hpp>
 
 #include "arithmetic.hpp"
+#include "certain.hpp"
 #include "naming.hpp"
 
 namespace graze {
@@ -83,8 +84,21 @@ Hulls hulls_of(const SurfacePair& pair, const ContactName& name);
 /// -1, 0 or 1 as the distance of `left` is less than, equal to or greater than that of `right`.
 int compare_distances(const SurfacePair& pair, const ContactName& left, const ContactName& right);
 
-/// Whether the distance is strictly below `limit`.
-bool is_closer_than(const SurfacePair& pair, const ContactName& name, double limit);
+/// Whether the distance is strictly below `limit`, by whatever arithmetic it takes.
+bool decide_closer_than(const SurfacePair& pair, const ContactName& name, double limit);
+/// The same, from plain double where that is certain of two vertices.
+inline bool is_closer_than(const SurfacePair& pair, const ContactName& name, double limit) {
+  if (name.kind == ContactKind::VV) {
+    const SquaredRange squared =
+        squared_range(pair.a.position(name.a.feature.index), pair.b.position(name.b.feature.index));
+    const bool is_below = squared.is_below(limit);
+    if (is_below || squared.is_beyond(limit)) {
+      ++pair.count.in_double;
+      return is_below;
+    }
+  }
+  return decide_closer_than(pair, name, limit);
+}
 
 /// At least the distance, by a relative error of some 2^-40 at most.
 double upper_distance(const SurfacePair& pair, const ContactName& name);

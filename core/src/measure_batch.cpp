@@ -29,6 +29,47 @@ bool is_for_kernels(const ContactName& name, const Shape& shape) {
   return name.meeting == Meeting::closest && shape.low + shape.high <= 4;
 }
 
+Eigen::Vector3d at(const kernels::Points& points, std::size_t lane) {
+  return {points[0][lane], points[1][lane], points[2][lane]};
+}
+
+void measure_alone(const SurfacePair& pair, const ContactName& name, Contact& contact, Sides& sides) {
+  contact = measure_without_sides(pair, name);
+  sides.add(pair, name, contact);
+}
+
+/// Measures contacts of vertices, as many at once as the kernels take.
+void measure_vertices(const SurfacePair& pair, std::span<const ContactName> names, Contact* contact,
+                      MeasureScratch& scratch) {
+  kernels::ContactBatch& batch = scratch.batch;
+  while (!names.empty()) {
+    const auto some = names.first(std::min(names.size(), kernels::contact_lanes));
+    for (std::size_t lane = 0; lane < some.size(); ++lane) {
+      put_corner(pair.a, some[lane].a.feature.index, batch.low[0], lane);
+      put_corner(pair.b, some[lane].b.feature.index, batch.high[0], lane);
+    }
+    kernels::measure().points(batch);
+    for (std::size_t lane = 0; lane < some.size(); ++lane, ++contact) {
+      const ContactName& name = some[lane];
+      if (batch.certain[lane] == 0) {
+        measure_alone(pair, name, *contact, scratch.sides);
+        continue;
+      }
+      *contact = {name.kind,
+                  Side::none,
+                  Side::none,
+                  name.a.feature,
+                  name.b.feature,
+                  at(batch.low[0], lane),
+                  at(batch.high[0], lane),
+                  at(batch.normal, lane),
+                  batch.distance[lane]};
+      scratch.sides.add(pair, name, *contact);
+    }
+    names = names.subspan(some.size());
+  }
+}
+
 /// Measures contacts of one shape, as many at once as the kernels take.
 class Batch {
  public:
@@ -45,9 +86,8 @@ class Batch {
     put(a_is_low ? pair_.b : pair_.a, a_is_low ? name.b : name.a, shape.high, scratch_.batch.high);
     contact_[count_++] = contact;
   }
-  void measure_alone(std::size_t contact) {
-    contacts_[contact] = measure_without_sides(pair_, names_[contact]);
-    scratch_.sides.add(pair_, names_[contact], contacts_[contact]);
+  void add_alone(std::size_t contact) {
+    measure_alone(pair_, names_[contact], contacts_[contact], scratch_.sides);
   }
   void finish() {
     if (count_ == 0) return;
@@ -67,17 +107,13 @@ class Batch {
   }
   [[nodiscard]] kernels::Measure::Kernel kernel() const {
     const kernels::Measure& measure = kernels::measure();
-    if (shape_.high == 1) return measure.points;
     if (shape_.high == 3) return shape_.low == 1 ? measure.point_and_plane : measure.piercing;
     return shape_.low == 1 ? measure.point_and_line : measure.lines;
-  }
-  static Eigen::Vector3d at(const kernels::Points& points, std::size_t lane) {
-    return {points[0][lane], points[1][lane], points[2][lane]};
   }
 
   void take(std::size_t lane) {
     const kernels::ContactBatch& batch = scratch_.batch;
-    if (batch.certain[lane] == 0) return measure_alone(contact_[lane]);
+    if (batch.certain[lane] == 0) return add_alone(contact_[lane]);
     const ContactName& name = names_[contact_[lane]];
     Contact& contact = contacts_[contact_[lane]];
     const bool a_is_low = is_a_low(name);
@@ -107,13 +143,19 @@ class Batch {
 void measure(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
              MeasureScratch& scratch) {
   scratch.sides.begin();
+  // Names are sorted by kind, and that of two vertices is the first.
+  const auto vertices = std::find_if(names.begin(), names.end(), [](const ContactName& name) {
+    return name.kind != ContactKind::VV;
+  });
+  const auto vertex_count = static_cast<std::size_t>(vertices - names.begin());
+  measure_vertices(pair, names.first(vertex_count), contacts.data(), scratch);
   Batch batch(pair, names, contacts, scratch);
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = vertex_count; i < names.size(); ++i) {
     const Shape shape = shape_of(names[i]);
     if (is_for_kernels(names[i], shape))
       batch.add(i, shape);
     else
-      batch.measure_alone(i);
+      batch.add_alone(i);
   }
   batch.finish();
   scratch.sides.finish(pair);

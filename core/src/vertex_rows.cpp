@@ -18,9 +18,11 @@ void add_some(const SurfacePair& pair, double limit, const VertexRows& vertices,
       {scratch.near_row.data(), scratch.near_point.data()});
   pair.count.discarded_in_float += pairs - found;
   for (std::size_t k = 0; k < found; ++k) {
-    const FeaturePiece row = vertex_piece(rows.vertex(scratch.near_row[k]));
-    const FeaturePiece point = vertex_piece(points.vertex(scratch.near_point[k]));
-    const ContactName name = rows_are_of_a ? ContactName::of(row, point) : ContactName::of(point, row);
+    const std::uint32_t row = rows.vertex(scratch.near_row[k]);
+    const std::uint32_t point = points.vertex(scratch.near_point[k]);
+    const std::uint32_t a = rows_are_of_a ? row : point;
+    const std::uint32_t b = rows_are_of_a ? point : row;
+    const ContactName name{ContactKind::VV, vertex_piece(a), vertex_piece(b)};
     if (is_closer_than(pair, name, limit)) names.push_back(name);
   }
 }
