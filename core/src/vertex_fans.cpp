@@ -25,23 +25,25 @@ class Fans {
   void write(std::vector<std::uint32_t>& fans) {
     std::sort(links_.begin(), links_.end());
     for (const Link& link : links_)
-      for (std::size_t next = first_from(link.to); is_from(next, link.to); ++next)
-        links_[next].follows_another = true;
+      if (const std::size_t head = head_of(link.to); is_from(head, link.to)) links_[head].is_led_to = true;
     const std::size_t begin = fans.size();
     for (const bool is_closed : {false, true})
-      for (std::size_t first = 0; first < links_.size(); ++first)
-        if (!links_[first].is_written && (is_closed || !links_[first].follows_another)) {
+      for (const Link& link : links_) {
+        const std::size_t head = head_of(link.from);
+        while ((is_closed || !links_[head].is_led_to) && is_left(head, link.from)) {
           if (fans.size() > begin) fans.push_back(vertex_);
-          write_fan(first, fans);
+          write_fan(link.from, fans);
         }
+      }
   }
 
  private:
-  /// From one vertex around to the next, by a triangle.
+  /// From one vertex around to the next, by a triangle. The first of those from a vertex, their head, tells
+  /// of all of them whether another leads to them, and how many are written; these are the first.
   struct Link {
     std::uint32_t from = 0, to = 0;
-    bool follows_another = false;
-    bool is_written = false;
+    bool is_led_to = false;
+    std::uint32_t written = 0;
 
     friend bool operator<(const Link& a, const Link& b) {
       return std::pair(a.from, a.to) < std::pair(b.from, b.to);
@@ -51,22 +53,22 @@ class Fans {
   void add_link(std::uint32_t from, std::uint32_t to) {
     if (from != to && from != vertex_ && to != vertex_) links_.push_back({from, to});
   }
-  [[nodiscard]] std::size_t first_from(std::uint32_t vertex) const {
+  [[nodiscard]] std::size_t head_of(std::uint32_t vertex) const {
     return static_cast<std::size_t>(std::lower_bound(links_.begin(), links_.end(), Link{vertex, 0}) -
                                     links_.begin());
   }
   [[nodiscard]] bool is_from(std::size_t link, std::uint32_t vertex) const {
     return link < links_.size() && links_[link].from == vertex;
   }
-  void write_fan(std::size_t link, std::vector<std::uint32_t>& fans) {
-    fans.push_back(links_[link].from);
-    std::uint32_t last = links_[link].from;
-    do {
-      links_[link].is_written = true;
-      last = links_[link].to;
-      fans.push_back(last);
-      for (link = first_from(last); is_from(link, last) && links_[link].is_written;) ++link;
-    } while (is_from(link, last));
+  [[nodiscard]] bool is_left(std::size_t head, std::uint32_t vertex) const {
+    return is_from(head, vertex) && is_from(head + links_[head].written, vertex);
+  }
+  void write_fan(std::uint32_t vertex, std::vector<std::uint32_t>& fans) {
+    fans.push_back(vertex);
+    for (std::size_t head = head_of(vertex); is_left(head, vertex); head = head_of(vertex)) {
+      vertex = links_[head + links_[head].written++].to;
+      fans.push_back(vertex);
+    }
   }
 
   std::uint32_t vertex_ = 0;

@@ -93,6 +93,11 @@ TEST_CASE("fans: faces against each other's sense, around one edge, and without 
   CHECK(fans_of(*against, 0) == Numbers{1, 2, 0, 3, 2});
   check_triangles(of_faces(5, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 2}}));
   check_triangles(of_faces(3, {{0, 1, 2}, {0, 1, 2}}));
+  oracle::Shape book = of_faces(402, {});
+  for (std::uint32_t page = 2; page < 402; ++page)
+    book.faces.insert(book.faces.end(), {{0, 1, page}, {0, page, 1}});
+  check_triangles(book);
+  CHECK(fans_of(*mesh_of(book), 0).size() == 801);
   const auto flat = mesh_of(of_faces(4, {{0, 1, 1}, {0, 0, 2}, {0, 1, 0, 2}}));
   for (const std::uint32_t vertex : {0U, 1U, 2U, 3U}) CHECK(fans_of(*flat, vertex).empty());
 }
