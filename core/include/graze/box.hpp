@@ -55,15 +55,18 @@ inline bool contains(const Box& box, const Eigen::Vector3d& point) {
   return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
 }
 
-/// At most the distance of any two points of the boxes; 0 where they overlap.
+/// At most the distance of any two points of the boxes; 0 where they overlap. Without a branch: whether boxes
+/// overlap along an axis is as good as random where trees are walked, and a branch for each took three times
+/// as long.
 inline double lower_distance(const Box& a, const Box& b) {
-  double squared = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double gap = std::max(0.0, std::max(a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]));
-    squared += gap * gap;
-  }
-  if (squared == 0) return 0;
-  return std::max(0.0, std::sqrt(squared) - lost_to_underflow) * round_down;
+  // Two axes a register, y in both.
+  const Eigen::Array2d below_xy = a.min.head<2>() - b.max.head<2>();
+  const Eigen::Array2d above_xy = b.min.head<2>() - a.max.head<2>();
+  const Eigen::Array2d below_yz = a.min.tail<2>() - b.max.tail<2>();
+  const Eigen::Array2d above_yz = b.min.tail<2>() - a.max.tail<2>();
+  const Eigen::Array2d xy = below_xy.max(above_xy).max(0.0).square();
+  const Eigen::Array2d yz = below_yz.max(above_yz).max(0.0).square();
+  return std::max(0.0, std::sqrt(xy[0] + xy[1] + yz[1]) - lost_to_underflow) * round_down;
 }
 
 }  // namespace graze
