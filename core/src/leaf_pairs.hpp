@@ -82,9 +82,17 @@ class LeafPairs {
     scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
   }
 
-  /// Appends leaf pairs of a front.
-  void take(std::span<const RegionPair> front, LeafPairList& found) {
-    for (const RegionPair& leaves : front) found.leaves.push_back({lower_of_leaves(leaves), leaves});
+  /// Appends those leaf pairs of a front that are not further than a distance; without a branch, since which
+  /// are is as good as random.
+  void take(std::span<const RegionPair> front, double distance, LeafPairList& found) {
+    std::size_t count = found.leaves.size();
+    found.leaves.resize(count + front.size());
+    for (const RegionPair& leaves : front) {
+      const double lower = lower_of_leaves(leaves);
+      found.leaves[count] = {lower, leaves};
+      count += lower <= distance ? 1 : 0;
+    }
+    found.leaves.resize(count);
   }
 
   /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds: whether something

@@ -27,6 +27,19 @@ constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t leaf_pairs_each_of_vertices = 64;
 constexpr std::size_t contacts_each = 128;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
+/// many they are; the others are not looked into, and stay in no order.
+std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance) {
+  const auto rest = std::partition(leaves.begin(), leaves.end(),
+                                   [&](const LeafPair& each) { return each.lower <= distance; });
+  std::sort(leaves.begin(), rest, [](const LeafPair& left, const LeafPair& right) {
+    return std::tie(left.lower, left.pair.a, left.pair.b) < std::tie(right.lower, right.pair.a, right.pair.b);
+  });
+  return static_cast<std::size_t>(rest - leaves.begin());
+}
+
 }  // namespace
 
 /// One thread's view of the search.
@@ -297,7 +310,7 @@ void PairSearch::begin_reach(Worker& worker) {
 }
 
 void PairSearch::run_reach(Slice& slice, Worker& worker) {
-  if (from_front_) return worker.leaf_pairs.take(slice.start, slice.found);
+  if (from_front_) return worker.leaf_pairs.take(slice.start, infinity, slice.found);
   if (slice.start.empty()) return;
   slice.complete = worker.leaf_pairs.walk(
       slice.start, may_touch_within_slack(), [](const RegionPair&) {}, slice.found);
@@ -380,7 +393,8 @@ void PairSearch::begin_measuring(Worker& worker) {
     begin_approach(worker);
   } else {
     stage_ = Stage::measured;
-    answer_->contacts.resize(names_.size());
+    // Made in place each would be zeroed first, by a slow string store.
+    answer_->contacts.resize(names_.size(), Contact{});
     add_slices_of(0, names_.size(), contacts_each);
   }
 }
@@ -407,7 +421,7 @@ void PairSearch::finish_measuring(Worker& worker) {
 ContactName PairSearch::lowest_measured(Worker& worker) const {
   worker.scratch.lowest.clear();
   ClosestSet closest(worker.pair, Ties::lowest, worker.scratch.lowest);
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   for (const Contact& contact : answer_->contacts) nearest = std::min(nearest, contact.distance);
   // More than the rounding of a contact's distance, which is relative to the size of its features and their
   // gap; those are inside the objects' boxes.
@@ -455,7 +469,7 @@ void PairSearch::seed(Slice& slice) const {
 }
 
 void PairSearch::run_approach(Slice& slice, Worker& worker) {
-  if (from_front_) return worker.leaf_pairs.take(slice.start, slice.found);
+  if (from_front_) return worker.leaf_pairs.take(slice.start, closest_.closest.upper, slice.found);
   if (slice.start.empty()) return;
   seed(slice);
   ClosestRange range(worker.pair, query_, ties(), slice.closest);
@@ -481,15 +495,13 @@ void PairSearch::begin_closest(Worker& worker) {
   slice_count_ = 0;
   stage_ = Stage::closest;
   auto& leaves = found_.leaves;
-  std::sort(leaves.begin(), leaves.end(), [](const LeafPair& left, const LeafPair& right) {
-    return std::tie(left.lower, left.pair.a, left.pair.b) < std::tie(right.lower, right.pair.a, right.pair.b);
-  });
-  const std::size_t first = sliced_ ? std::min(leaves.size(), closest_first) : leaves.size();
+  const std::size_t near = sort_near_first(leaves, closest_.closest.upper);
+  const std::size_t first = sliced_ ? std::min(near, closest_first) : near;
   if (!look_into(0, first, closest_, worker)) return give_up();
   // Leaf pairs are kept or not by their lower bounds alone, which ascend.
   ClosestRange range(worker.pair, query_, ties(), closest_);
   std::size_t end = first;
-  while (end < leaves.size() && !range.is_settled() && range.keep(leaves[end].lower)) ++end;
+  while (end < near && !range.is_settled() && range.keep(leaves[end].lower)) ++end;
   add_slices_of(first, end, closest_each);
 }
 
@@ -522,7 +534,7 @@ void PairSearch::finish_closest(Worker& worker) {
     // Settled, unless something outside the front may be as near as what is in it.
     if (ClosestRange(worker.pair, query_, ties(), closest_).keep(beyond_front_)) {
       from_front_ = false;
-      closest_.lower = std::numeric_limits<double>::infinity();
+      closest_.lower = infinity;
       return approach(worker);
     }
   } else {
