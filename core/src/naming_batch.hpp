@@ -103,16 +103,19 @@ class NamingBatch {
     for (std::size_t corner = 0; corner < Corners; ++corner)
       put_corner(surface, vertices[corner], points[corner], lane);
   }
+  // Pieces by their place, in the order of `Along` and `Place`: which it is nothing foretells.
   static FeaturePiece piece_of_edge(const Mesh& mesh, std::uint32_t edge, double place) {
-    const auto along = static_cast<Along>(static_cast<std::uint8_t>(place));
-    if (along == Along::inside) return edge_piece(edge);
-    return vertex_piece(mesh.edge(edge)[along == Along::first ? 0 : 1]);
+    const auto [first, second] = mesh.edge(edge);
+    const std::array<FeaturePiece, 3> pieces{vertex_piece(first), vertex_piece(second), edge_piece(edge)};
+    return pieces[static_cast<std::size_t>(place)];
   }
-  static FeaturePiece piece_of_face(const Mesh& mesh, std::uint32_t face, double number) {
-    const auto place = static_cast<Place>(static_cast<std::uint8_t>(number));
-    if (place == Place::inside) return face_piece(face, Piece::first);
-    if (place < Place::edge01) return vertex_piece(mesh.face(face)[static_cast<std::size_t>(place)]);
-    return edge_piece(mesh.face_edges(face)[static_cast<std::size_t>(place) - 3]);
+  static FeaturePiece piece_of_face(const Mesh& mesh, std::uint32_t face, double place) {
+    const auto corner = mesh.face(face);
+    const auto edge = mesh.face_edges(face);
+    const std::array<FeaturePiece, 7> pieces{
+        vertex_piece(corner[0]), vertex_piece(corner[1]), vertex_piece(corner[2]),       edge_piece(edge[0]),
+        edge_piece(edge[1]),     edge_piece(edge[2]),     face_piece(face, Piece::first)};
+    return pieces[static_cast<std::size_t>(place)];
   }
 
   kernels::SegmentPairBatch segment_batch_{};

@@ -1,8 +1,21 @@
 #include "report_rows.hpp"
 
-#include <tuple>
+#include <cstdint>
+#include <utility>
 
 namespace graze {
+namespace {
+
+/// What contacts are ordered by, as two numbers.
+std::pair<std::uint64_t, std::uint64_t> key_of(const Contact& contact) {
+  const auto number = [](const Feature& feature) {
+    return std::uint64_t{static_cast<std::uint8_t>(feature.kind)} << 32U | feature.index;
+  };
+  return {std::uint64_t{static_cast<std::uint8_t>(contact.kind)} << 40U | number(contact.feature_a),
+          number(contact.feature_b)};
+}
+
+}  // namespace
 
 std::optional<PairReport> repeated_row(const PairJob& job) {
   if (job.last == nullptr) return std::nullopt;
@@ -36,13 +49,11 @@ std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer) {
 }
 
 void set_since(std::span<const Contact> last, std::span<Contact> contacts, std::uint64_t frame) {
-  const auto key_of = [](const Contact& contact) {
-    return std::tie(contact.kind, contact.feature_a, contact.feature_b);
-  };
   auto before = last.begin();
   for (Contact& contact : contacts) {
-    while (before != last.end() && key_of(*before) < key_of(contact)) ++before;
-    const bool is_old = before != last.end() && key_of(*before) == key_of(contact);
+    const auto key = key_of(contact);
+    while (before != last.end() && key_of(*before) < key) ++before;
+    const bool is_old = before != last.end() && key_of(*before) == key;
     contact.since = is_old ? before->since : frame;
   }
 }
