@@ -410,7 +410,8 @@ void ObjectStore::take_large(TaskPool& tasks) {
     for (std::size_t place = begin; place < end; ++place) parts_[to_write++] = parts_[place];
   }
   tasks.run(to_write, [&](unsigned, std::size_t item) {
-    const auto& [object, begin, count, seen] = parts_[item];
+    // The last ones first, which are still in a cache.
+    const auto& [object, begin, count, seen] = parts_[to_write - 1 - item];
     const AccessScope access({AccessRight::write(object), {}});
     write_part(*object, begin, begin + count);
   });
