@@ -51,11 +51,10 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
   take_up_calls(builder.diagnostics());
   store_.read_positions(tasks_, builder.diagnostics());
   statistics.read_ms = lap();
-  std::span<const PairJob> jobs;
   if (std::exchange(is_settled_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
   } else {
-    jobs = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
+    const auto jobs = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
     statistics.pairs_ms = lap();
     refit_.run(jobs);
     statistics.refit_ms = lap();
@@ -65,10 +64,12 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
     sum_counters(statistics);
     jobs_.even_out_memory();
     reports_.even_out();
+    count_bytes_of_pairs(jobs, statistics);
   }
   statistics.objects_unread = store_.unread_count();
   statistics.objects_surveyed = store_.surveyed_count();
-  count_bytes(jobs, statistics);
+  statistics.object_bytes = store_.byte_count() + staging_.byte_count();
+  statistics.report_bytes = reports_.byte_count();
   statistics.publish_ms = lap();
   statistics.step_ms = Lap(start)();
 }
@@ -91,7 +92,10 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
                      pairs_.filter().forget(*object);
                    store_.apply(removed);
                  },
-                 [&](Reserve& call) { reserve(call.capacity); },
+                 [&](Reserve& call) {
+                   is_settled_ = false;
+                   reserve(call.capacity);
+                 },
                  [&](AddObject& added) {
                    if (is_reserved_) make_ready(*added.surface);
                    store_.apply(added);
@@ -176,14 +180,13 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.regions_expanded = sum.regions_expanded;
 }
 
-void Step::count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics) {
+/// Of what nothing touches in a step that repeats rows, where counting it would be a third of the work.
+void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics) {
   // Only what a job looked at may have got memory for its regions.
   for (const PairJob& job : jobs)
     if (job.is_looked_at())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
-  statistics.object_bytes = store_.byte_count() + staging_.byte_count();
   statistics.pair_bytes = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count();
-  statistics.report_bytes = reports_.byte_count();
   statistics.thread_bytes = jobs_.thread_byte_count();
 }
 

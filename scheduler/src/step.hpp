@@ -37,7 +37,7 @@ class Step {
   void write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder);
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
   void sum_counters(StepStatistics& statistics);
-  void count_bytes(std::span<const PairJob> jobs, StepStatistics& statistics);
+  void count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics);
 
   const SceneSettings& settings_;
   Staging& staging_;
