@@ -54,6 +54,9 @@ void ReportPool::repeat_rows() {
 
 /// Those of slots that nobody reads.
 void ReportPool::end_loans() {
+  // Where nobody has let go of any there are none, however many are held. One that is let go just now has its
+  // loan ended when it is filled.
+  if (free_count_.load(std::memory_order_acquire) == 0) return;
   for (std::uint32_t index = 0; loan_count_ > 0 && index < slot_count_; ++index)
     if (is_unread(index)) end_loan(index);
 }
