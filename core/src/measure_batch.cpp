@@ -144,9 +144,8 @@ void measure(const SurfacePair& pair, std::span<const ContactName> names, std::s
              MeasureScratch& scratch) {
   scratch.sides.begin();
   // Names are sorted by kind, and that of two vertices is the first.
-  const auto vertices = std::find_if(names.begin(), names.end(), [](const ContactName& name) {
-    return name.kind != ContactKind::VV;
-  });
+  const auto vertices = std::find_if(names.begin(), names.end(),
+                                     [](const ContactName& name) { return name.kind != ContactKind::VV; });
   const auto vertex_count = static_cast<std::size_t>(vertices - names.begin());
   measure_vertices(pair, names.first(vertex_count), contacts.data(), scratch);
   Batch batch(pair, names, contacts, scratch);

@@ -93,7 +93,7 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
                    store_.apply(removed);
                  },
                  [&](Reserve& call) {
-                   is_settled_ = false;
+                   is_settled_ = false;  // a step that repeats rows does not count what is made room for
                    reserve(call.capacity);
                  },
                  [&](AddObject& added) {

@@ -80,9 +80,9 @@ class GRAZE_API Mesh {
     return row(edge_faces_, edge_face_begin_, edge);
   }
   /// The vertices around `vertex` in the order of its triangles, of which each has one of them and the next
-  /// for its other corners, in its own sense. Where no triangle is between two of them `vertex` itself stands,
-  /// so that there is a triangle without area; quads are two triangles, and others without area at any
-  /// position are left out.
+  /// for its other corners, in its own sense. Where no triangle is between two of them `vertex` itself
+  /// stands, so that there is a triangle without area; quads are two triangles, and others without area at
+  /// any position are left out.
   [[nodiscard]] std::span<const std::uint32_t> vertex_fans(std::uint32_t vertex) const {
     return row(fans_, fan_begin_, vertex);
   }
