@@ -14,8 +14,8 @@ enum class Ties : std::uint8_t { lowest, all };
 /// The names at the least distance among some, and a bound on that distance.
 struct Closest {
   NameSet names;
-  /// At least the least distance; infinite before the first offer. It may be known from elsewhere, before a
-  /// name at that distance has been offered.
+  /// At least the least distance that is looked for; infinite before the first offer. It may be known from
+  /// elsewhere, before a name at that distance has been offered.
   double upper = std::numeric_limits<double>::infinity();
   /// Whether an edge pierces a face, among the names offered.
   bool pierced = false;
@@ -55,7 +55,8 @@ class ClosestSet {
   void at_most(double distance) { closest_.upper = std::min(closest_.upper, distance); }
   /// Whether one name is enough, it is at distance 0, and that is contact.
   [[nodiscard]] bool is_settled(double threshold) const {
-    return ties_ == Ties::lowest && closest_.upper == 0 && (closest_.pierced || threshold > 0);
+    return ties_ == Ties::lowest && closest_.upper == 0 && !names_.empty() &&
+           (closest_.pierced || threshold > 0);
   }
   /// Puts the names in order.
   void settle() { names_.settle(); }

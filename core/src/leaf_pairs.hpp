@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bounds.hpp"
@@ -82,12 +83,21 @@ class LeafPairs {
     scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
   }
 
-  /// Appends those leaf pairs of a front that are not further than a distance; without a branch, since which
-  /// are is as good as random.
-  void take(std::span<const RegionPair> front, double distance, LeafPairList& found) {
-    std::size_t count = found.leaves.size();
-    found.leaves.resize(count + front.size());
-    for (const RegionPair& leaves : front) {
+  /// Appends those leaf pairs of a front that are not further than a distance, where none has come nearer by
+  /// more than `motion` since they were listed. Without a branch, since which are is as good as random; of most
+  /// what was known when they were listed is enough, and no box is looked at.
+  void take(std::span<const ListedLeaves> front, double distance, double motion, LeafPairList& found) {
+    const std::size_t first = found.leaves.size();
+    found.leaves.resize(first + front.size());
+    const double most = (distance + motion) * round_up;
+    std::size_t count = first;
+    for (const ListedLeaves& leaves : front) {
+      found.leaves[count].pair = leaves.pair;
+      count += static_cast<double>(leaves.lower) <= most ? 1 : 0;
+    }
+    const std::size_t end = std::exchange(count, first);
+    for (std::size_t i = first; i < end; ++i) {
+      const RegionPair leaves = found.leaves[i].pair;
       const double lower = lower_of_leaves(leaves);
       found.leaves[count] = {lower, leaves};
       count += lower <= distance ? 1 : 0;
@@ -122,6 +132,10 @@ class LeafPairs {
         },
         most);
   }
+  /// At most how far apart two leaves are.
+  double lower_of_leaves(const RegionPair& leaves) {
+    return lower_distance(scratch_.boxes_a.of(leaves.a), scratch_.boxes_b.of(leaves.b));
+  }
   /// Where the last walk stopped.
   [[nodiscard]] std::span<const RegionPair> front() const { return scratch_.dmv.front; }
 
@@ -143,10 +157,6 @@ class LeafPairs {
     if (size_b > very_different * size_a && !b.is_leaf()) return {false, true};
     return {true, true};
   }
-  double lower_of_leaves(const RegionPair& leaves) {
-    return lower_distance(scratch_.boxes_a.of(leaves.a), scratch_.boxes_b.of(leaves.b));
-  }
-
   const SurfacePair& pair_;
   const PairQuery& query_;
   LeafPairScratch& scratch_;

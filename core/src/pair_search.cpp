@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <graze/cut_by_work.hpp>
 #include <tuple>
+#include <utility>
 
 #include "close_vertices.hpp"
 #include "closest_vertices.hpp"
@@ -29,6 +30,13 @@ constexpr std::size_t contacts_each = 128;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// A bound that is not negative in half of the memory.
+float rounded_down(double lower) {
+  constexpr double least = std::numeric_limits<float>::min();
+  constexpr double most = std::numeric_limits<float>::max();
+  return lower < least ? 0 : static_cast<float>(std::min(lower, most) * (1 - 0x1p-23));
+}
+
 /// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
 /// many they are; the others are not looked into, and stay in no order.
 std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance) {
@@ -54,8 +62,9 @@ class PairSearch::Worker {
   }
   /// Before looking into some of the leaf pairs found: all slices see them in one frame.
   void begin_leaves(const LeafPairList& found) {
-    if (found.leaves.empty()) return;
-    const RegionPair& first = found.leaves.front().pair;
+    if (!found.leaves.empty()) begin_leaves(found.leaves.front().pair);
+  }
+  void begin_leaves(const RegionPair& first) {
     scratch.features.begin(leaf_pairs.leaf_a(first), leaf_pairs.leaf_b(first));
   }
   ~Worker() {
@@ -217,7 +226,13 @@ void PairSearch::add_slices_of(std::size_t begin, std::size_t end, std::size_t e
 void PairSearch::slice_front() {
   if (!about_vertices()) validate(*front_, *a_, *b_);
   slice_count_ = 0;
-  add_slices_of(front_->leaves, front_pairs_each);
+  add_slices_of(0, front_->leaves.size(), front_pairs_each);
+}
+
+/// What a slice of the front has that is not further than a distance.
+void PairSearch::take_front(Slice& slice, double distance, Worker& worker) const {
+  const auto leaves = std::span(front_->leaves).subspan(slice.begin, slice.end - slice.begin);
+  worker.leaf_pairs.take(leaves, distance, front_->motion_now(*a_, *b_), slice.found);
 }
 
 /// Walks until there is enough for many slices; what was found on the way is that of the first slice.
@@ -252,7 +267,7 @@ void PairSearch::remember(double wanted, Worker& worker) {
   if (query_.slack <= 0) return;
   for (const LeafPair& leaves : found_.leaves) {
     if (leaves.lower <= wanted + query_.slack)
-      front_->leaves.push_back(leaves.pair);
+      front_->leaves.push_back({leaves.pair, rounded_down(leaves.lower)});
     else
       found_.beyond = std::min(found_.beyond, leaves.lower);
   }
@@ -263,6 +278,15 @@ void PairSearch::remember(double wanted, Worker& worker) {
   front_->beyond = found_.beyond;
   front_->travel_a = a_->travel();
   front_->travel_b = b_->travel();
+}
+
+/// Puts the front in the order of the leaves' numbers.
+void PairSearch::sort_front() {
+  const auto number = [](const ListedLeaves& leaves) {
+    return std::uint64_t{leaves.pair.a} << 32U | leaves.pair.b;
+  };
+  std::sort(front_->leaves.begin(), front_->leaves.end(),
+            [&](const auto& left, const auto& right) { return number(left) < number(right); });
 }
 
 void PairSearch::give_up() {
@@ -310,7 +334,7 @@ void PairSearch::begin_reach(Worker& worker) {
 }
 
 void PairSearch::run_reach(Slice& slice, Worker& worker) {
-  if (from_front_) return worker.leaf_pairs.take(slice.start, infinity, slice.found);
+  if (from_front_) return take_front(slice, query_.threshold, worker);
   if (slice.start.empty()) return;
   slice.complete = worker.leaf_pairs.walk(
       slice.start, may_touch_within_slack(), [](const RegionPair&) {}, slice.found);
@@ -440,15 +464,43 @@ Ties PairSearch::ties() const {
   return query_.detail == ContactDetail::closest ? Ties::all : Ties::lowest;
 }
 
+/// Surfaces that touched mostly still do, and then one place where they do is enough: that is looked for
+/// first, with nothing else to be near.
 void PairSearch::begin_approach(Worker& worker) {
   front_->walked = true;
+  only_touching_ = front_->touched && ties() == Ties::lowest && !about_vertices();
+  begin_search(worker);
+}
+
+void PairSearch::begin_search(Worker& worker) {
   beyond_front_ = front_->beyond_now(*a_, *b_);
   from_front_ = beyond_front_ > 0;
   closest_.clear();
-  ClosestRange range(worker.pair, query_, ties(), closest_);
-  range.offer_middles({});
-  range.at_most(upper_distance(worker.pair, front_->witness, about_vertices()));
+  if (only_touching_) {
+    closest_.closest.upper = 0;
+    is_bounded_ = true;
+    if (from_front_) return look_for_touching(worker);
+  } else {
+    ClosestRange range(worker.pair, query_, ties(), closest_);
+    range.offer_middles({});
+    const double of_roots = closest_.closest.upper;
+    range.at_most(upper_distance(worker.pair, front_->witness, about_vertices()));
+    is_bounded_ = closest_.closest.upper < of_roots;
+  }
   approach(worker);
+}
+
+/// One leaf pair of the front after the other, until one touches; nothing is to be sorted for it.
+void PairSearch::look_for_touching(Worker& worker) {
+  ClosestRange range(worker.pair, query_, ties(), closest_);
+  const double motion = front_->motion_now(*a_, *b_);
+  if (!front_->leaves.empty()) worker.begin_leaves(front_->leaves.front().pair);
+  for (const auto& [leaves, lower] : front_->leaves) {
+    if (range.is_settled()) break;
+    if (static_cast<double>(lower) > motion || worker.leaf_pairs.lower_of_leaves(leaves) > 0) continue;
+    if (!look_into(leaves, range, worker)) return give_up();
+  }
+  finish_closest(worker);
 }
 
 /// Finds the pairs of leaves to look into.
@@ -458,24 +510,29 @@ void PairSearch::approach(Worker& worker) {
   ClosestRange range(worker.pair, query_, ties(), closest_);
   slice_walk(
       worker, [&](double lower, double slack) { return range.keep(lower, slack); },
-      [&](const RegionPair& regions) { range.offer_middles(regions); });
+      [&](const RegionPair& regions) {
+        if (!is_bounded_) range.offer_middles(regions);
+      });
 }
 
 /// A slice goes on from what was known when it was cut, not from what others find meanwhile.
 void PairSearch::seed(Slice& slice) const {
   slice.closest.clear();
-  slice.closest.closest.names.assign(closest_.closest.names.front());
+  if (!closest_.closest.names.empty()) slice.closest.closest.names.assign(closest_.closest.names.front());
   slice.closest.closest.upper = closest_.closest.upper;
 }
 
 void PairSearch::run_approach(Slice& slice, Worker& worker) {
-  if (from_front_) return worker.leaf_pairs.take(slice.start, closest_.closest.upper, slice.found);
+  if (from_front_) return take_front(slice, closest_.closest.upper, worker);
   if (slice.start.empty()) return;
   seed(slice);
   ClosestRange range(worker.pair, query_, ties(), slice.closest);
   slice.complete = worker.leaf_pairs.walk(
       slice.start, [&](double lower, double slack) { return range.keep(lower, slack); },
-      [&](const RegionPair& regions) { range.offer_middles(regions); }, slice.found);
+      [&](const RegionPair& regions) {
+        if (!is_bounded_) range.offer_middles(regions);
+      },
+      slice.found);
 }
 
 void PairSearch::take_up_closest(Worker& worker) {
@@ -515,21 +572,31 @@ bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& fou
   for (std::size_t i = begin; i < end && !range.is_settled(); ++i) {
     const LeafPair& leaves = found_.leaves[i];
     if (!range.keep(leaves.lower)) continue;
-    if (!worker.meter.spend()) return false;
-    ++worker.meter.counters().leaf_pairs_tested;
-    const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
-    const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
-    if (about_vertices())
-      range.offer_vertices(a, b, worker.scratch.features);
-    else
-      range.offer_features(a, b, worker.scratch.features);
+    if (!look_into(leaves.pair, range, worker)) return false;
   }
+  return true;
+}
+
+/// Looks into two leaves; false when the budget ran out.
+bool PairSearch::look_into(const RegionPair& leaves, ClosestRange& range, Worker& worker) const {
+  if (!worker.meter.spend()) return false;
+  ++worker.meter.counters().leaf_pairs_tested;
+  const LeafOf a = worker.leaf_pairs.leaf_a(leaves);
+  const LeafOf b = worker.leaf_pairs.leaf_b(leaves);
+  if (about_vertices())
+    range.offer_vertices(a, b, worker.scratch.features);
+  else
+    range.offer_features(a, b, worker.scratch.features);
   return true;
 }
 
 void PairSearch::finish_closest(Worker& worker) {
   take_up_closest(worker);
   slice_count_ = 0;
+  if (closest_.closest.names.empty()) {
+    only_touching_ = false;
+    return begin_search(worker);
+  }
   if (from_front_) {
     // Settled, unless something outside the front may be as near as what is in it.
     if (ClosestRange(worker.pair, query_, ties(), closest_).keep(beyond_front_)) {
@@ -550,6 +617,8 @@ void PairSearch::report_closest(Worker& worker) {
                         is_closer_than(worker.pair, nearest, query_.threshold);
   const bool in_reach = closest_.lower < query_.reach || is_closer_than(worker.pair, nearest, query_.reach);
   answer_->listed = answer_->in_contact || in_reach;
+  const bool touched = std::exchange(front_->touched, closest_.closest.upper == 0);
+  if (front_->touched && !touched) sort_front();
   if (!answer_->listed) return;
   set_distance(worker, nearest);
   front_->witness = last_witness_of(worker.pair, nearest, answer_->witness.point_a, answer_->witness.point_b);

@@ -70,8 +70,8 @@ class PairSearch {
     done,
   };
   struct Slice {
-    std::span<const RegionPair> start;  ///< where to walk from, or part of a front
-    std::size_t begin = 0;              ///< a range of leaf pairs or names
+    std::span<const RegionPair> start;  ///< where to walk from
+    std::size_t begin = 0;              ///< a range of a front, of leaf pairs or of names
     std::size_t end = 0;
     bool complete = true;
     LeafPairList found;
@@ -101,10 +101,13 @@ class PairSearch {
   [[nodiscard]] auto may_touch_within_slack() const;
 
   void begin_approach(Worker& worker);
+  void begin_search(Worker& worker);
   void approach(Worker& worker);
   void run_approach(Slice& slice, Worker& worker);
   void begin_closest(Worker& worker);
+  void look_for_touching(Worker& worker);
   bool look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const;
+  bool look_into(const RegionPair& leaves, ClosestRange& range, Worker& worker) const;
   void take_up_closest(Worker& worker);
   void finish_closest(Worker& worker);
   void report_closest(Worker& worker);
@@ -114,12 +117,14 @@ class PairSearch {
   void add_slices_of(std::span<const RegionPair> pairs, std::size_t each);
   void add_slices_of(std::size_t begin, std::size_t end, std::size_t each);
   void slice_front();
+  void take_front(Slice& slice, double distance, Worker& worker) const;
   void sort_found(Worker& worker);
   void slice_leaves_in_contact();
   template <typename Keep, typename Meet>
   void slice_walk(Worker& worker, const Keep& keep, const Meet& meet);
   void gather_found();
   void remember(double wanted, Worker& worker);
+  void sort_front();
   void set_distance(Worker& worker, const ContactName& nearest);
   [[nodiscard]] Ties ties() const;
   [[nodiscard]] bool about_vertices() const { return is_about_vertices(query_.detail); }
@@ -132,6 +137,8 @@ class PairSearch {
   bool sliced_ = false;
   bool from_front_ = false;  ///< the slices begin at the last query's front
   double beyond_front_ = -1;
+  bool is_bounded_ = false;     ///< by the last answer, so that middle vertices need not be asked
+  bool only_touching_ = false;  ///< the search for the closest points is for those at distance 0
 
   Stage stage_ = Stage::done;
   std::vector<Slice> slices_;  ///< kept longer than `slice_count_` for their memory

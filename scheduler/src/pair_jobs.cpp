@@ -21,7 +21,7 @@ std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::tim
   return start + *budget;
 }
 
-/// Pairs of leaves in the fronts of all pairs of objects together, 8 bytes each.
+/// Pairs of leaves in the fronts of all pairs of objects together, 12 bytes each.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 
 /// What each worker makes room for when room is reserved, of one pair: so many contacts, pairs of leaves, and

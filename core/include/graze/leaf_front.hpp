@@ -15,6 +15,12 @@ struct RegionPair {
   std::uint32_t b = 0;
 };
 
+/// A pair of leaves, and a lower bound of how far apart they were when they were listed.
+struct ListedLeaves {
+  RegionPair pair;
+  float lower = 0;
+};
+
 /// A point of a surface that moves with it: of a vertex, an edge, a fold or a triangle, by its corners.
 struct SurfacePoint {
   std::uint32_t size = 0;  ///< how many corners; 0 for no point
@@ -34,7 +40,7 @@ struct LastWitness {
 /// query, of a detail that is about surfaces or vertices as this one's was, can start there. It stays good
 /// while the surfaces move less than it was made loose.
 struct LeafFront {
-  std::vector<RegionPair> leaves;
+  std::vector<ListedLeaves> leaves;
   /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
   /// nothing is known.
   double beyond = -1;
@@ -42,6 +48,8 @@ struct LeafFront {
   Travel travel_b;
   /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
   LastWitness witness;
+  /// Whether the surfaces were at distance 0 when a query looked for the closest points last.
+  bool touched = false;
   /// Whether the last query went from region to region: if not, their bounds may grow looser than others'.
   bool walked = true;
 
@@ -49,13 +57,17 @@ struct LeafFront {
     leaves.clear();
     beyond = -1;
     witness = {};
+    touched = false;
   }
   /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
   [[nodiscard]] double beyond_now(const Surface& a, const Surface& b) const {
     if (!(beyond > 0)) return -1;
     if (beyond == std::numeric_limits<double>::infinity()) return beyond;
-    const double motion = (a.motion_since(travel_a) + b.motion_since(travel_b)) * round_up;
-    return (beyond - motion) * round_down;
+    return (beyond - motion_now(a, b)) * round_down;
+  }
+  /// Pairs of leaves are at most this much nearer to each other than they were at the two marks.
+  [[nodiscard]] double motion_now(const Surface& a, const Surface& b) const {
+    return (a.motion_since(travel_a) + b.motion_since(travel_b)) * round_up;
   }
 };
 

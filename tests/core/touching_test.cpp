@@ -1,0 +1,108 @@
+// Surfaces that touched a step ago are looked at for that first: whether they still do or not, the answer is
+// that of a query that knows nothing of it.
+
+#include <array>
+#include <graze/floating_point_scope.hpp>
+#include <graze/pair_query.hpp>
+#include <iostream>
+#include <limits>
+
+#include "core/comparison.hpp"
+#include "core/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+namespace {
+
+using oracle::Shape;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Meeting {
+  const char* name;
+  Shape a;
+  Shape b;
+  double wobble;
+};
+
+/// Towards each other, through and apart again, in steps of a 32nd: exact, so that what does not wobble
+/// touches without piercing where its sides meet.
+double away_at(int step) {
+  return std::abs(step - 40) / 32.0 + 0.5;
+}
+
+struct Tally {
+  std::size_t touched = 0;   ///< answers at distance 0
+  std::size_t parted = 0;    ///< answers apart after one at distance 0
+  std::size_t unwalked = 0;  ///< answers at distance 0 after one, from the listed leaves alone
+};
+
+Tally compare_steps(const Meeting& meeting, PairQuery query) {
+  Surface a = surface_of(meeting.a);
+  Surface b = surface_of(meeting.b);
+  LeafFront front;
+  PairDetector detector;
+  PairDetector of_nothing;
+  Tally tally;
+  for (int step = 0; step < 80; ++step) {
+    const auto seed = static_cast<std::uint64_t>(step);
+    REQUIRE(a.set_positions(wobbled(meeting.a, meeting.wobble, seed).positions).taken());
+    REQUIRE(b.set_positions(
+                 mapped(wobbled(meeting.b, meeting.wobble, seed + 100), 1, {away_at(step), 0, 0}).positions)
+                .taken());
+    if (step % 5 == 0) a.refit_faces();
+    if (step % 7 == 0) b.refit_faces();
+    INFO(meeting.name << ", step " << step << ", threshold " << query.threshold);
+    const bool touched = front.touched;
+    PairAnswer answer;
+    PairAnswer afresh;
+    PairCounters counters;
+    LeafFront no_front;
+    query.slack = 0.25;
+    detector.detect(a, b, query, front, answer, counters);
+    PairCounters counters_afresh;
+    of_nothing.detect(a, b, query, no_front, afresh, counters_afresh);
+    check_same(answer, afresh);
+    if (query.detail != ContactDetail::features)
+      REQUIRE(front.touched == (answer.listed && answer.distance.upper == 0));
+    tally.touched += front.touched ? 1U : 0U;
+    tally.parted += touched && !front.touched ? 1U : 0U;
+    const bool unwalked = counters.region_pairs_tested == counters.leaf_pairs_tested &&
+                          counters_afresh.region_pairs_tested > counters_afresh.leaf_pairs_tested;
+    tally.unwalked += touched && front.touched && unwalked ? 1U : 0U;
+  }
+  return tally;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "touching: that surfaces touched a step ago does not show in where they do now, or how far they are") {
+  const FloatingPointScope scope;
+  const Shape ball = shape_of(models::sphere(24, 16));
+  const Shape block = shape_of(models::box({1, 1, 1}));
+  const std::array all{Meeting{"balls", ball, turned(ball, 3), 0.01}, Meeting{"blocks", block, block, 0},
+                       Meeting{"soups", random_soup(1, 60, 90), random_soup(4, 60, 90), 0.01},
+                       Meeting{"ball and soup", ball, mapped(random_soup(7, 60, 80), 0.5, {0, 0, 0}), 0}};
+  Tally sum;
+  for (const Meeting& meeting : all)
+    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features})
+      for (const double threshold : {0.0, 0.02})
+        for (const double reach : {infinity, 0.3}) {
+          PairQuery query = query_of(detail, threshold);
+          query.reach = reach;
+          const Tally tally = compare_steps(meeting, query);
+          if (detail != ContactDetail::none) continue;
+          sum.touched += tally.touched;
+          sum.parted += tally.parted;
+          sum.unwalked += tally.unwalked;
+        }
+  CHECK(sum.touched > 300);
+  CHECK(sum.parted >= 8);
+  CHECK(sum.unwalked > 200);
+  std::cout << sum.touched << " answers at distance 0, " << sum.unwalked << " of them from listed leaves, "
+            << sum.parted << " partings\n";
+}
+
+}  // namespace graze::tests
