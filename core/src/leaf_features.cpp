@@ -46,38 +46,41 @@ void LeafFeatures::lay_out_vertices(const Surface& surface, const Region& leaf, 
   vertices.lay_out(from.data(), from.corners.padded());
 }
 
-void LeafFeatures::lay_out_edges(const Surface& surface, const Region& leaf, LeafVertices& from) {
-  const auto all = surface.mesh().regions().edges(leaf);
-  edges.begin(all.size());
-  edges.add(all);
-  from.corners.begin(2 * all.size());
-  for (const std::uint32_t edge : all)
-    for (const std::uint32_t end : surface.mesh().edge(edge)) from.corners.add(from.place(end));
-  edges.lay_out(from.data(), from.corners.padded());
+void LeafFeatures::lay_out_edges(const Surface& surface, const Region& leaf, const LeafVertices& from) {
+  const RegionTree& tree = surface.mesh().regions();
+  edges.begin(leaf.edge_count);
+  edges.add(tree.edges(leaf));
+  edges.lay_out(from.data(), tree.edge_ends(leaf).data());
 }
 
 void LeafFeatures::lay_out_faces(const Surface& surface, const Region& leaf, LeafVertices& from) {
-  const Mesh& mesh = surface.mesh();
-  triangles.begin(std::size_t{2} * leaf.face_count);
-  folds.begin(leaf.face_count);
-  from.corners.begin(std::size_t{6} * leaf.face_count);
-  from.fold_corners.begin(std::size_t{2} * leaf.face_count);
+  const RegionTree& tree = surface.mesh().regions();
+  const auto corners = tree.triangle_corners(leaf);
+  const std::size_t triangle_count = corners.size() / 3;
+  triangles.begin(triangle_count);
+  folds.begin(triangle_count - leaf.face_count);
+  if (triangle_count == leaf.face_count)
+    triangles.add(tree.faces(leaf));
+  else
+    lay_out_folds(surface.mesh(), leaf, from);
+  triangles.lay_out(from.data(), corners.data());
+}
+
+/// And adds the triangles that these are between.
+void LeafFeatures::lay_out_folds(const Mesh& mesh, const Region& leaf, LeafVertices& from) {
+  const std::uint32_t* corner = mesh.regions().triangle_corners(leaf).data();
+  from.corners.begin(std::size_t{2} * leaf.face_count);
   for (const std::uint32_t face : mesh.regions().faces(leaf)) {
-    const auto corner = mesh.face(face);
-    const std::uint32_t first = from.place(corner[0]);
-    for (std::size_t second = 1; second + 1 < corner.size(); ++second) {
-      triangles.add(face);
-      from.corners.add(first);
-      from.corners.add(from.place(corner[second]));
-      from.corners.add(from.place(corner[second + 1]));
+    const std::size_t of_face = mesh.face(face).size() - 2;
+    for (std::size_t triangle = 0; triangle < of_face; ++triangle) triangles.add(face);
+    if (of_face == 2 && diagonal_of(mesh, face).feature.kind == FeatureKind::face) {
+      folds.add(face);
+      from.corners.add(corner[0]);
+      from.corners.add(corner[2]);
     }
-    if (corner.size() == 3 || diagonal_of(mesh, face).feature.kind != FeatureKind::face) continue;
-    folds.add(face);
-    from.fold_corners.add(first);
-    from.fold_corners.add(from.place(corner[2]));
+    corner += 3 * of_face;
   }
-  triangles.lay_out(from.data(), from.corners.padded());
-  folds.lay_out(from.data(), from.fold_corners.padded());
+  folds.lay_out(from.data(), from.corners.padded());
 }
 
 void TakenLeaf::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by,

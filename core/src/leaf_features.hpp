@@ -54,8 +54,9 @@ class LeafFeatures {
 
  private:
   void lay_out_vertices(const Surface& surface, const Region& leaf, LeafVertices& from);
-  void lay_out_edges(const Surface& surface, const Region& leaf, LeafVertices& from);
+  void lay_out_edges(const Surface& surface, const Region& leaf, const LeafVertices& from);
   void lay_out_faces(const Surface& surface, const Region& leaf, LeafVertices& from);
+  void lay_out_folds(const Mesh& mesh, const Region& leaf, LeafVertices& from);
 };
 
 /// Those features of a leaf that are near another.

@@ -41,7 +41,8 @@ class CornerList {
   std::size_t count_ = 0;
 };
 
-/// The corners of a leaf's features, each brought into the frame once, however many features it is part of.
+/// The corners of a leaf's features, each brought into the frame once, however many features it is part of:
+/// as RegionTree lists them.
 class LeafVertices {
  public:
   /// Takes up those of a leaf, its own vertices first.
@@ -50,25 +51,20 @@ class LeafVertices {
   void take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame);
 
   [[nodiscard]] const kernels::Point* data() const { return local_.data(); }
-  /// Where a corner is among them.
-  [[nodiscard]] std::uint32_t place(std::uint32_t vertex) const { return place_of_[vertex]; }
 
-  /// For what is laid out: two lists, since folds come up between triangles.
+  /// For what the tree has no list of.
   CornerList corners;
-  CornerList fold_corners;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.local_, self.place_of_, self.corners, self.fold_corners);
+    return std::tie(self.local_, self.corners);
   }
-  void reserve_as(const LeafVertices& other);
   void reserve(const PairRoom& room);
 
  private:
   void add(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame);
 
   std::vector<kernels::Point> local_;
-  std::vector<std::uint32_t> place_of_;  ///< by vertex; means something for those taken up last
 };
 
 }  // namespace graze

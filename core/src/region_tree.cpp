@@ -155,6 +155,7 @@ RegionTree::RegionTree(const Mesh& mesh) {
   faces_ = std::move(owned_faces.order);
   edges_ = std::move(owned_edges.order);
   list_borders(mesh);
+  list_places(mesh);
   choose_spread(mesh);
   validate(*this, mesh);
 }
@@ -176,6 +177,36 @@ void RegionTree::list_borders(const Mesh& mesh) {
     leaf.border_count = static_cast<std::uint32_t>(border_.size()) - leaf.first_border;
   }
   border_.shrink_to_fit();
+}
+
+void RegionTree::list_places(const Mesh& mesh) {
+  std::vector<std::uint32_t> place(mesh.vertex_count());
+  const auto pad = [&](std::size_t begin, std::size_t each) {
+    while ((places_.size() - begin) % (4 * each) != 0) places_.push_back(0);
+  };
+  place_begin_.resize(regions_.size());
+  for (std::uint32_t index = 0; index < region_count(); ++index) {
+    const Region& leaf = regions_[index];
+    if (!leaf.is_leaf()) continue;
+    std::uint32_t count = 0;
+    for (const auto& list : {vertices(leaf), border(leaf)})
+      for (const std::uint32_t vertex : list) place[vertex] = count++;
+    PlaceBegin& begin = place_begin_[index];
+    begin.ends = static_cast<std::uint32_t>(places_.size());
+    for (const std::uint32_t edge : edges(leaf))
+      for (const std::uint32_t end : mesh.edge(edge)) places_.push_back(place[end]);
+    pad(begin.ends, 2);
+    begin.corners = static_cast<std::uint32_t>(places_.size());
+    for (const std::uint32_t face : faces(leaf)) {
+      const auto corner = mesh.face(face);
+      for (std::size_t second = 1; second + 1 < corner.size(); ++second)
+        for (const std::size_t at : {std::size_t{0}, second, second + 1})
+          places_.push_back(place[corner[at]]);
+    }
+    begin.corner_count = static_cast<std::uint32_t>(places_.size()) - begin.corners;
+    pad(begin.corners, 3);
+  }
+  places_.shrink_to_fit();
 }
 
 /// The second is the furthest from the first, the third the furthest from the line through both.
@@ -206,7 +237,8 @@ void RegionTree::choose_spread(const Mesh& mesh) {
 
 std::size_t RegionTree::byte_count() const {
   return bytes_of(regions_) + bytes_of(level_begin_) + bytes_of(vertices_) + bytes_of(faces_) +
-         bytes_of(edges_) + bytes_of(border_) + bytes_of(spread_);
+         bytes_of(edges_) + bytes_of(border_) + bytes_of(places_) + bytes_of(place_begin_) +
+         bytes_of(spread_);
 }
 
 }  // namespace graze

@@ -42,6 +42,26 @@ std::vector<Eigen::Vector3d> corners_of(const Surface& surface, const Region& le
   return corners;
 }
 
+/// A leaf's lists of places give the corners of its edges and triangles.
+void validate_places(const RegionTree& tree, const Region& leaf, const Mesh& mesh) {
+  const auto members = tree.vertices(leaf);
+  const auto border = tree.border(leaf);
+  const auto vertex_at = [&](std::uint32_t place) {
+    return place < members.size() ? members[place] : border[place - members.size()];
+  };
+  const std::uint32_t* end = tree.edge_ends(leaf).data();
+  for (const std::uint32_t edge : tree.edges(leaf))
+    for (const std::uint32_t vertex : mesh.edge(edge))
+      require(vertex_at(*end++) == vertex, "an edge's end is another", edge);
+  const std::uint32_t* corner = tree.triangle_corners(leaf).data();
+  for (const std::uint32_t face : tree.faces(leaf)) {
+    const auto of_face = mesh.face(face);
+    for (std::size_t second = 1; second + 1 < of_face.size(); ++second)
+      for (const std::size_t at : {std::size_t{0}, second, second + 1})
+        require(vertex_at(*corner++) == of_face[at], "a triangle's corner is another", face);
+  }
+}
+
 }  // namespace
 
 void validate(const RegionTree& tree, const Mesh& mesh) {
@@ -56,6 +76,7 @@ void validate(const RegionTree& tree, const Mesh& mesh) {
     const auto members = tree.vertices(region);
     require(std::find(members.begin(), members.end(), region.middle) != members.end(),
             "a middle vertex is elsewhere", index);
+    if (region.is_leaf()) validate_places(tree, region, mesh);
     std::uint32_t vertex = region.first_vertex;
     std::uint32_t face = region.first_face;
     std::uint32_t edge = region.first_edge;
@@ -109,7 +130,7 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   const double beyond = front.beyond_now(a, b);
   if (!(beyond > 0) || regions_a.size() * regions_b.size() > 4096) return;
   std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
-  for (const RegionPair& leaves : front.leaves) listed.insert({leaves.a, leaves.b});
+  for (const auto& [leaves, lower] : front.leaves) listed.insert({leaves.a, leaves.b});
   for (std::uint32_t i = 0; i < regions_a.size(); ++i)
     for (std::uint32_t j = 0; j < regions_b.size(); ++j) {
       if (!regions_a[i].is_leaf() || !regions_b[j].is_leaf() || listed.count({i, j}) != 0) continue;

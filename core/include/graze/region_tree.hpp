@@ -81,6 +81,16 @@ class GRAZE_API RegionTree {
   [[nodiscard]] std::span<const std::uint32_t> border(const Region& leaf) const {
     return std::span(border_).subspan(leaf.first_border, leaf.border_count);
   }
+  /// The ends of a leaf's edges and the corners of its triangles (a quad's are (0,1,2) and (0,2,3)), in the
+  /// order of `edges(leaf)` and `faces(leaf)`, each as a place in the list of `vertices(leaf)` and then
+  /// `border(leaf)`. What follows in memory up to a multiple of 4 edges or triangles is a place there, too.
+  [[nodiscard]] std::span<const std::uint32_t> edge_ends(const Region& leaf) const {
+    return std::span(places_).subspan(place_begin_[number(leaf)].ends, 2 * std::size_t{leaf.edge_count});
+  }
+  [[nodiscard]] std::span<const std::uint32_t> triangle_corners(const Region& leaf) const {
+    const PlaceBegin& begin = place_begin_[number(leaf)];
+    return std::span(places_).subspan(begin.corners, begin.corner_count);
+  }
 
   /// Three corners of a leaf's features that are far apart at rest: about its plane, where it is nearly flat.
   [[nodiscard]] const std::array<std::uint32_t, 3>& spread(const Region& leaf) const {
@@ -91,7 +101,15 @@ class GRAZE_API RegionTree {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
+  /// Where a leaf's lists begin in `places_`.
+  struct PlaceBegin {
+    std::uint32_t ends = 0;
+    std::uint32_t corners = 0;
+    std::uint32_t corner_count = 0;
+  };
+
   void list_borders(const Mesh& mesh);
+  void list_places(const Mesh& mesh);
   void choose_spread(const Mesh& mesh);
 
   std::vector<Region> regions_;
@@ -101,6 +119,8 @@ class GRAZE_API RegionTree {
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> edges_;
   std::vector<std::uint32_t> border_;
+  std::vector<std::uint32_t> places_;
+  std::vector<PlaceBegin> place_begin_;               ///< by region; of leaves
   std::vector<std::array<std::uint32_t, 3>> spread_;  ///< by region; of leaves
 };
 
