@@ -98,13 +98,13 @@ struct LeafScratch {
     if (is_empty(near_a)) return nothing_near();
     all_a.begin(pair.a, frame, vertices_only);
     all_b.begin(pair.b, frame, vertices_only);
-    const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
     const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region, corners);
     const float local_limit = frame.to_local_limit(limit);
     kernels::BoxInFrame near_b = empty_box();
     (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), frame.to_local(slab_a, middle_a), local_limit},
                    &near_b);
     if (is_empty(near_b)) return nothing_near();
+    const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
     (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), frame.to_local(slab_b, middle_b), local_limit},
                    nullptr);
     const auto of_all = [&](const auto& features) {
