@@ -84,8 +84,8 @@ class LeafPairs {
   }
 
   /// Appends those leaf pairs of a front that are not further than a distance, where none has come nearer by
-  /// more than `motion` since they were listed. Without a branch, since which are is as good as random; of most
-  /// what was known when they were listed is enough, and no box is looked at.
+  /// more than `motion` since they were listed. Without a branch, since which are is as good as random; of
+  /// most what was known when they were listed is enough, and no box is looked at.
   void take(std::span<const ListedLeaves> front, double distance, double motion, LeafPairList& found) {
     const std::size_t first = found.leaves.size();
     found.leaves.resize(first + front.size());

@@ -24,6 +24,7 @@ constexpr std::size_t roots_each = 64;
 constexpr std::size_t front_pairs_each = 256;
 constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound tight before others are cut
 constexpr std::size_t closest_each = 64;
+constexpr std::size_t touching_first = 4096;  ///< leaf pairs of a large pair that one thread asks alone
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t leaf_pairs_each_of_vertices = 64;
 constexpr std::size_t contacts_each = 128;
@@ -490,14 +491,21 @@ void PairSearch::begin_search(Worker& worker) {
   approach(worker);
 }
 
-/// One leaf pair of the front after the other, until one touches; nothing is to be sorted for it.
+/// One leaf pair of the front after the other, until one touches; nothing is to be sorted for it. Of a large
+/// pair not all by one thread, if they touch no more.
 void PairSearch::look_for_touching(Worker& worker) {
   ClosestRange range(worker.pair, query_, ties(), closest_);
+  validate(*front_, *a_, *b_);
   const double motion = front_->motion_now(*a_, *b_);
   if (!front_->leaves.empty()) worker.begin_leaves(front_->leaves.front().pair);
+  std::size_t asked = 0;
   for (const auto& [leaves, lower] : front_->leaves) {
     if (range.is_settled()) break;
     if (static_cast<double>(lower) > motion || worker.leaf_pairs.lower_of_leaves(leaves) > 0) continue;
+    if (sliced_ && ++asked > touching_first) {
+      closest_.clear();  // a name at 0 might not be the first of them
+      break;
+    }
     if (!look_into(leaves, range, worker)) return give_up();
   }
   finish_closest(worker);
