@@ -511,16 +511,20 @@ void PairSearch::look_for_touching(Worker& worker) {
   finish_closest(worker);
 }
 
+/// Middle vertices are also points of the surfaces, and bound their distance where nothing better does.
+auto PairSearch::offering_middles(ClosestRange& range) const {
+  return [this, &range](const RegionPair& regions) {
+    if (!is_bounded_) range.offer_middles(regions);
+  };
+}
+
 /// Finds the pairs of leaves to look into.
 void PairSearch::approach(Worker& worker) {
   stage_ = Stage::approach;
   if (from_front_) return slice_front();
   ClosestRange range(worker.pair, query_, ties(), closest_);
   slice_walk(
-      worker, [&](double lower, double slack) { return range.keep(lower, slack); },
-      [&](const RegionPair& regions) {
-        if (!is_bounded_) range.offer_middles(regions);
-      });
+      worker, [&](double lower, double slack) { return range.keep(lower, slack); }, offering_middles(range));
 }
 
 /// A slice goes on from what was known when it was cut, not from what others find meanwhile.
@@ -537,10 +541,7 @@ void PairSearch::run_approach(Slice& slice, Worker& worker) {
   ClosestRange range(worker.pair, query_, ties(), slice.closest);
   slice.complete = worker.leaf_pairs.walk(
       slice.start, [&](double lower, double slack) { return range.keep(lower, slack); },
-      [&](const RegionPair& regions) {
-        if (!is_bounded_) range.offer_middles(regions);
-      },
-      slice.found);
+      offering_middles(range), slice.found);
 }
 
 void PairSearch::take_up_closest(Worker& worker) {

@@ -102,10 +102,11 @@ class PairSearch {
 
   void begin_approach(Worker& worker);
   void begin_search(Worker& worker);
+  void look_for_touching(Worker& worker);
+  [[nodiscard]] auto offering_middles(ClosestRange& range) const;
   void approach(Worker& worker);
   void run_approach(Slice& slice, Worker& worker);
   void begin_closest(Worker& worker);
-  void look_for_touching(Worker& worker);
   bool look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const;
   bool look_into(const RegionPair& leaves, ClosestRange& range, Worker& worker) const;
   void take_up_closest(Worker& worker);

@@ -2,6 +2,7 @@
 // that of a query that knows nothing of it.
 
 #include <array>
+#include <cmath>
 #include <graze/floating_point_scope.hpp>
 #include <graze/pair_query.hpp>
 #include <iostream>

@@ -40,7 +40,7 @@ struct LastWitness {
 /// query, of a detail that is about surfaces or vertices as this one's was, can start there. It stays good
 /// while the surfaces move less than it was made loose.
 struct LeafFront {
-  std::vector<ListedLeaves> leaves;
+  std::vector<ListedLeaves> leaves;  ///< in the order of their numbers where `touched`
   /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
   /// nothing is known.
   double beyond = -1;
