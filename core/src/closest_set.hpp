@@ -39,7 +39,7 @@ class ClosestSet {
       : pair_(pair), ties_(ties), closest_(closest), names_(closest.names) {}
 
   void offer(const ContactName& name) {
-    if (name.meeting == Meeting::pierced) closest_.pierced = closest_.pierced || is_edge_through_face(name);
+    if (name.meeting() == Meeting::pierced) closest_.pierced = closest_.pierced || is_edge_through_face(name);
     if (names_.empty()) return replace(name);
     const bool is_known = ties_ == Ties::lowest ? name == names_.front() : names_.contains(name);
     if (is_known) return;
@@ -66,7 +66,7 @@ class ClosestSet {
   [[nodiscard]] const ContactName& front() const { return names_.front(); }
 
  private:
-  static bool is_edge_through_face(const ContactName& name) { return name.kind == ContactKind::EF; }
+  static bool is_edge_through_face(const ContactName& name) { return name.kind() == ContactKind::EF; }
   void replace(const ContactName& name) {
     names_.assign(name);
     at_most(upper_distance(pair_, name));

@@ -15,7 +15,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <typename Number>
 Ratio<Number> squared(const SurfacePair& pair, const ContactName& name) {
-  if (name.meeting == Meeting::pierced) return {Number(0.0), Number(1.0)};
+  if (name.meeting() == Meeting::pierced) return {Number(0.0), Number(1.0)};
   const Hulls hulls = hulls_of(pair, name);
   return hull_distance_squared<Number>(hulls.a, hulls.b);
 }
@@ -65,20 +65,20 @@ DistanceBounds rounded_root(const Ratio<Number>& square, bool& unsure) {
 }  // namespace
 
 Hulls hulls_of(const SurfacePair& pair, const ContactName& name) {
-  Hulls hulls{simplex_of(pair.a, name.a), simplex_of(pair.b, name.b)};
-  if (name.meeting == Meeting::parallel) (hulls.a.size <= hulls.b.size ? hulls.a : hulls.b).size = 1;
+  Hulls hulls{simplex_of(pair.a, name.a()), simplex_of(pair.b, name.b())};
+  if (name.meeting() == Meeting::parallel) (hulls.a.size <= hulls.b.size ? hulls.a : hulls.b).size = 1;
   return hulls;
 }
 
 int compare_distances(const SurfacePair& pair, const ContactName& left, const ContactName& right) {
-  if (left.meeting == Meeting::pierced && right.meeting == Meeting::pierced) return 0;
+  if (left.meeting() == Meeting::pierced && right.meeting() == Meeting::pierced) return 0;
   return decide(pair.count, [&]<typename Number>(bool& unsure) {
     return compare(squared<Number>(pair, left), squared<Number>(pair, right), unsure);
   });
 }
 
 bool decide_closer_than(const SurfacePair& pair, const ContactName& name, double limit) {
-  if (name.meeting == Meeting::pierced || limit == 0 || std::isinf(limit)) return limit > 0;
+  if (name.meeting() == Meeting::pierced || limit == 0 || std::isinf(limit)) return limit > 0;
   return decide(pair.count, [&]<typename Number>(bool& unsure) {
     const Ratio<Number> square = squared<Number>(pair, name);
     return sign(Number(limit) * Number(limit) * square.denominator - square.numerator, unsure) > 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <graze/contact.hpp>
 #include <graze/surface.hpp>
 
@@ -33,44 +34,77 @@ enum class Meeting : std::uint8_t {
 /// How often about a contact is found: once for each of the features about it.
 inline constexpr std::size_t names_of_contact = 8;
 
-/// What a contact is called, and which pieces of its features realise it. Ordered as contacts are.
-struct ContactName {
-  ContactKind kind = ContactKind::VV;
-  FeaturePiece a;
-  FeaturePiece b;
-  Meeting meeting = Meeting::closest;
-
+/// What a contact is called, and which pieces of its features realise it, as two numbers that order names as
+/// contacts are: by (kind, feature a, feature b), the key of a contact, and pieces after that.
+class ContactName {
+ public:
+  ContactName() = default;
   static ContactName of(const FeaturePiece& a, const FeaturePiece& b, Meeting meeting = Meeting::closest) {
-    return {kind_of(a.feature, b.feature), a, b, meeting};
+    return {number(kind_of(a.feature, b.feature)) << 40U | number(a.feature.kind) << 32U | a.feature.index,
+            number(b.feature.kind) << 56U | std::uint64_t{b.feature.index} << 24U | number(meeting) << 16U |
+                number(a.piece) << 8U | number(b.piece)};
   }
+
+  [[nodiscard]] ContactKind kind() const { return static_cast<ContactKind>(high_ >> 40U); }
+  [[nodiscard]] FeaturePiece a() const {
+    return {{static_cast<FeatureKind>(high_ >> 32U & 3U), static_cast<std::uint32_t>(high_)},
+            static_cast<Piece>(low_ >> 8U & 3U)};
+  }
+  [[nodiscard]] FeaturePiece b() const {
+    return {{static_cast<FeatureKind>(low_ >> 56U), static_cast<std::uint32_t>(low_ >> 24U)},
+            static_cast<Piece>(low_ & 3U)};
+  }
+  [[nodiscard]] Meeting meeting() const { return static_cast<Meeting>(low_ >> 16U & 3U); }
+
   friend bool operator==(const ContactName&, const ContactName&) = default;
-  /// By (kind, feature a, feature b), the key of a contact; pieces after that.
-  friend auto operator<=>(const ContactName& left, const ContactName& right) {
-    const std::uint64_t left_high = left.high_key();
-    const std::uint64_t right_high = right.high_key();
-    return left_high != right_high ? left_high <=> right_high : left.low_key() <=> right.low_key();
-  }
+  friend auto operator<=>(const ContactName&, const ContactName&) = default;
   /// Whether both are the contact of the same two features.
   [[nodiscard]] bool same_features(const ContactName& other) const {
-    return a.feature == other.a.feature && b.feature == other.b.feature;
+    return high_ == other.high_ && low_ >> 24U == other.low_ >> 24U;
+  }
+  /// The name as a number of the same order, where the indices need so many bits and all fits.
+  struct Widths {
+    int index_a = 0;
+    int index_b = 0;
+
+    [[nodiscard]] int all() const { return 5 + index_a + index_b + 6; }
+  };
+  [[nodiscard]] std::uint64_t packed(const Widths& widths) const {
+    // Of which kind the feature of b is, the contact's kind says.
+    std::uint64_t key = (high_ >> 40U) << 2U | (high_ >> 32U & 3U);
+    key = key << widths.index_a | static_cast<std::uint32_t>(high_);
+    key = key << widths.index_b | static_cast<std::uint32_t>(low_ >> 24U);
+    return key << 6U | (low_ >> 12U & 0x30U) | (low_ >> 6U & 0xcU) | (low_ & 3U);
+  }
+  static ContactName unpacked(std::uint64_t key, const Widths& widths) {
+    const auto low_bits = [](int count) { return (std::uint64_t{1} << count) - 1; };
+    const std::uint64_t kinds = key >> (widths.index_a + widths.index_b + 6);
+    const std::uint64_t index_a = key >> (widths.index_b + 6) & low_bits(widths.index_a);
+    const std::uint64_t index_b = key >> 6U & low_bits(widths.index_b);
+    const std::uint64_t kind_b = kind_of_other(kinds >> 2U, kinds & 3U);
+    return {(kinds >> 2U) << 40U | (kinds & 3U) << 32U | index_a,
+            kind_b << 56U | index_b << 24U | (key & 0x30U) << 12U | (key & 0xcU) << 6U | (key & 3U)};
   }
   /// Its upper bits depend on all of the name.
   [[nodiscard]] std::uint64_t hash() const {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // 2^64 / the golden ratio
-    return (high_key() * odd ^ low_key()) * odd;
+    return (high_ * odd ^ low_) * odd;
   }
 
  private:
-  /// What names are ordered by, as two numbers.
-  [[nodiscard]] std::uint64_t high_key() const {
-    return std::uint64_t{static_cast<std::uint8_t>(kind)} << 40U |
-           std::uint64_t{static_cast<std::uint8_t>(a.feature.kind)} << 32U | a.feature.index;
+  ContactName(std::uint64_t high, std::uint64_t low) : high_(high), low_(low) {}
+  /// Of the two features of a contact the kind of one, by that of the other: VV VE VF EE EF FF.
+  static std::uint64_t kind_of_other(std::uint64_t kind, std::uint64_t of_one) {
+    constexpr std::array<std::uint8_t, 6> sum{0, 1, 2, 2, 3, 4};
+    return sum[kind] - of_one;
   }
-  [[nodiscard]] std::uint64_t low_key() const {
-    return std::uint64_t{static_cast<std::uint8_t>(b.feature.kind)} << 56U |
-           std::uint64_t{b.feature.index} << 24U | std::uint64_t{static_cast<std::uint8_t>(meeting)} << 16U |
-           std::uint64_t{static_cast<std::uint8_t>(a.piece)} << 8U | static_cast<std::uint8_t>(b.piece);
+  template <typename Enumeration>
+  static std::uint64_t number(Enumeration value) {
+    return std::uint64_t{static_cast<std::uint8_t>(value)};
   }
+
+  std::uint64_t high_ = 0;
+  std::uint64_t low_ = 0;
 };
 
 /// Two simplices whose affine hulls are as far apart as the features of a name are: their pieces, but for
@@ -88,9 +122,9 @@ int compare_distances(const SurfacePair& pair, const ContactName& left, const Co
 bool decide_closer_than(const SurfacePair& pair, const ContactName& name, double limit);
 /// The same, from plain double where that is certain of two vertices.
 inline bool is_closer_than(const SurfacePair& pair, const ContactName& name, double limit) {
-  if (name.kind == ContactKind::VV) {
+  if (name.kind() == ContactKind::VV) {
     const SquaredRange squared =
-        squared_range(pair.a.position(name.a.feature.index), pair.b.position(name.b.feature.index));
+        squared_range(pair.a.position(name.a().feature.index), pair.b.position(name.b().feature.index));
     const bool is_below = squared.is_below(limit);
     if (is_below || squared.is_beyond(limit)) {
       ++pair.count.in_double;

@@ -15,7 +15,7 @@ struct BelowThreshold {
 }  // namespace
 
 bool CloseFeatures::is_contact(const ContactName& name, const SquaredRange& squared) const {
-  if (name.meeting == Meeting::pierced && name.kind == ContactKind::EF) return true;
+  if (name.meeting() == Meeting::pierced && name.kind() == ContactKind::EF) return true;
   if (squared.is_below(threshold_)) return true;
   return !squared.is_beyond(threshold_) && is_closer_than(pair_, name, threshold_);
 }

@@ -62,7 +62,7 @@ Offset offset_now(const Surface& surface, const SurfacePoint& on) {
 
 LastWitness last_witness_of(const SurfacePair& pair, const ContactName& nearest,
                             const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b) {
-  return {surface_point(pair.a, nearest.a, point_a), surface_point(pair.b, nearest.b, point_b)};
+  return {surface_point(pair.a, nearest.a(), point_a), surface_point(pair.b, nearest.b(), point_b)};
 }
 
 double upper_distance(const SurfacePair& pair, const LastWitness& witness, bool vertices_only) {

@@ -160,21 +160,21 @@ void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hul
     contact.normal = a_is_low ? *normal : Eigen::Vector3d(-*normal);
   } else {
     contact.distance = 0;
-    contact.normal = touching_normal(pair.a, name.a, pair.b, name.b, pair.count);
+    contact.normal = touching_normal(pair.a, name.a(), pair.b, name.b(), pair.count);
   }
 }
 
 void add_sides(const SurfacePair& pair, const ContactName& name, Contact& contact) {
   if (contact.distance == 0) return;
-  contact.side_a = side_of(pair.a, name.a, contact.normal, pair.count);
-  contact.side_b = side_of(pair.b, name.b, -contact.normal, pair.count);
+  contact.side_a = side_of(pair.a, name.a(), contact.normal, pair.count);
+  contact.side_b = side_of(pair.b, name.b(), -contact.normal, pair.count);
 }
 
 Contact named(const ContactName& name) {
   Contact contact;
-  contact.kind = name.kind;
-  contact.feature_a = name.a.feature;
-  contact.feature_b = name.b.feature;
+  contact.kind = name.kind();
+  contact.feature_a = name.a().feature;
+  contact.feature_b = name.b().feature;
   return contact;
 }
 
@@ -192,14 +192,14 @@ Contact measure_piercing(const SurfacePair& pair, const ContactName& name) {
             return {difference<Number>(segment.point[1], segment.point[0]) * way.numerator, way.denominator};
           });
   contact.point_b = contact.point_a;
-  contact.normal = touching_normal(pair.a, name.a, pair.b, name.b, pair.count);
+  contact.normal = touching_normal(pair.a, name.a(), pair.b, name.b(), pair.count);
   return contact;
 }
 
 }  // namespace
 
 Contact measure_without_sides(const SurfacePair& pair, const ContactName& name) {
-  if (name.meeting == Meeting::pierced) return measure_piercing(pair, name);
+  if (name.meeting() == Meeting::pierced) return measure_piercing(pair, name);
   const Hulls hulls = hulls_of(pair, name);
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   const Simplex& low = a_is_low ? hulls.a : hulls.b;

@@ -19,14 +19,14 @@ struct Shape {
 };
 
 Shape shape_of(const ContactName& name) {
-  const auto [low, high] = std::minmax({corner_count(name.a), corner_count(name.b)});
+  const auto [low, high] = std::minmax({corner_count(name.a()), corner_count(name.b())});
   return {low, high};
 }
 
 /// A piercing fold is left out since its normal is not the triangle's.
 bool is_for_kernels(const ContactName& name, const Shape& shape) {
-  if (name.meeting == Meeting::pierced) return name.kind == ContactKind::EF;
-  return name.meeting == Meeting::closest && shape.low + shape.high <= 4;
+  if (name.meeting() == Meeting::pierced) return name.kind() == ContactKind::EF;
+  return name.meeting() == Meeting::closest && shape.low + shape.high <= 4;
 }
 
 Eigen::Vector3d at(const kernels::Points& points, std::size_t lane) {
@@ -45,8 +45,8 @@ void measure_vertices(const SurfacePair& pair, std::span<const ContactName> name
   while (!names.empty()) {
     const auto some = names.first(std::min(names.size(), kernels::contact_lanes));
     for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      put_corner(pair.a, some[lane].a.feature.index, batch.low[0], lane);
-      put_corner(pair.b, some[lane].b.feature.index, batch.high[0], lane);
+      put_corner(pair.a, some[lane].a().feature.index, batch.low[0], lane);
+      put_corner(pair.b, some[lane].b().feature.index, batch.high[0], lane);
     }
     kernels::measure().points(batch);
     for (std::size_t lane = 0; lane < some.size(); ++lane, ++contact) {
@@ -55,11 +55,11 @@ void measure_vertices(const SurfacePair& pair, std::span<const ContactName> name
         measure_alone(pair, name, *contact, scratch.sides);
         continue;
       }
-      *contact = {name.kind,
+      *contact = {name.kind(),
                   Side::none,
                   Side::none,
-                  name.a.feature,
-                  name.b.feature,
+                  name.a().feature,
+                  name.b().feature,
                   at(batch.low[0], lane),
                   at(batch.high[0], lane),
                   at(batch.normal, lane),
@@ -82,8 +82,8 @@ class Batch {
     shape_ = shape;
     const ContactName& name = names_[contact];
     const bool a_is_low = is_a_low(name);
-    put(a_is_low ? pair_.a : pair_.b, a_is_low ? name.a : name.b, shape.low, scratch_.batch.low);
-    put(a_is_low ? pair_.b : pair_.a, a_is_low ? name.b : name.a, shape.high, scratch_.batch.high);
+    put(a_is_low ? pair_.a : pair_.b, a_is_low ? name.a() : name.b(), shape.low, scratch_.batch.low);
+    put(a_is_low ? pair_.b : pair_.a, a_is_low ? name.b() : name.a(), shape.high, scratch_.batch.high);
     contact_[count_++] = contact;
   }
   void add_alone(std::size_t contact) {
@@ -97,7 +97,7 @@ class Batch {
   }
 
  private:
-  static bool is_a_low(const ContactName& name) { return corner_count(name.a) <= corner_count(name.b); }
+  static bool is_a_low(const ContactName& name) { return corner_count(name.a()) <= corner_count(name.b()); }
 
   void put(const Surface& surface, const FeaturePiece& piece, std::uint32_t corners,
            kernels::Points* points) const {
@@ -119,9 +119,9 @@ class Batch {
     const bool a_is_low = is_a_low(name);
     const Eigen::Vector3d normal = at(batch.normal, lane);
     contact = {};
-    contact.kind = name.kind;
-    contact.feature_a = name.a.feature;
-    contact.feature_b = name.b.feature;
+    contact.kind = name.kind();
+    contact.feature_a = name.a().feature;
+    contact.feature_b = name.b().feature;
     contact.point_a = at(a_is_low ? batch.low_point : batch.high_point, lane);
     contact.point_b = at(a_is_low ? batch.high_point : batch.low_point, lane);
     contact.distance = batch.distance[lane];
@@ -145,7 +145,7 @@ void measure(const SurfacePair& pair, std::span<const ContactName> names, std::s
   scratch.sides.begin();
   // Names are sorted by kind, and that of two vertices is the first.
   const auto vertices = std::find_if(names.begin(), names.end(),
-                                     [](const ContactName& name) { return name.kind != ContactKind::VV; });
+                                     [](const ContactName& name) { return name.kind() != ContactKind::VV; });
   const auto vertex_count = static_cast<std::size_t>(vertices - names.begin());
   measure_vertices(pair, names.first(vertex_count), contacts.data(), scratch);
   Batch batch(pair, names, contacts, scratch);

@@ -65,8 +65,8 @@ class Paper {
     ++meter_.counters().leaf_pairs_tested;
     ContactName name = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaves, scratch_.leaf_closest);
     nearest_.offer(name);
-    found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(name.a.feature.index),
-                                                         pair_.b.position(name.b.feature.index)));
+    found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(name.a().feature.index),
+                                                         pair_.b.position(name.b().feature.index)));
     if (query_.detail == ContactDetail::vertices) {
       CloseVertices close(pair_, query_.threshold, scratch_.close, names_);
       close.add(leaf_a, leaf_b);
@@ -83,8 +83,8 @@ class Paper {
     scratch_.leaf_closest.clear();
     ClosestSet around(pair_, Ties::lowest, scratch_.leaf_closest);
     around.offer(name);
-    const std::uint32_t a = name.a.feature.index;
-    const std::uint32_t b = name.b.feature.index;
+    const std::uint32_t a = name.a().feature.index;
+    const std::uint32_t b = name.b().feature.index;
     const auto offer = [&](std::uint32_t to_a, std::uint32_t to_b) {
       if (lower_distance(pair_.a.position(to_a), pair_.b.position(to_b)) <= around.upper())
         around.offer(ContactName::of(vertex_piece(to_a), vertex_piece(to_b)));

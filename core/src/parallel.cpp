@@ -32,8 +32,8 @@ void find_holders(const Mesh& mesh, const Feature& feature, std::vector<Feature>
 
 /// The pairs of features that hold those of a name; in scratch.holders.
 void find_holders(const SurfacePair& pair, const ContactName& name, ParallelScratch& scratch) {
-  find_holders(pair.a.mesh(), name.a.feature, scratch.holders_a);
-  find_holders(pair.b.mesh(), name.b.feature, scratch.holders_b);
+  find_holders(pair.a.mesh(), name.a().feature, scratch.holders_a);
+  find_holders(pair.b.mesh(), name.b().feature, scratch.holders_b);
   scratch.holders.clear();
   for (const Feature& a : scratch.holders_a)
     for (const Feature& b : scratch.holders_b) scratch.holders.emplace_back(a, b);
@@ -109,11 +109,11 @@ void find_parallel_contacts(const SurfacePair& pair, const std::vector<ContactNa
 
 /// Whether a parallel pair of scratch.found, other than itself, holds both features of `name`.
 bool gives_way(const SurfacePair& pair, const ContactName& name, ParallelScratch& scratch) {
-  const FeaturePair self{name.a.feature, name.b.feature};
+  const FeaturePair self{name.a().feature, name.b().feature};
   find_holders(pair, name, scratch);
   return std::any_of(scratch.found.begin(), scratch.found.end(), [&](const ParallelContact& contact) {
-    const FeaturePair features{contact.name.a.feature, contact.name.b.feature};
-    return (features != self || name.meeting != Meeting::parallel) &&
+    const FeaturePair features{contact.name.a().feature, contact.name.b().feature};
+    return (features != self || name.meeting() != Meeting::parallel) &&
            std::binary_search(scratch.holders.begin(), scratch.holders.end(), features);
   });
 }

@@ -40,13 +40,13 @@ void Sides::add(const SurfacePair& pair, const ContactName& name, Contact& conta
 
 /// False where a normal is to be kept in the place of another one.
 bool Sides::take(const SurfacePair& pair, const ContactName& name, Contact& contact) {
-  const auto [normal_a, is_new_a] = normals_a_.find(name.a);
+  const auto [normal_a, is_new_a] = normals_a_.find(name.a());
   if (normal_a == nullptr) return false;
-  if (is_new_a) sums_.add(pair.a, name.a, *normal_a);
-  const auto [normal_b, is_new_b] = normals_b_.find(name.b);
+  if (is_new_a) sums_.add(pair.a, name.a(), *normal_a);
+  const auto [normal_b, is_new_b] = normals_b_.find(name.b());
   if (normal_b == nullptr) return false;
-  if (is_new_b) sums_.add(pair.b, name.b, *normal_b);
-  asked_[count_++] = {name.a, name.b, &contact, normal_a, normal_b};
+  if (is_new_b) sums_.add(pair.b, name.b(), *normal_b);
+  asked_[count_++] = {name.a(), name.b(), &contact, normal_a, normal_b};
   return true;
 }
 

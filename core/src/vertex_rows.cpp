@@ -22,7 +22,7 @@ void add_some(const SurfacePair& pair, double limit, const VertexRows& vertices,
     const std::uint32_t point = points.vertex(scratch.near_point[k]);
     const std::uint32_t a = rows_are_of_a ? row : point;
     const std::uint32_t b = rows_are_of_a ? point : row;
-    const ContactName name{ContactKind::VV, vertex_piece(a), vertex_piece(b)};
+    const auto name = ContactName::of(vertex_piece(a), vertex_piece(b));
     if (is_closer_than(pair, name, limit)) names.push_back(name);
   }
 }

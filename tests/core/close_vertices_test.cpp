@@ -52,7 +52,8 @@ Found close_in_leaves(const Surface& a, const Surface& b, double limit, CloseVer
     for (const Leaf& leaf_b : leaves_b) close.add({*leaf_a.region, leaf_a.box}, {*leaf_b.region, leaf_b.box});
   close.finish();
   Found found;
-  for (const ContactName& name : names) found.pairs.emplace_back(name.a.feature.index, name.b.feature.index);
+  for (const ContactName& name : names)
+    found.pairs.emplace_back(name.a().feature.index, name.b().feature.index);
   std::sort(found.pairs.begin(), found.pairs.end());
   found.discarded = count.discarded_in_float;
   return found;

@@ -58,7 +58,8 @@ SweepRun sweep(const Surface& a, const Surface& b, double limit,
   DecisionCount count;
   WorkMeter meter(query, run.counters);
   run.swept = sweep_close_vertices({a, b, count}, limit, scratch, meter, names);
-  for (const ContactName& name : names) run.pairs.emplace_back(name.a.feature.index, name.b.feature.index);
+  for (const ContactName& name : names)
+    run.pairs.emplace_back(name.a().feature.index, name.b().feature.index);
   std::sort(run.pairs.begin(), run.pairs.end());
   return run;
 }
