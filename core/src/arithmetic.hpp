@@ -55,6 +55,7 @@ inline int sign(const Exact& number, bool& /*unsure*/) {
 /// How each stage decided. One per worker, so counting needs no atomics.
 struct DecisionCount {
   std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices
+  std::uint64_t named_in_float = 0;      ///< contacts, as often as they were found
   std::uint64_t in_double = 0;           ///< questions that Ball answered
   std::uint64_t exact = 0;               ///< questions and roundings that went on to Exact
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <graze/pair_query.hpp>
 
 #include "closest_set.hpp"
@@ -28,13 +29,20 @@ struct ClosestFound {
 class ClosestRange {
  public:
   /// Goes on from `found`.
-  ClosestRange(const SurfacePair& pair, const PairQuery& query, Ties ties, ClosestFound& found)
-      : pair_(pair), query_(query), found_(found), set_(pair, ties, found.closest) {}
+  ClosestRange(const SurfacePair& pair, const PairQuery& query, Ties ties, ClosestFound& found,
+               bool may_pierce = true)
+      : pair_(pair),
+        query_(query),
+        found_(found),
+        set_(pair, ties, found.closest),
+        look_slack_(query.mode == AccuracyMode::exact ? query.look_slack : 0),
+        may_pierce_(may_pierce) {}
 
   /// Whether something this near could still matter, now or before the surfaces have moved by `slack`; what
   /// is left out bounds the answer from below.
   bool keep(double lower_bound, double slack = 0) {
     const double nearest = std::max(0.0, lower_bound - slack);
+    seen_ = std::min(seen_, lower_bound);
     if (nearest > set_.upper()) return false;
     const bool below_reach = nearest < query_.reach || nearest == 0;
     const bool loose = query_.mode == AccuracyMode::within && nearest >= query_.threshold && nearest > 0 &&
@@ -46,10 +54,12 @@ class ClosestRange {
 
   /// What is certainly further than this does not matter now; in units of the scene.
   [[nodiscard]] double limit() const {
-    const double reached = std::min(set_.upper(), query_.reach);
+    const double reached = std::min(set_.upper(), query_.reach) + look_slack_;
     if (query_.mode != AccuracyMode::within) return reached;
     return std::min(reached, std::max(query_.threshold, set_.upper() - query_.tolerance));
   }
+  /// Names are wanted with the range of their distance.
+  [[nodiscard]] static double names_below() { return 0; }
   /// Something was left out that is further than an earlier or the present limit.
   void left_out(double limit) {
     if (limit < set_.upper()) found_.lower = std::min(found_.lower, limit);
@@ -72,14 +82,22 @@ class ClosestRange {
   void at_most(double upper) {
     if (upper > 0 && query_.mode == AccuracyMode::exact) set_.at_most(upper);
   }
-  void offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
+  /// Whether an edge may pierce a face.
+  [[nodiscard]] bool may_pierce() const { return may_pierce_; }
+  /// Returns a lower bound of the distance of each vertex and face, and of each two edges of the two leaves.
+  double offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
+    seen_ = std::numeric_limits<double>::infinity();
+    double squared_seen = seen_;
     const auto offer = [&](const ContactName& name, const SquaredRange& squared) {
+      squared_seen = std::min(squared_seen, squared.low);
       if (!squared.is_beyond(set_.upper())) set_.offer(name);
     };
-    if (!scratch.take(pair_, leaf_a, leaf_b, *this)) return;
-    LeafNames names(pair_, scratch, *this, offer);
-    names.add_taken();
-    names.finish();
+    if (scratch.take(pair_, leaf_a, leaf_b, *this)) {
+      LeafNames names(pair_, scratch, *this, offer);
+      names.add_taken();
+      names.finish();
+    }
+    return std::min({limit(), seen_, std::sqrt(squared_seen) * round_down});
   }
   void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {
@@ -92,6 +110,9 @@ class ClosestRange {
   const PairQuery& query_;
   ClosestFound& found_;
   ClosestSet set_;
+  double look_slack_;
+  bool may_pierce_;
+  double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a look into two leaves began
 };
 
 }  // namespace graze

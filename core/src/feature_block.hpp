@@ -10,8 +10,27 @@
 
 namespace graze {
 
-/// What a feature of a block is part of.
-enum class Part : std::uint8_t { vertex, edge, face, fold };
+/// What a feature of a block is part of; as wide as an index, so that both are compared at once.
+enum class Part : std::uint32_t { vertex, edge, face, fold };
+
+/// A feature of a surface, by the number of what it is part of.
+struct PartOf {
+  Part part = Part::vertex;
+  std::uint32_t index = 0;
+
+  friend bool operator==(const PartOf&, const PartOf&) = default;
+};
+
+/// The features of a block by their corners as they came and by what they are part of, where these are now.
+template <std::size_t Corners>
+struct FeatureView {
+  const kernels::Point* points;
+  const std::uint32_t* owners;
+  Part part;
+
+  [[nodiscard]] const kernels::Point* corners(std::size_t i) const { return points + i * Corners; }
+  [[nodiscard]] PartOf part_of(std::size_t i) const { return {part, owners[i]}; }
+};
 
 /// Features of one kind as the kernels read them, of `Corners` points each.
 template <std::size_t Corners>
@@ -61,6 +80,8 @@ class FeatureBlock {
   [[nodiscard]] float component(std::size_t k, std::size_t i) const { return data_[k * stride_ + i]; }
   /// The corners of a feature as they came.
   [[nodiscard]] const kernels::Point* corners(std::size_t i) const { return points_.data() + i * Corners; }
+  /// Until something is added or laid out.
+  [[nodiscard]] FeatureView<Corners> view() const { return {points_.data(), owners_.data(), part_}; }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }
   static std::size_t stride_of(std::size_t most) {
     return (most + kernels::lanes - 1) / kernels::lanes * kernels::lanes;

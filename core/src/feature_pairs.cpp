@@ -8,6 +8,8 @@ struct BelowThreshold {
   double threshold;
 
   [[nodiscard]] double limit() const { return threshold; }
+  [[nodiscard]] double names_below() const { return threshold; }
+  [[nodiscard]] static bool may_pierce() { return true; }
   [[nodiscard]] bool keep(double lower) const { return lower < threshold || lower == 0; }
   void left_out(double /*limit*/) const {}
 };

@@ -89,6 +89,10 @@ class FilterFrame {
                ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
                : rounded;
   }
+  /// The same rounded down.
+  [[nodiscard]] float to_local_below(double distance) const {
+    return static_cast<float>(std::min(distance * scale_, 0x1p100) * (1 - 0x1p-23));
+  }
 
  private:
   static Eigen::Vector3d clamped(const Eigen::Vector3d& local) {

@@ -21,14 +21,6 @@ namespace graze {
 /// The box of the corners of a feature.
 Box box_of(const Surface& surface, Part part, std::uint32_t index);
 
-/// A feature of a surface, by the number of what it is part of.
-struct PartOf {
-  Part part = Part::vertex;
-  std::uint32_t index = 0;
-
-  friend bool operator==(const PartOf&, const PartOf&) = default;
-};
-
 /// Two numbers of each pair of features that a kernel has left, with room for so many pairs or those of one
 /// row.
 struct FloatFilterScratch {
@@ -75,39 +67,61 @@ struct FloatFilterScratch {
   }
 };
 
+/// What float knows of a pair of features that it has left.
+struct KnownInFloat {
+  bool is_bounded = false;  ///< that it may be near; otherwise it has not been looked at
+  std::int32_t place = kernels::unsure_place;
+};
+
 /// Pairs of features whose distance float is to bound from below, which is done several at once.
 template <std::size_t CornersA, std::size_t CornersB>
 class FloatBatch {
  public:
   void begin() { count_ = 0; }
-  [[nodiscard]] bool is_full() const { return count_ == kernels::lanes; }
 
-  void add(const FeatureBlock<CornersA>& a, std::size_t i, const FeatureBlock<CornersB>& b, std::size_t j) {
-    const std::size_t lane = count_++;
-    std::memcpy(pairs_.a[lane], a.corners(i), sizeof pairs_.a[lane]);
-    std::memcpy(pairs_.b[lane], b.corners(j), sizeof pairs_.b[lane]);
-    parts_[lane] = {{a.part(), a.owner(i)}, {b.part(), b.owner(j)}};
+  /// Adds pairs of features by their numbers in two blocks; calls `full()`, which empties it, whenever it is.
+  template <typename Full>
+  void add(const FeatureView<CornersA>& a, const std::uint32_t* of_a, const FeatureView<CornersB>& b,
+           const std::uint32_t* of_b, std::size_t count, const Full& full) {
+    // Views and counts by value, and pairs by the stretch: what is stored might otherwise be any of these.
+    const FeatureView<CornersA> all_a = a;
+    const FeatureView<CornersB> all_b = b;
+    for (std::size_t done = 0; done < count;) {
+      const std::size_t first = count_;
+      const std::size_t some = std::min(count - done, kernels::lanes - first);
+      for (std::size_t k = 0; k < some; ++k) put(first + k, all_a, of_a[done + k], all_b, of_b[done + k]);
+      count_ = first + some;
+      done += some;
+      if (count_ == kernels::lanes) full();
+    }
   }
-  /// Empties it: `visit(part of a, part of b, whether the bound says anything)` for each pair that is not
-  /// certainly further than a limit in the frame, but once for what comes again right away, as a quad's
-  /// second triangle does. Returns how many are further.
-  template <typename Kernel, typename Visit>
-  std::size_t bound(Kernel kernel, float limit, const Visit& visit) {
+  /// Empties it: `visit(part of a, part of b, what is known)` for each pair that `ask(pairs)`, a kernel, has
+  /// left, but once for what comes again right away, as a quad's second triangle does. Returns how many were
+  /// discarded.
+  template <typename Ask, typename Visit>
+  std::size_t empty(const Ask& ask, const Visit& visit) {
     const std::size_t count = std::exchange(count_, 0);
     if (count == 0) return 0;
-    std::uint32_t left = kernel(pairs_, limit) & ((1U << count) - 1);
+    std::uint32_t left = ask(pairs_) & ((1U << count) - 1);
     const std::size_t discarded = count - static_cast<std::size_t>(std::popcount(left));
     for (std::size_t last = kernels::lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       if (last == kernels::lanes || parts_[lane] != parts_[last])
         visit(parts_[lane].first, parts_[lane].second,
-              pairs_.bound[lane] > -std::numeric_limits<float>::infinity());
+              KnownInFloat{pairs_.bound[lane] > -std::numeric_limits<float>::infinity(), pairs_.place[lane]});
       last = lane;
     }
     return discarded;
   }
 
  private:
+  void put(std::size_t lane, const FeatureView<CornersA>& a, std::size_t i, const FeatureView<CornersB>& b,
+           std::size_t j) {
+    std::memcpy(pairs_.a[lane], a.corners(i), sizeof pairs_.a[lane]);
+    std::memcpy(pairs_.b[lane], b.corners(j), sizeof pairs_.b[lane]);
+    parts_[lane] = {a.part_of(i), b.part_of(j)};
+  }
+
   kernels::FeaturePairs<CornersA, CornersB> pairs_{};
   std::array<std::pair<PartOf, PartOf>, kernels::lanes> parts_;
   std::size_t count_ = 0;

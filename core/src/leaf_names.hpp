@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "contact_name.hpp"
 #include "leaf_scratch.hpp"
 #include "piercing.hpp"
@@ -12,7 +14,9 @@ namespace graze {
 /// (a piercing never is). A name may be met several times. What is near goes from boxes to float and from
 /// there to double several at once, so names may come later than the features; all are there after `finish`.
 ///
-/// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile.
+/// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile. Of pairs
+/// nearer than `range.names_below()` only the names are wanted. Whether edges pierce faces is asked where
+/// `range.may_pierce()`.
 /// `range.left_out(limit)` is told when something further than that was discarded, and `range.keep(lower)` is
 /// asked, with a bound from double, about features that are too large for float.
 template <typename Range, typename Sink>
@@ -64,65 +68,70 @@ class LeafNames {
     return lists_.gather(taken, kernels::box_at<Corners>, kernels::box_components);
   }
 
-  /// Calls `visit(i, j)` for the first `row_count` of `rows` and those of `columns` whose boxes are not
-  /// certainly further than a limit from each other; whether that was not all.
-  template <std::size_t RowCorners, std::size_t Corners, typename Visit>
+  /// Calls `use(rows, columns, count)` with numbers of the first `row_count` of `rows` and of those of
+  /// `columns` whose boxes are not certainly further than a limit from each other; whether that was not all.
+  template <std::size_t RowCorners, std::size_t Corners, typename Use>
   bool near_boxes(const TakenFeatures<RowCorners>& rows, std::size_t row_count,
                   const TakenFeatures<Corners>& columns, const kernels::Block& boxes, float limit,
-                  const Visit& visit) {
+                  const Use& use) {
     if (row_count == 0 || boxes.count == 0) return false;
     const kernels::NearPairs near = lists_.room_for(boxes.count);
     const std::size_t each = std::max<std::size_t>(1, FloatFilterScratch::pairs_at_once / boxes.count);
     std::size_t discarded = 0;
     for (std::size_t begin = 0; begin < row_count; begin += each) {
       const std::size_t count = std::min(each, row_count - begin);
+      const std::uint32_t* const row_index = rows.index() + begin;
+      const std::uint32_t* const column_index = columns.index();
       const std::size_t found = kernels::filter().near_boxes(
-          {rows.all().block(), kernels::box_at<RowCorners>, rows.index() + begin, count}, boxes, limit, near);
+          {rows.all().block(), kernels::box_at<RowCorners>, row_index, count}, boxes, limit, near);
       discarded += count * boxes.count - found;
-      for (std::size_t k = 0; k < found; ++k)
-        visit(rows.index()[begin + near.row[k]], columns.index()[near.column[k]]);
+      for (std::size_t k = 0; k < found; ++k) near.row[k] = row_index[near.row[k]];
+      for (std::size_t k = 0; k < found; ++k) near.column[k] = column_index[near.column[k]];
+      use(near.row, near.column, found);
     }
     pair_.count.discarded_in_float += discarded;
     return discarded > 0;
   }
   /// The same of those that are not certainly further than the range's limit.
-  template <std::size_t RowCorners, std::size_t Corners, typename Visit>
+  template <std::size_t RowCorners, std::size_t Corners, typename Use>
   void near_boxes(const TakenFeatures<RowCorners>& rows, const TakenFeatures<Corners>& columns,
-                  const kernels::Block& boxes, const Visit& visit) {
+                  const kernels::Block& boxes, const Use& use) {
     const double limit = range_.limit();
-    if (near_boxes(rows, rows.count(), columns, boxes, local(limit), visit)) range_.left_out(limit);
+    if (near_boxes(rows, rows.count(), columns, boxes, local(limit), use)) range_.left_out(limit);
   }
 
   template <typename Take>
   void near_vertices(const TakenFeatures<1>& vertices, const TakenFeatures<3>& triangles,
                      const kernels::Block& boxes, FloatBatch<1, 3>& batch, const Take& take) {
-    near_boxes(vertices, triangles, boxes, [&](std::size_t i, std::size_t j) {
-      batch.add(vertices.all(), i, triangles.all(), j);
-      if (batch.is_full()) bound(batch, take);
+    near_boxes(vertices, triangles, boxes, [&](const auto* of_vertices, const auto* of_faces, auto count) {
+      batch.add(vertices.all().view(), of_vertices, triangles.all().view(), of_faces, count,
+                [&] { bound(batch, take); });
     });
   }
 
   template <typename Take>
   void touching(const TakenFeatures<2>& segments, const TakenFeatures<3>& triangles,
                 const kernels::Block& boxes, FloatBatch<2, 3>& batch, const Take& take) {
+    if (!range_.may_pierce()) return;
     const kernels::Block touching_boxes{boxes.data, boxes.stride, triangles.touching()};
     near_boxes(segments, segments.touching(), triangles, touching_boxes, 0,
-               [&](std::size_t i, std::size_t j) {
-                 batch.add(segments.all(), i, triangles.all(), j);
-                 if (batch.is_full()) bound(batch, take);
+               [&](const auto* of_segments, const auto* of_faces, auto count) {
+                 batch.add(segments.all().view(), of_segments, triangles.all().view(), of_faces, count,
+                           [&] { bound(batch, take); });
                });
   }
 
   void near_segments(const TakenFeatures<2>& a, const TakenFeatures<2>& b) {
     if (a.count() == 0 || b.count() == 0) return;
-    const auto add = [&](std::size_t i, std::size_t j) {
-      batches_.segments.add(a.all(), i, b.all(), j);
-      if (batches_.segments.is_full()) bound(batches_.segments, take_segments());
+    const auto add = [&](const std::uint32_t* of_a, const std::uint32_t* of_b, std::size_t count) {
+      batches_.segments.add(a.all().view(), of_a, b.all().view(), of_b, count,
+                            [&] { bound(batches_.segments, take_segments()); });
     };
     if (a.count() <= b.count())
       near_boxes(a, b, boxes_of(b), add);
     else
-      near_boxes(b, a, boxes_of(a), [&](std::size_t j, std::size_t i) { add(i, j); });
+      near_boxes(b, a, boxes_of(a),
+                 [&](const auto* of_b, const auto* of_a, auto count) { add(of_a, of_b, count); });
   }
 
   // ---- By the bounds of float
@@ -145,62 +154,94 @@ class LeafNames {
   }
   template <typename Take>
   void bound(FloatBatch<2, 3>& batch, const Take& take) {
-    pair_.count.discarded_in_float += batch.bound(kernels::filter().bound_segments_and_triangles, 0, take);
+    pair_.count.discarded_in_float += batch.empty(kernels::filter().passing, take);
   }
   template <typename Batch, typename Kernel, typename Take>
   void bound_near(Batch& batch, Kernel kernel, const Take& take) {
     const double limit = range_.limit();
-    const std::size_t discarded = batch.bound(kernel, local(limit), take);
+    const kernels::NearLimits limits{local(limit), local_below()};
+    const std::size_t discarded = batch.empty([&](auto& pairs) { return kernel(pairs, limits); }, take);
     pair_.count.discarded_in_float += discarded;
     if (discarded > 0) range_.left_out(limit);
   }
 
   auto take_vertex_a() {
-    return [this](const PartOf& vertex, const PartOf& face, bool is_bounded) {
-      if (may_be_near(pair_.a, vertex, pair_.b, face, is_bounded))
+    return [this](const PartOf& vertex, const PartOf& face, const KnownInFloat& known) {
+      if (known.place != kernels::unsure_place && is_triangle(pair_.b, face))
+        return name_in_float(vertex_piece(vertex.index), piece_in(pair_.b, face, known));
+      if (may_be_near(pair_.a, vertex, pair_.b, face, known))
         scratch_.naming.add_vertex_and_face(pair_, vertex.index, face.index, sink_);
     };
   }
   auto take_vertex_b() {
-    return [this](const PartOf& vertex, const PartOf& face, bool is_bounded) {
-      if (may_be_near(pair_.b, vertex, pair_.a, face, is_bounded))
+    return [this](const PartOf& vertex, const PartOf& face, const KnownInFloat& known) {
+      if (known.place != kernels::unsure_place && is_triangle(pair_.a, face))
+        return name_in_float(piece_in(pair_.a, face, known), vertex_piece(vertex.index));
+      if (may_be_near(pair_.b, vertex, pair_.a, face, known))
         scratch_.naming.add_face_and_vertex(pair_, face.index, vertex.index, sink_);
     };
   }
   auto take_segments() {
-    return [this](const PartOf& a, const PartOf& b, bool is_bounded) {
-      if (!may_be_near(pair_.a, a, pair_.b, b, is_bounded)) return;
-      if (a.part == Part::edge && b.part == Part::edge)
+    return [this](const PartOf& a, const PartOf& b, const KnownInFloat& known) {
+      const bool are_edges = a.part == Part::edge && b.part == Part::edge;
+      if (known.place != kernels::unsure_place && are_edges) {
+        const auto place = static_cast<std::size_t>(known.place);
+        return name_in_float(piece_of_edge(pair_.a.mesh(), a.index, place >> 2U),
+                             piece_of_edge(pair_.b.mesh(), b.index, place & 3U));
+      }
+      if (!may_be_near(pair_.a, a, pair_.b, b, known)) return;
+      if (are_edges)
         scratch_.naming.add_edges(pair_, a.index, b.index, sink_);
       else if (is_segment(pair_.a, a) && is_segment(pair_.b, b))
         offer_inner(piece_of(a), piece_of(b));
     };
   }
   auto take_through_b() {
-    return [this](const PartOf& segment, const PartOf& face, bool is_bounded) {
-      if (!may_touch(pair_.a, segment, pair_.b, face, is_bounded) || !is_segment(pair_.a, segment)) return;
+    return [this](const PartOf& segment, const PartOf& face, const KnownInFloat& known) {
+      if (!may_touch(pair_.a, segment, pair_.b, face, known) || !is_segment(pair_.a, segment)) return;
       const FeaturePiece a = piece_of(segment);
-      if (const auto b = pierced_piece(pair_.a, a, pair_.b, face.index, pair_.count))
+      if (const auto b = pierced(pair_.a, a, pair_.b, face, known))
         sink_(ContactName::of(a, *b, Meeting::pierced), SquaredRange{});
     };
   }
   auto take_through_a() {
-    return [this](const PartOf& segment, const PartOf& face, bool is_bounded) {
-      if (!may_touch(pair_.b, segment, pair_.a, face, is_bounded) || !is_segment(pair_.b, segment)) return;
+    return [this](const PartOf& segment, const PartOf& face, const KnownInFloat& known) {
+      if (!may_touch(pair_.b, segment, pair_.a, face, known) || !is_segment(pair_.b, segment)) return;
       const FeaturePiece b = piece_of(segment);
-      if (const auto a = pierced_piece(pair_.b, b, pair_.a, face.index, pair_.count))
+      if (const auto a = pierced(pair_.b, b, pair_.a, face, known))
         sink_(ContactName::of(*a, b, Meeting::pierced), SquaredRange{});
     };
+  }
+  std::optional<FeaturePiece> pierced(const Surface& surface, const FeaturePiece& segment,
+                                      const Surface& other, const PartOf& face, const KnownInFloat& known) {
+    if (known.place != kernels::passes_through || !is_triangle(other, face))
+      return pierced_piece(surface, segment, other, face.index, pair_.count);
+    ++pair_.count.named_in_float;
+    return face_piece(face.index, Piece::first);
+  }
+
+  // ---- By the places of float
+
+  static bool is_triangle(const Surface& surface, const PartOf& face) {
+    return surface.mesh().face(face.index).size() == 3;
+  }
+  static FeaturePiece piece_in(const Surface& surface, const PartOf& face, const KnownInFloat& known) {
+    return piece_of_triangle(surface.mesh(), face.index, static_cast<std::size_t>(known.place));
+  }
+  /// What is certainly nearer than what is asked for, however near.
+  void name_in_float(const FeaturePiece& a, const FeaturePiece& b) {
+    ++pair_.count.named_in_float;
+    sink_(ContactName::of(a, b), SquaredRange{0, 0});
   }
 
   /// Whether what float has left may be near: features that are too large for it have not been looked at.
   bool may_be_near(const Surface& a, const PartOf& of_a, const Surface& b, const PartOf& of_b,
-                   bool is_bounded) {
-    return is_bounded || range_.keep(lower_in_double(a, of_a, b, of_b));
+                   const KnownInFloat& known) {
+    return known.is_bounded || range_.keep(lower_in_double(a, of_a, b, of_b));
   }
   static bool may_touch(const Surface& a, const PartOf& of_a, const Surface& b, const PartOf& of_b,
-                        bool is_bounded) {
-    return is_bounded || lower_in_double(a, of_a, b, of_b) == 0;
+                        const KnownInFloat& known) {
+    return known.is_bounded || lower_in_double(a, of_a, b, of_b) == 0;
   }
   static double lower_in_double(const Surface& a, const PartOf& of_a, const Surface& b, const PartOf& of_b) {
     return lower_distance(box_of(a, of_a.part, of_a.index), box_of(b, of_b.part, of_b.index));
@@ -213,6 +254,8 @@ class LeafNames {
     }
     return local_limit_;
   }
+  /// What is nearer than this in the frame is so in truth, where names are all that is wanted.
+  float local_below() const { return batches_.frame.to_local_below(range_.names_below()); }
 
   // ---- Exactly
 

@@ -9,6 +9,21 @@
 
 namespace graze {
 
+// Pieces by their place, in the order of `Along` and `Place`: which it is nothing foretells.
+inline FeaturePiece piece_of_edge(const Mesh& mesh, std::uint32_t edge, std::size_t place) {
+  const auto [first, second] = mesh.edge(edge);
+  const std::array<FeaturePiece, 3> pieces{vertex_piece(first), vertex_piece(second), edge_piece(edge)};
+  return pieces[place];
+}
+inline FeaturePiece piece_of_triangle(const Mesh& mesh, std::uint32_t face, std::size_t place) {
+  const auto corner = mesh.face(face);
+  const auto edge = mesh.face_edges(face);
+  const std::array<FeaturePiece, 7> pieces{
+      vertex_piece(corner[0]), vertex_piece(corner[1]), vertex_piece(corner[2]),       edge_piece(edge[0]),
+      edge_piece(edge[1]),     edge_piece(edge[2]),     face_piece(face, Piece::first)};
+  return pieces[place];
+}
+
 /// Pairs of features whose closest points are to be named, which is done several at once. What plain double
 /// is not certain of is named one by one. An index is that of a feature in its surface's mesh.
 class NamingBatch {
@@ -103,21 +118,6 @@ class NamingBatch {
     for (std::size_t corner = 0; corner < Corners; ++corner)
       put_corner(surface, vertices[corner], points[corner], lane);
   }
-  // Pieces by their place, in the order of `Along` and `Place`: which it is nothing foretells.
-  static FeaturePiece piece_of_edge(const Mesh& mesh, std::uint32_t edge, double place) {
-    const auto [first, second] = mesh.edge(edge);
-    const std::array<FeaturePiece, 3> pieces{vertex_piece(first), vertex_piece(second), edge_piece(edge)};
-    return pieces[static_cast<std::size_t>(place)];
-  }
-  static FeaturePiece piece_of_face(const Mesh& mesh, std::uint32_t face, double place) {
-    const auto corner = mesh.face(face);
-    const auto edge = mesh.face_edges(face);
-    const std::array<FeaturePiece, 7> pieces{
-        vertex_piece(corner[0]), vertex_piece(corner[1]), vertex_piece(corner[2]),       edge_piece(edge[0]),
-        edge_piece(edge[1]),     edge_piece(edge[2]),     face_piece(face, Piece::first)};
-    return pieces[static_cast<std::size_t>(place)];
-  }
-
   kernels::SegmentPairBatch segment_batch_{};
   kernels::PointTriangleBatch triangle_batch_{};
   std::array<EdgePair, kernels::contact_lanes> segment_;
@@ -132,8 +132,9 @@ void NamingBatch::name_segments(const SurfacePair& pair, const Sink& sink) {
   kernels::places().segments(segment_batch_);
   const auto certain = [&](std::size_t lane) {
     const auto [a, b] = segment_[lane];
-    return ContactName::of(piece_of_edge(pair.a.mesh(), a, segment_batch_.place_a[lane]),
-                           piece_of_edge(pair.b.mesh(), b, segment_batch_.place_b[lane]));
+    return ContactName::of(
+        piece_of_edge(pair.a.mesh(), a, static_cast<std::size_t>(segment_batch_.place_a[lane])),
+        piece_of_edge(pair.b.mesh(), b, static_cast<std::size_t>(segment_batch_.place_b[lane])));
   };
   name_lanes(segment_batch_.found, segments_, pair, sink, certain,
              [&](std::size_t lane) { name_alone(segment_[lane], pair, sink); });
@@ -145,7 +146,8 @@ void NamingBatch::name_points_and_triangles(const SurfacePair& pair, const Sink&
   kernels::places().points_and_triangles(triangle_batch_);
   const auto certain = [&](std::size_t lane) {
     const VertexAndFace& pieces = vertex_and_face_[lane];
-    return pieces.name(piece_of_face(pieces.of_face(pair).mesh(), pieces.face, triangle_batch_.place[lane]));
+    return pieces.name(piece_of_triangle(pieces.of_face(pair).mesh(), pieces.face,
+                                         static_cast<std::size_t>(triangle_batch_.place[lane])));
   };
   name_lanes(triangle_batch_.found, points_and_triangles_, pair, sink, certain,
              [&](std::size_t lane) { name_alone(vertex_and_face_[lane], pair, sink); });

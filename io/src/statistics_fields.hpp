@@ -9,7 +9,7 @@ namespace graze::io {
 
 /// The counters and times of a step by the names they have in a report, in the order in which they are
 /// written. `regions_expanded` is an array and stands between the two.
-inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 29> counter_fields{{
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 30> counter_fields{{
     {"objects", &StepStatistics::objects},
     {"objects_unread", &StepStatistics::objects_unread},
     {"objects_surveyed", &StepStatistics::objects_surveyed},
@@ -31,6 +31,7 @@ inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatis
     {"region_pairs_tested", &StepStatistics::region_pairs_tested},
     {"leaf_pairs_tested", &StepStatistics::leaf_pairs_tested},
     {"discarded_in_float", &StepStatistics::discarded_in_float},
+    {"named_in_float", &StepStatistics::named_in_float},
     {"decided_in_double", &StepStatistics::decided_in_double},
     {"exact_decisions", &StepStatistics::exact_decisions},
     {"fronts_left_out", &StepStatistics::fronts_left_out},

@@ -174,6 +174,7 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.region_pairs_tested = sum.region_pairs_tested;
   statistics.leaf_pairs_tested = sum.leaf_pairs_tested;
   statistics.discarded_in_float = sum.discarded_in_float;
+  statistics.named_in_float = sum.named_in_float;
   statistics.decided_in_double = sum.decided_in_double;
   statistics.exact_decisions = sum.exact_decisions;
   statistics.fronts_left_out = sum.fronts_left_out;

@@ -4,7 +4,6 @@
 
 #include "certain.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <graze/instruction_set.hpp>
@@ -12,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/nearest_places.hpp"
 #include "kernels/places.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
@@ -21,7 +21,6 @@ namespace graze::tests {
 namespace {
 
 using Eigen::Vector3d;
-using oracle::Point;
 using oracle::Random;
 using oracle::Rational;
 using oracle::squared_length;
@@ -51,98 +50,6 @@ class Generator {
   Random random_;
 };
 
-/// Where the point of segment (p, q) nearest to x is: 0 to 1.
-Rational nearest_on_segment(const Point& x, const Point& p, const Point& q) {
-  const Rational length_squared = squared_length(q - p);
-  if (length_squared == 0) return 0;
-  return std::clamp<Rational>(dot(q - p, x - p) / length_squared, 0, 1);
-}
-
-Point on_segment(const Point& p, const Point& q, const Rational& t) {
-  return p + t * (q - p);
-}
-
-/// The nearest point of a triangle as its place and squared distance: that of the inside where the foot of
-/// the perpendicular is strictly inside, otherwise that of the nearest side.
-std::pair<Place, Rational> nearest_on_triangle(const Point& x, const std::array<Point, 3>& c) {
-  const Point normal = cross(c[1] - c[0], c[2] - c[0]);
-  if (squared_length(normal) != 0) {
-    bool inside = true;
-    for (std::size_t i = 0; i < 3; ++i)
-      inside = inside && dot(normal, cross(c[(i + 1) % 3] - c[i], x - c[i])) > 0;
-    const Rational height = dot(normal, x - c[0]);
-    if (inside) return {Place::inside, height * height / squared_length(normal)};
-  }
-  std::optional<std::pair<Place, Rational>> best;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Rational t = nearest_on_segment(x, c[i], c[(i + 1) % 3]);
-    const Rational distance = squared_length(x - on_segment(c[i], c[(i + 1) % 3], t));
-    auto place = static_cast<Place>(static_cast<std::size_t>(Place::edge01) + i);
-    if (t == 0) place = static_cast<Place>(i);
-    if (t == 1) place = static_cast<Place>((i + 1) % 3);
-    if (!best || distance < best->second || (distance == best->second && place < best->first))
-      best = {place, distance};
-  }
-  return *best;
-}
-
-Along along_of(const Rational& t) {
-  if (t == 0) return Along::first;
-  return t == 1 ? Along::second : Along::inside;
-}
-
-/// The closest points of two segments, where they are one pair: places and squared distance.
-using SegmentPair = std::pair<std::array<Along, 2>, Rational>;
-std::optional<SegmentPair> nearest_on_segments(const std::array<Point, 2>& a, const std::array<Point, 2>& b) {
-  const Point u = a[1] - a[0];
-  const Point v = b[1] - b[0];
-  const Point w = b[0] - a[0];
-  const Point normal = cross(u, v);
-  const Rational determinant = squared_length(normal);
-  if (determinant != 0) {
-    const Rational s = dot(cross(w, v), normal) / determinant;
-    const Rational t = dot(cross(w, u), normal) / determinant;
-    if (s > 0 && s < 1 && t > 0 && t < 1) {
-      const Rational height = dot(normal, w);
-      return SegmentPair{{Along::inside, Along::inside}, height * height / determinant};
-    }
-  }
-  std::optional<SegmentPair> best;
-  bool unique = true;
-  const auto offer = [&](const SegmentPair& pair) {
-    if (best && pair.second > best->second) return;
-    if (best && pair.second == best->second) {
-      unique = unique && pair.first == best->first;
-      return;
-    }
-    best = pair;
-    unique = true;
-  };
-  for (std::size_t end = 0; end < 2; ++end) {
-    const Rational t = nearest_on_segment(a[end], b[0], b[1]);
-    offer({{end == 0 ? Along::first : Along::second, along_of(t)},
-           squared_length(a[end] - on_segment(b[0], b[1], t))});
-    const Rational s = nearest_on_segment(b[end], a[0], a[1]);
-    offer({{along_of(s), end == 0 ? Along::first : Along::second},
-           squared_length(b[end] - on_segment(a[0], a[1], s))});
-  }
-  if (!unique) return std::nullopt;
-  return best;
-}
-
-/// Whether a segment goes from one side of a triangle's plane to the other, through its inside.
-bool passes(const std::array<Point, 2>& segment, const std::array<Point, 3>& c) {
-  const Point normal = cross(c[1] - c[0], c[2] - c[0]);
-  const Rational first = dot(normal, segment[0] - c[0]);
-  const Rational second = dot(normal, segment[1] - c[0]);
-  if (first * second >= 0) return false;
-  const Point crossing = on_segment(segment[0], segment[1], first / (first - second));
-  bool inside = true;
-  for (std::size_t i = 0; i < 3; ++i)
-    inside = inside && dot(normal, cross(c[(i + 1) % 3] - c[i], crossing - c[i])) > 0;
-  return inside;
-}
-
 struct Tally {
   std::size_t compared = 0;
   std::size_t certain = 0;
@@ -166,19 +73,17 @@ using Corners = std::array<Vector3d, 3>;
 using Ends = std::array<Vector3d, 2>;
 
 void check_place(const Vector3d& point, const Corners& corner, Place place, const SquaredRange& range) {
-  const auto [expected, distance] = nearest_on_triangle(
-      oracle::exact(point), {oracle::exact(corner[0]), oracle::exact(corner[1]), oracle::exact(corner[2])});
-  REQUIRE(place == expected);
-  check_range(range, distance);
+  const NearestInTriangle expected = nearest_in_triangle(oracle::exact(point), exact_corners(corner));
+  REQUIRE(place == expected.place);
+  check_range(range, expected.squared_distance);
 }
 
 void check_places(const Ends& a, const Ends& b, const std::array<Along, 2>& places,
                   const SquaredRange& range) {
-  const auto expected = nearest_on_segments({oracle::exact(a[0]), oracle::exact(a[1])},
-                                            {oracle::exact(b[0]), oracle::exact(b[1])});
-  REQUIRE(expected.has_value());
-  REQUIRE(places == expected->first);
-  check_range(range, expected->second);
+  const NearestOfSegments expected = nearest_of_segments(exact_corners(a), exact_corners(b));
+  REQUIRE(expected.is_unique);
+  REQUIRE(places == expected.places);
+  check_range(range, expected.squared_distance);
 }
 
 /// Every fifth pair is parallel, but for rounding.
@@ -364,9 +269,7 @@ TEST_CASE("certain: whether a segment passes through a triangle") {
       if (passing == Passing::unsure) continue;
       ++certain;
       INFO("family " << family << ", case " << i);
-      REQUIRE((passing == Passing::yes) ==
-              passes({oracle::exact(segment[0]), oracle::exact(segment[1])},
-                     {oracle::exact(corner[0]), oracle::exact(corner[1]), oracle::exact(corner[2])}));
+      REQUIRE((passing == Passing::yes) == passes(exact_corners(segment), exact_corners(corner)));
     }
     INFO("family " << family << ": " << certain << " of " << cases);
     // The volumes of needles are hardly larger than their bounds.

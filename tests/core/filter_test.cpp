@@ -1,5 +1,5 @@
-// The float kernels discard only: every lower bound they give is compared with the distance in long double,
-// and every instruction set with plain code.
+// What the float kernels discard is far: every lower bound they give is compared with the distance in long
+// double, and every instruction set with plain code.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,9 +12,9 @@
 #include <string>
 
 #include "core/filter_families.hpp"
+#include "core/nearest_places.hpp"
 #include "float_filter.hpp"
 #include "support/catch.hpp"
-#include "support/exact.hpp"
 #include "support/real.hpp"
 
 namespace graze::tests {
@@ -99,21 +99,24 @@ struct Found {
 struct Bounds {
   std::vector<float> bound;
   std::vector<bool> is_left;
+  std::vector<std::int32_t> place;
 };
-Bounds bounds_of(const PointBlock& rows, std::size_t row, const PointBlock& columns, float limit) {
-  Bounds bounds{std::vector<float>(columns.count(), infinity), std::vector<bool>(columns.count())};
+Bounds bounds_of(const PointBlock& rows, std::size_t row, const PointBlock& columns,
+                 const kernels::NearLimits& limits) {
+  Bounds bounds{std::vector<float>(columns.count(), infinity), std::vector<bool>(columns.count()),
+                std::vector<std::int32_t>(columns.count(), kernels::unsure_place)};
   Found found(columns.count());
   const std::size_t count =
-      kernels::filter().near_points(point_of(rows, row), columns.block(), limit, found.out());
+      kernels::filter().near_points(point_of(rows, row), columns.block(), limits.limit, found.out());
   for (std::size_t k = 0; k < count; ++k) {
     bounds.bound[found.index[k]] = found.bound[k];
     bounds.is_left[found.index[k]] = true;
   }
   return bounds;
 }
-template <std::size_t RowCorners, std::size_t Corners, typename Kernel>
-Bounds bounds_of(const FeatureBlock<RowCorners>& rows, std::size_t row, const FeatureBlock<Corners>& columns,
-                 float limit, Kernel kernel) {
+template <std::size_t RowCorners, std::size_t Corners, typename Ask>
+Bounds bounds_by(const Ask& ask, const FeatureBlock<RowCorners>& rows, std::size_t row,
+                 const FeatureBlock<Corners>& columns) {
   Bounds bounds;
   for (std::size_t first = 0; first < columns.count(); first += kernels::lanes) {
     kernels::FeaturePairs<RowCorners, Corners> pairs{};
@@ -122,22 +125,27 @@ Bounds bounds_of(const FeatureBlock<RowCorners>& rows, std::size_t row, const Fe
       std::copy_n(rows.corners(row), RowCorners, pairs.a[lane]);
       std::copy_n(columns.corners(first + lane), Corners, pairs.b[lane]);
     }
-    const std::uint32_t left = kernel(pairs, limit);
+    const std::uint32_t left = ask(pairs);
     for (std::size_t lane = 0; lane < count; ++lane) {
       bounds.bound.push_back(pairs.bound[lane]);
       bounds.is_left.push_back((left >> lane & 1U) != 0);
+      bounds.place.push_back(pairs.place[lane]);
     }
   }
   return bounds;
 }
-Bounds bounds_of(const PointBlock& rows, std::size_t row, const TriangleBlock& columns, float limit) {
-  return bounds_of(rows, row, columns, limit, kernels::filter().bound_points_and_triangles);
+Bounds bounds_of(const PointBlock& rows, std::size_t row, const TriangleBlock& columns,
+                 const kernels::NearLimits& limits) {
+  const auto kernel = kernels::filter().bound_points_and_triangles;
+  return bounds_by([&](auto& pairs) { return kernel(pairs, limits); }, rows, row, columns);
 }
-Bounds bounds_of(const SegmentBlock& rows, std::size_t row, const SegmentBlock& columns, float limit) {
-  return bounds_of(rows, row, columns, limit, kernels::filter().bound_segments);
+Bounds bounds_of(const SegmentBlock& rows, std::size_t row, const SegmentBlock& columns,
+                 const kernels::NearLimits& limits) {
+  const auto kernel = kernels::filter().bound_segments;
+  return bounds_by([&](auto& pairs) { return kernel(pairs, limits); }, rows, row, columns);
 }
-Bounds bounds_of(const SegmentBlock& rows, std::size_t row, const TriangleBlock& columns, float limit) {
-  return bounds_of(rows, row, columns, limit, kernels::filter().bound_segments_and_triangles);
+Bounds passing(const SegmentBlock& rows, std::size_t row, const TriangleBlock& columns) {
+  return bounds_by(kernels::filter().passing, rows, row, columns);
 }
 
 /// Compares the bounds of all pairs with the truth.
@@ -147,7 +155,7 @@ void check_bounds(const FilterFrame& frame, const std::vector<Row>& rows, const 
   const auto row_block = block_of(rows, frame);
   const auto column_block = block_of(columns, frame);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Bounds bounds = bounds_of(row_block, i, column_block, infinity);
+    const Bounds bounds = bounds_of(row_block, i, column_block, {infinity});
     REQUIRE(bounds.bound.size() == columns.size());
     for (std::size_t j = 0; j < columns.size(); ++j) {
       REQUIRE(bounds.is_left[j]);
@@ -159,21 +167,6 @@ void check_bounds(const FilterFrame& frame, const std::vector<Row>& rows, const 
         tally.add(bounds.bound[j], truth, sizes);
     }
   }
-}
-
-/// Whether a segment crosses a triangle strictly, in rational arithmetic.
-bool crosses(const Corner<2>& segment, const Corner<3>& triangle) {
-  using namespace oracle;
-  const Point p = exact(segment[0]);
-  const Point along = exact(segment[1]) - p;
-  std::array<Point, 3> corner;
-  for (std::size_t i = 0; i < 3; ++i) corner[i] = exact(triangle[i]) - p;
-  const Point normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  const int side_q = sgn(dot(normal, along - corner[0]));
-  if (-sgn(dot(normal, corner[0])) * side_q != -1) return false;
-  for (std::size_t i = 0; i < 3; ++i)
-    if (sgn(dot(along, cross(corner[i], corner[(i + 1) % 3]))) != side_q) return false;
-  return true;
 }
 
 /// Everything that all kernels say of two batches, limits included.
@@ -192,18 +185,22 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
       std::memcpy(&bits, &bounds.bound[k], sizeof bits);
       words.push_back(bits);
       words.push_back(bounds.is_left[k] ? 1 : 0);
+      if (bounds.is_left[k]) words.push_back(static_cast<std::uint32_t>(bounds.place[k]));
     }
   };
   const auto take_pairs = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     for (const auto& [row, column] : pairs) words.insert(words.end(), {row, column});
   };
-  for (const float limit : {infinity, 0.5F, 0.0F}) {
-    for (std::size_t i = 0; i < a.points.size(); ++i) {
-      take(bounds_of(points, i, other_points, limit));
-      take(bounds_of(points, i, triangles, limit));
-      take(bounds_of(segments, i, other_segments, limit));
-      take(bounds_of(segments, i, triangles, limit));
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    for (const kernels::NearLimits limits :
+         {kernels::NearLimits{infinity, infinity}, {infinity, 1}, {0.5F, 0.3F}, {0.5F}, {0}}) {
+      take(bounds_of(points, i, other_points, limits));
+      take(bounds_of(points, i, triangles, limits));
+      take(bounds_of(segments, i, other_segments, limits));
     }
+    take(passing(segments, i, triangles));
+  }
+  for (const float limit : {infinity, 0.5F, 0.0F}) {
     take_pairs(near_boxes(points, triangles, limit));
     take_pairs(near_boxes(segments, other_segments, limit));
     take_pairs(near_boxes(segments, triangles, limit));
@@ -239,8 +236,7 @@ TEST_CASE("filter: the margin is more than the analysis of docs/numerics.md need
   CHECK((1 + 3 + 1 + 3.5 + 1) * std::sqrt(3.0) < double{kernels::margin} / unit);
   // Products of axes and coordinates stay in float's range.
   CHECK(std::pow(double{kernels::largest_size}, 5) < 0x1p126);
-  CHECK(double{kernels::least_size} * double{kernels::margin} *
-            std::sqrt(double{kernels::least_axis_squared}) >
+  CHECK(double{kernels::least_size} * double{kernels::margin} * double{kernels::least_axis} >
         0x1p24 * 0x1p-126);
 }
 
@@ -289,10 +285,10 @@ TEST_CASE("filter: what a segment crosses survives, and little else") {
       std::vector<std::vector<bool>> boxes_meet(a.segments.size(), std::vector<bool>(b.triangles.size()));
       for (const auto& [row, column] : near_boxes(segments, triangles, 0)) boxes_meet[row][column] = true;
       for (std::size_t i = 0; i < a.segments.size(); ++i) {
-        std::vector<bool> survives = bounds_of(segments, i, triangles, 0).is_left;
+        std::vector<bool> survives = passing(segments, i, triangles).is_left;
         for (std::size_t j = 0; j < survives.size(); ++j) survives[j] = survives[j] && boxes_meet[i][j];
         for (std::size_t j = 0; j < b.triangles.size(); ++j) {
-          const bool is_crossed = crosses(a.segments[i], b.triangles[j]);
+          const bool is_crossed = passes(exact_corners(a.segments[i]), exact_corners(b.triangles[j]));
           if (is_crossed) REQUIRE(survives[j]);
           crossed += is_crossed ? 1U : 0U;
           discarded += survives[j] ? 0U : 1U;
@@ -380,27 +376,42 @@ TEST_CASE("filter: a batch hands on what is left, and a quad once") {
     block.lay_out(places.data(), corners.padded());
     return block;
   };
-  using HandedOn = std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>>;
+  using HandedOn = std::vector<std::tuple<std::uint32_t, std::uint32_t, bool, std::int32_t>>;
   const auto run = [&](const TriangleBlock& faces, std::size_t expected_discarded) {
     FloatBatch<1, 3> batch;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j < 2; ++j) batch.add(vertices, i, faces, j);
-    CHECK_FALSE(batch.is_full());
-    HandedOn handed_on;
-    const auto visit = [&](const PartOf& vertex, const PartOf& face, bool is_bounded) {
-      CHECK((vertex.part == Part::vertex && face.part == Part::face));
-      handed_on.emplace_back(vertex.index, face.index, is_bounded);
+    std::size_t times_full = 0;
+    const auto add = [&](const std::vector<std::uint32_t>& i, const std::vector<std::uint32_t>& j) {
+      batch.add(vertices.view(), i.data(), faces.view(), j.data(), i.size(), [&] {
+        ++times_full;
+        batch.begin();
+      });
     };
-    const auto kernel = kernels::filter().bound_points_and_triangles;
-    CHECK(batch.bound(kernel, 0.5F, visit) == expected_discarded);
-    CHECK(batch.bound(kernel, 0.5F, visit) == 0);
-    for (std::size_t k = 0; k < kernels::lanes; ++k) batch.add(vertices, 0, faces, 0);
-    CHECK(batch.is_full());
+    add({0, 0, 1, 1, 2, 2, 3, 3}, {0, 1, 0, 1, 0, 1, 0, 1});
+    HandedOn handed_on;
+    const auto visit = [&](const PartOf& vertex, const PartOf& face, const KnownInFloat& known) {
+      CHECK((vertex.part == Part::vertex && face.part == Part::face));
+      handed_on.emplace_back(vertex.index, face.index, known.is_bounded, known.place);
+    };
+    const auto ask = [](auto& pairs) {
+      return kernels::filter().bound_points_and_triangles(pairs, {0.5F, 0.5F});
+    };
+    CHECK(batch.empty(ask, visit) == expected_discarded);
+    CHECK(batch.empty(ask, visit) == 0);
+    CHECK(times_full == 0);
+    const std::vector<std::uint32_t> many(2 * kernels::lanes + 3, 0);
+    add(many, many);
+    CHECK(times_full == 2);
     return handed_on;
   };
-  CHECK(run(halves(5, 6), 3) ==
-        HandedOn{{0, 5, true}, {0, 6, true}, {1, 5, true}, {3, 5, false}, {3, 6, false}});
-  CHECK(run(halves(7, 7), 3) == HandedOn{{0, 7, true}, {1, 7, true}, {3, 7, false}});
+  constexpr auto inside = static_cast<std::int32_t>(Place::inside);
+  constexpr auto diagonal = static_cast<std::int32_t>(Place::edge01);  // of the second half
+  constexpr std::int32_t unsure = kernels::unsure_place;
+  CHECK(run(halves(5, 6), 3) == HandedOn{{0, 5, true, inside},
+                                         {0, 6, true, diagonal},
+                                         {1, 5, true, inside},
+                                         {3, 5, false, unsure},
+                                         {3, 6, false, unsure}});
+  CHECK(run(halves(7, 7), 3) == HandedOn{{0, 7, true, inside}, {1, 7, true, inside}, {3, 7, false, unsure}});
 }
 
 TEST_CASE("filter: a frame serves leaves of about its size near it, and no others") {

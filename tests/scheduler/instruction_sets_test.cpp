@@ -22,6 +22,7 @@ void require_same_counters(const StepStatistics& mine, const StepStatistics& the
   REQUIRE(mine.region_pairs_tested == theirs.region_pairs_tested);
   REQUIRE(mine.leaf_pairs_tested == theirs.leaf_pairs_tested);
   REQUIRE(mine.discarded_in_float == theirs.discarded_in_float);
+  REQUIRE(mine.named_in_float == theirs.named_in_float);
   REQUIRE(mine.decided_in_double == theirs.decided_in_double);
   REQUIRE(mine.exact_decisions == theirs.exact_decisions);
   REQUIRE(mine.regions_expanded == theirs.regions_expanded);

@@ -146,6 +146,7 @@ void check_statistics(const graze::StepStatistics& read, const graze::StepStatis
   CHECK(read.region_pairs_tested == written.region_pairs_tested);
   CHECK(read.leaf_pairs_tested == written.leaf_pairs_tested);
   CHECK(read.discarded_in_float == written.discarded_in_float);
+  CHECK(read.named_in_float == written.named_in_float);
   CHECK(read.decided_in_double == written.decided_in_double);
   CHECK(read.exact_decisions == written.exact_decisions);
   CHECK(read.object_bytes == written.object_bytes);

@@ -25,6 +25,9 @@ struct PairQuery {
   double tolerance = 0;  ///< of AccuracyMode::within
   /// How far the surfaces may move until a front found now is of no more use; 0: none is kept.
   double slack = 0;
+  /// Where the closest points are looked for, leaves are looked into for what is this much further than need
+  /// be, so that it is known for some steps which of them have nothing as near as that.
+  double look_slack = 0;
   /// A front of more pairs of leaves than this is not kept.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
   /// How many distances of regions are listed at most; 0: none are looked for.
@@ -46,6 +49,7 @@ struct GRAZE_API PairCounters {
   std::uint64_t region_pairs_tested = 0;
   std::uint64_t leaf_pairs_tested = 0;
   std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices, of two leaves
+  std::uint64_t named_in_float = 0;      ///< contacts, as often as they were found
   std::uint64_t decided_in_double = 0;   ///< questions
   std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
   std::uint64_t fronts_left_out = 0;     ///< fronts that were not kept because of PairQuery::front_limit

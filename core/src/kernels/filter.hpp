@@ -36,7 +36,10 @@ inline constexpr float least_size = 0x1p-20F;
 /// Above it products could overflow.
 inline constexpr float largest_size = 0x1p20F;
 /// A separating axis shorter than this says nothing.
-inline constexpr float least_axis_squared = 0x1p-60F;
+inline constexpr float least_axis = 0x1p-30F;
+/// How far the difference of two corners may be from the truth, relative to the sum of their features' sizes:
+/// 7 units of 2^-24.
+inline constexpr float error_of_difference = 0x1.cp-22F;
 
 /// A vertex in a frame.
 struct Point {
@@ -100,14 +103,25 @@ struct RowsOfBoxes {
   std::size_t count;
 };
 
-/// Pairs of features by their corners, and lower bounds of their distances, which minus infinity stands for
-/// where a size is not to be trusted.
+/// Which pairs a kernel is asked about: those not certainly further than `limit`, and of these the places of
+/// those that are certainly nearer than `below`; not above 0: of none.
+struct NearLimits {
+  float limit;
+  float below = 0;
+};
+
+/// Pairs of features by their corners.
 template <std::size_t CornersA, std::size_t CornersB>
 struct FeaturePairs {
   Point a[lanes][CornersA];
   Point b[lanes][CornersB];
-  float bound[lanes];
+  // What the kernel fills in.
+  float bound[lanes];  ///< of the distance, from below; minus infinity where a size is not to be trusted
+  std::int32_t place[lanes];  ///< where the closest points certainly are, or `unsure_place`
 };
+/// Otherwise a place is a number of `Place`, or of two segments four times one of `Along` and one more.
+inline constexpr std::int32_t unsure_place = -1;
+inline constexpr std::int32_t passes_through = 0;
 using SegmentPairs = FeaturePairs<2, 2>;
 using PointTrianglePairs = FeaturePairs<1, 3>;
 using SegmentTrianglePairs = FeaturePairs<2, 3>;
@@ -135,12 +149,14 @@ struct Filter {
   std::size_t (*near_boxes)(const RowsOfBoxes& rows, const Block& boxes, float limit, const NearPairs& out);
   /// The points that are not certainly further than `limit`; how many.
   std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
-  /// Bounds all pairs, and gives one bit for each that is not certainly further than `limit`. Of lanes that
-  /// hold nothing in particular they say nothing in particular.
-  std::uint32_t (*bound_segments)(SegmentPairs& pairs, float limit);
-  std::uint32_t (*bound_points_and_triangles)(PointTrianglePairs& pairs, float limit);
-  /// By a few axes only, of which one parts what does not touch; to be asked with a limit of 0.
-  std::uint32_t (*bound_segments_and_triangles)(SegmentTrianglePairs& pairs, float limit);
+  /// Bounds all pairs, and gives one bit for each that is not certainly further than the limit; places are
+  /// those of pairs with a bit. Of lanes that hold nothing in particular they say nothing in particular.
+  std::uint32_t (*bound_segments)(SegmentPairs& pairs, const NearLimits& limits);
+  std::uint32_t (*bound_points_and_triangles)(PointTrianglePairs& pairs, const NearLimits& limits);
+  /// Gives one bit for each segment that does not certainly pass by its triangle. The bound is 0 or less, and
+  /// the place is `passes_through` where it certainly goes through the triangle's inside from one side to the
+  /// other.
+  std::uint32_t (*passing)(SegmentTrianglePairs& pairs);
   /// Compares every row from `first` to `last` with the points from `begin[row]` to `end[row]`, and lists
   /// those whose squared distance is below `reach_squared`, row after row; how many. Behind the points
   /// `lanes` more may be read.

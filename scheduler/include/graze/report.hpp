@@ -88,6 +88,7 @@ struct StepStatistics {
   std::uint64_t region_pairs_tested = 0;
   std::uint64_t leaf_pairs_tested = 0;
   std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices that were certainly too far
+  std::uint64_t named_in_float = 0;      ///< contacts that float was certain of, as often as they were found
   std::uint64_t decided_in_double = 0;   ///< questions that double answered
   std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
   /// Pairs that will be searched from their roots in the next step: all pairs' fronts together are kept up to

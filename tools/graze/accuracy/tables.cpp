@@ -79,16 +79,17 @@ std::string kernel_point_table(const KernelStudy& study) {
 
 std::string decision_table(const AccuracyResults& results) {
   static constexpr std::array<const char*, 3> names = {"random", "nearly degenerate", "degenerate"};
-  std::string text = head({"input", "scenes", "pairs", "wrong bounds", "discarded in float",
-                           "decided in double", "exact decisions", "exact, of decisions"});
+  std::string text = head({"input", "scenes", "pairs", "wrong bounds", "discarded in float", "named in float",
+                           "decided in double", "exact decisions", "exact, of those"});
   for (std::size_t i = 0; i < names.size(); ++i) {
     const KernelStudy& study = results.kernels[i];
     const PairCounters& counters = study.counters;
     text += row(
         {names[i], count_text(study.scenes), count_text(study.pair_rows), count_text(study.wrong_pair_rows),
-         count_text(counters.discarded_in_float), count_text(counters.decided_in_double),
-         count_text(counters.exact_decisions),
-         share_text(share(counters.exact_decisions, counters.decided_in_double + counters.exact_decisions))});
+         count_text(counters.discarded_in_float), count_text(counters.named_in_float),
+         count_text(counters.decided_in_double), count_text(counters.exact_decisions),
+         share_text(share(counters.exact_decisions,
+                          counters.named_in_float + counters.decided_in_double + counters.exact_decisions))});
   }
   return text + "\n";
 }
