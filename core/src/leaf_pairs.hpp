@@ -17,10 +17,12 @@
 
 namespace graze {
 
-/// A pair of leaves that may be near, and at most how far apart they are.
+/// A pair of leaves that may be near, and a lower bound of how far apart they are.
 struct LeafPair {
   double lower = 0;
   RegionPair pair;
+  std::uint32_t listed = 0;  ///< its place in the front that it was taken from
+  float looked = 0;          ///< as ListedLeaves has it, now
 };
 
 /// Sorts pairs of leaves by the leaf of a, those of one leaf as they come.
@@ -46,15 +48,35 @@ class LeafPairOrder {
   std::vector<LeafPair> sorted_;
 };
 
+/// Places in a front.
+class ListedPlaces {
+ public:
+  /// Room for so many, whatever they are.
+  std::uint32_t* room_for(std::size_t count) {
+    if (places_.size() < count) places_.resize(count);
+    return places_.data();
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.places_);
+  }
+  void reserve(const PairRoom& room) { places_.reserve(room.leaf_pairs); }
+
+ private:
+  std::vector<std::uint32_t> places_;
+};
+
 struct LeafPairScratch {
   DmvScratch dmv;
   LeafBoxes boxes_a;
   LeafBoxes boxes_b;
   LeafPairOrder order;
+  ListedPlaces listed;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.order);
+    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.order, self.listed);
   }
 };
 
@@ -83,24 +105,27 @@ class LeafPairs {
     scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
   }
 
-  /// Appends those leaf pairs of a front that are not further than a distance, where none has come nearer by
-  /// more than `motion` since they were listed. Without a branch, since which are is as good as random; of
-  /// most what was known when they were listed is enough, and no box is looked at.
-  void take(std::span<const ListedLeaves> front, double distance, double motion, LeafPairList& found) {
-    const std::size_t first = found.leaves.size();
-    found.leaves.resize(first + front.size());
-    const double most = (distance + motion) * round_up;
-    std::size_t count = first;
-    for (const ListedLeaves& leaves : front) {
-      found.leaves[count].pair = leaves.pair;
-      count += static_cast<double>(leaves.lower) <= most ? 1 : 0;
+  /// Appends those leaf pairs of a part of a front that are not further than a distance; where the surfaces
+  /// are `certainly_apart`, by what looks into them said, too. Without a branch, since which are is as good
+  /// as random; of most what was known when they were listed is enough, and no box is looked at.
+  void take(const LeafFront& front, std::size_t begin, std::size_t end, double distance, bool certainly_apart,
+            LeafPairList& found) {
+    std::uint32_t* const listed = scratch_.listed.room_for(end - begin);
+    const double most = (distance + front.motion_now(pair_.a, pair_.b)) * round_up;
+    const float of_looks = certainly_apart ? 1.0F : 0.0F;
+    std::size_t taken = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const ListedLeaves& leaves = front.leaves[i];
+      listed[taken] = static_cast<std::uint32_t>(i);
+      taken += static_cast<double>(std::max(leaves.lower, of_looks * leaves.looked)) <= most ? 1U : 0U;
     }
-    const std::size_t end = std::exchange(count, first);
-    for (std::size_t i = first; i < end; ++i) {
-      const RegionPair leaves = found.leaves[i].pair;
+    std::size_t count = found.leaves.size();
+    found.leaves.resize(count + taken);
+    for (std::size_t k = 0; k < taken; ++k) {
+      const RegionPair& leaves = front.leaves[listed[k]].pair;
       const double lower = lower_of_leaves(leaves);
-      found.leaves[count] = {lower, leaves};
-      count += lower <= distance ? 1 : 0;
+      found.leaves[count] = {lower, leaves, listed[k], 0};
+      count += lower <= distance ? 1U : 0U;
     }
     found.leaves.resize(count);
   }
@@ -128,7 +153,7 @@ class LeafPairs {
         [&](const RegionPair& leaves, const Region&, const Region&) {
           meet(leaves);
           const double lower = bounds_.lower(leaves);
-          if (keeps(lower)) found.leaves.push_back({std::max(lower, lower_of_leaves(leaves)), leaves});
+          if (keeps(lower)) found.leaves.push_back({std::max(lower, lower_of_leaves(leaves)), leaves, 0, 0});
         },
         most);
   }

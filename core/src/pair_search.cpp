@@ -38,6 +38,12 @@ float rounded_down(double lower) {
   return lower < least ? 0 : static_cast<float>(std::min(lower, most) * (1 - 0x1p-23));
 }
 
+/// Takes up what looks into two leaves say of them now, after a motion since they were listed.
+void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
+  listed.looked =
+      std::max(listed.looked, rounded_down((static_cast<double>(now.looked) + motion) * round_down));
+}
+
 /// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
 /// many they are; the others are not looked into, and stay in no order.
 std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance) {
@@ -70,6 +76,7 @@ class PairSearch::Worker {
   }
   ~Worker() {
     meter.counters().discarded_in_float += decisions_.discarded_in_float;
+    meter.counters().named_in_float += decisions_.named_in_float;
     meter.counters().decided_in_double += decisions_.in_double;
     meter.counters().exact_decisions += decisions_.exact;
   }
@@ -95,6 +102,7 @@ void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& quer
   answer_ = &answer;
   sliced_ = sliced;
   front.walked = true;
+  certainly_apart_ = false;
   stage_ = Stage::start;
   slice_count_ = 0;
   answer.in_contact = answer.listed = false;
@@ -232,8 +240,7 @@ void PairSearch::slice_front() {
 
 /// What a slice of the front has that is not further than a distance.
 void PairSearch::take_front(Slice& slice, double distance, Worker& worker) const {
-  const auto leaves = std::span(front_->leaves).subspan(slice.begin, slice.end - slice.begin);
-  worker.leaf_pairs.take(leaves, distance, front_->motion_now(*a_, *b_), slice.found);
+  worker.leaf_pairs.take(*front_, slice.begin, slice.end, distance, certainly_apart_, slice.found);
 }
 
 /// Walks until there is enough for many slices; what was found on the way is that of the first slice.
@@ -268,7 +275,7 @@ void PairSearch::remember(double wanted, Worker& worker) {
   if (query_.slack <= 0) return;
   for (const LeafPair& leaves : found_.leaves) {
     if (leaves.lower <= wanted + query_.slack)
-      front_->leaves.push_back({leaves.pair, rounded_down(leaves.lower)});
+      front_->leaves.push_back({leaves.pair, rounded_down(leaves.lower), leaves.looked});
     else
       found_.beyond = std::min(found_.beyond, leaves.lower);
   }
@@ -277,6 +284,7 @@ void PairSearch::remember(double wanted, Worker& worker) {
     return front_->forget();
   }
   front_->beyond = found_.beyond;
+  front_->apart = 0;
   front_->travel_a = a_->travel();
   front_->travel_b = b_->travel();
 }
@@ -476,6 +484,8 @@ void PairSearch::begin_approach(Worker& worker) {
 void PairSearch::begin_search(Worker& worker) {
   beyond_front_ = front_->beyond_now(*a_, *b_);
   from_front_ = beyond_front_ > 0;
+  certainly_apart_ = from_front_ && front_->apart > front_->motion_now(*a_, *b_);
+  found_.clear();
   closest_.clear();
   if (only_touching_) {
     closest_.closest.upper = 0;
@@ -499,9 +509,11 @@ void PairSearch::look_for_touching(Worker& worker) {
   const double motion = front_->motion_now(*a_, *b_);
   if (!front_->leaves.empty()) worker.begin_leaves(front_->leaves.front().pair);
   std::size_t asked = 0;
-  for (const auto& [leaves, lower] : front_->leaves) {
+  for (const ListedLeaves& listed : front_->leaves) {
     if (range.is_settled()) break;
-    if (static_cast<double>(lower) > motion || worker.leaf_pairs.lower_of_leaves(leaves) > 0) continue;
+    LeafPair leaves{0, listed.pair};
+    if (static_cast<double>(listed.lower) > motion || worker.leaf_pairs.lower_of_leaves(leaves.pair) > 0)
+      continue;
     if (sliced_ && ++asked > touching_first) {
       closest_.clear();  // a name at 0 might not be the first of them
       break;
@@ -575,27 +587,27 @@ void PairSearch::begin_closest(Worker& worker) {
 ///
 /// Leaf pairs whose boxes overlap now are the same ones, in the same order, whatever was known of earlier
 /// steps, so a witness at distance 0 does not depend on those either.
-bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const {
+bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) {
   worker.begin_leaves(found_);
-  ClosestRange range(worker.pair, query_, ties(), found);
+  ClosestRange range(worker.pair, query_, ties(), found, !certainly_apart_);
   for (std::size_t i = begin; i < end && !range.is_settled(); ++i) {
-    const LeafPair& leaves = found_.leaves[i];
+    LeafPair& leaves = found_.leaves[i];
     if (!range.keep(leaves.lower)) continue;
-    if (!look_into(leaves.pair, range, worker)) return false;
+    if (!look_into(leaves, range, worker)) return false;
   }
   return true;
 }
 
-/// Looks into two leaves; false when the budget ran out.
-bool PairSearch::look_into(const RegionPair& leaves, ClosestRange& range, Worker& worker) const {
+/// Looks into two leaves, and says of them what is known then; false when the budget ran out.
+bool PairSearch::look_into(LeafPair& leaves, ClosestRange& range, Worker& worker) const {
   if (!worker.meter.spend()) return false;
   ++worker.meter.counters().leaf_pairs_tested;
-  const LeafOf a = worker.leaf_pairs.leaf_a(leaves);
-  const LeafOf b = worker.leaf_pairs.leaf_b(leaves);
+  const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
+  const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
   if (about_vertices())
     range.offer_vertices(a, b, worker.scratch.features);
   else
-    range.offer_features(a, b, worker.scratch.features);
+    leaves.looked = rounded_down(range.offer_features(a, b, worker.scratch.features));
   return true;
 }
 
@@ -609,15 +621,25 @@ void PairSearch::finish_closest(Worker& worker) {
   if (from_front_) {
     // Settled, unless something outside the front may be as near as what is in it.
     if (ClosestRange(worker.pair, query_, ties(), closest_).keep(beyond_front_)) {
-      from_front_ = false;
+      from_front_ = certainly_apart_ = false;
       closest_.lower = infinity;
       return approach(worker);
     }
+    const double motion = front_->motion_now(*a_, *b_);
+    for (const LeafPair& leaves : found_.leaves) raise(front_->leaves[leaves.listed], leaves, motion);
   } else {
     remember(std::max(query_.threshold, std::min(closest_.closest.upper, query_.reach)), worker);
   }
+  set_apart();
   stage_ = Stage::done;
   report_closest(worker);
+}
+
+/// Nothing is nearer than what was found, which an upper distance says to 2^-40, and what was left out.
+void PairSearch::set_apart() {
+  const double apart = std::min(closest_.closest.upper * (1 - 0x1p-38), closest_.lower);
+  front_->apart = std::max(0.0, (apart + front_->motion_now(*a_, *b_)) * round_down);
+  if (!(apart > 0) || about_vertices()) front_->apart = 0;
 }
 
 void PairSearch::report_closest(Worker& worker) {

@@ -107,10 +107,11 @@ class PairSearch {
   void approach(Worker& worker);
   void run_approach(Slice& slice, Worker& worker);
   void begin_closest(Worker& worker);
-  bool look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) const;
-  bool look_into(const RegionPair& leaves, ClosestRange& range, Worker& worker) const;
+  bool look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker);
+  bool look_into(LeafPair& leaves, ClosestRange& range, Worker& worker) const;
   void take_up_closest(Worker& worker);
   void finish_closest(Worker& worker);
+  void set_apart();
   void report_closest(Worker& worker);
   void seed(Slice& slice) const;
 
@@ -136,7 +137,8 @@ class PairSearch {
   LeafFront* front_ = nullptr;
   PairAnswer* answer_ = nullptr;
   bool sliced_ = false;
-  bool from_front_ = false;  ///< the slices begin at the last query's front
+  bool from_front_ = false;       ///< the slices begin at the last query's front
+  bool certainly_apart_ = false;  ///< by that front, in a search for the closest points
   double beyond_front_ = -1;
   bool is_bounded_ = false;     ///< by the last answer, so that middle vertices need not be asked
   bool only_touching_ = false;  ///< the search for the closest points is for those at distance 0

@@ -122,6 +122,14 @@ void validate(const Surface& surface) {
   }
 }
 
+void require_apart(const std::vector<Eigen::Vector3d>& corners_a,
+                   const std::vector<Eigen::Vector3d>& corners_b, double lower, const char* what,
+                   std::size_t index) {
+  for (const Eigen::Vector3d& corner_a : corners_a)
+    for (const Eigen::Vector3d& corner_b : corners_b)
+      require(upper_distance(corner_a, corner_b) >= lower, what, index);
+}
+
 /// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,
 /// and neither those nor the boxes of now always give the greater bound.
 void validate(const LeafFront& front, const Surface& a, const Surface& b) {
@@ -129,18 +137,25 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   const auto regions_b = b.mesh().regions().regions();
   const double beyond = front.beyond_now(a, b);
   if (!(beyond > 0) || regions_a.size() * regions_b.size() > 4096) return;
+  const double motion = front.motion_now(a, b);
   std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
-  for (const auto& [leaves, lower] : front.leaves) listed.insert({leaves.a, leaves.b});
+  for (const auto& [leaves, lower, looked] : front.leaves) {
+    listed.insert({leaves.a, leaves.b});
+    require_apart(corners_of(a, regions_a[leaves.a]), corners_of(b, regions_b[leaves.b]),
+                  static_cast<double>(lower) - motion, "listed leaves are nearer than their bound", leaves.a);
+    if (front.apart > motion)
+      require_apart(corners_of(a, regions_a[leaves.a]), corners_of(b, regions_b[leaves.b]),
+                    static_cast<double>(looked) - motion, "listed leaves are nearer than looks said",
+                    leaves.a);
+  }
   for (std::uint32_t i = 0; i < regions_a.size(); ++i)
     for (std::uint32_t j = 0; j < regions_b.size(); ++j) {
       if (!regions_a[i].is_leaf() || !regions_b[j].is_leaf() || listed.count({i, j}) != 0) continue;
       if (lower_distance(a.box_now(regions_a[i], RefitOf::faces), b.box_now(regions_b[j], RefitOf::faces)) >=
           beyond)
         continue;
-      const auto corners_b = corners_of(b, regions_b[j]);
-      for (const Eigen::Vector3d& corner_a : corners_of(a, regions_a[i]))
-        for (const Eigen::Vector3d& corner_b : corners_b)
-          require(upper_distance(corner_a, corner_b) >= beyond, "a front misses leaves", i);
+      require_apart(corners_of(a, regions_a[i]), corners_of(b, regions_b[j]), beyond, "a front misses leaves",
+                    i);
     }
 }
 

@@ -21,7 +21,7 @@ std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::tim
   return start + *budget;
 }
 
-/// Pairs of leaves in the fronts of all pairs of objects together, 12 bytes each.
+/// Pairs of leaves in the fronts of all pairs of objects together, 16 bytes each.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 
 /// What each worker makes room for when room is reserved, of one pair: so many contacts, pairs of leaves, and
@@ -38,6 +38,18 @@ double slack_of(const Surface& a, const Surface& b) {
   constexpr double most_leaf_sizes = 0.5;
   if (motion > most_leaf_sizes * leaf) return 0;
   return std::clamp(steps * motion, least_leaf_sizes * leaf, most_leaf_sizes * leaf);
+}
+
+/// How much further than need be leaves are looked into: as long as that is far less than a leaf, for many
+/// steps of the last motion. For less than a few it does not pay.
+double look_slack_of(const Surface& a, const Surface& b) {
+  const double motion = a.displacement() + b.displacement();
+  constexpr double least_steps = 3;
+  constexpr double most_steps = 64;
+  constexpr double most_leaf_sizes = 1.0 / 64;
+  const double slack =
+      std::min(most_steps * motion, most_leaf_sizes * std::min(a.leaf_size(), b.leaf_size()));
+  return slack >= least_steps * motion ? slack : 0;
 }
 
 std::size_t bytes_of_lists(const PairAnswer& answer) {
@@ -63,6 +75,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
                                     : std::max<std::size_t>(1, settings_.region_distances / jobs_.size());
   if (job.was_in_contact()) query.reach = infinity;
   query.slack = slack_of(job.a->surface(), job.b->surface());
+  query.look_slack = look_slack_of(job.a->surface(), job.b->surface());
   query.front_limit = front_pairs_of_all / jobs_.size();
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;

@@ -15,10 +15,13 @@ struct RegionPair {
   std::uint32_t b = 0;
 };
 
-/// A pair of leaves, and a lower bound of how far apart they were when they were listed.
+/// A pair of leaves, and lower bounds of how far apart they were when they were listed: of all they have, and
+/// by looks into them, of each vertex and face and each two edges, but not of an edge that comes to pierce a
+/// face.
 struct ListedLeaves {
   RegionPair pair;
   float lower = 0;
+  float looked = 0;
 };
 
 /// A point of a surface that moves with it: of a vertex, an edge, a fold or a triangle, by its corners.
@@ -44,6 +47,9 @@ struct LeafFront {
   /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
   /// nothing is known.
   double beyond = -1;
+  /// At least how far apart the surfaces were at the two marks. While they have not moved as much since, no
+  /// edge pierces a face, and what looks into leaves said of the rest is all that counts.
+  double apart = 0;
   Travel travel_a;
   Travel travel_b;
   /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
@@ -56,6 +62,7 @@ struct LeafFront {
   void forget() {
     leaves.clear();
     beyond = -1;
+    apart = 0;
     witness = {};
     touched = false;
   }

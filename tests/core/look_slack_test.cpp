@@ -1,0 +1,104 @@
+// What a look into two leaves finds out spares the next steps that look while the surfaces hardly move, and
+// shows in no answer: each is that of a query that knows nothing of the steps before.
+
+#include <array>
+#include <graze/floating_point_scope.hpp>
+#include <graze/pair_query.hpp>
+#include <iostream>
+
+#include "core/comparison.hpp"
+#include "core/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/random_scenes.hpp"
+
+namespace graze::tests {
+namespace {
+
+using oracle::Shape;
+
+struct Rest {
+  const char* name;
+  Shape a;
+  Shape b;
+  double apart;  ///< their middles, along x
+  double drift;  ///< further apart in each step
+};
+
+/// Leaf pairs looked into after the first step.
+struct Looks {
+  std::uint64_t with_slack = 0;
+  std::uint64_t without = 0;
+};
+
+/// One way to ask, with what it remembers.
+struct Asking {
+  PairQuery query;
+  LeafFront front;
+  PairDetector detector;
+  PairAnswer answer;
+
+  std::uint64_t ask(const Surface& a, const Surface& b) {
+    PairCounters counters;
+    detector.detect(a, b, query, front, answer, counters);
+    return counters.leaf_pairs_tested;
+  }
+};
+
+Looks tremble(const Rest& rest, const PairQuery& query, double tremor) {
+  Surface a = surface_of(rest.a);
+  Surface b = surface_of(rest.b);
+  Asking patient{query, {}, {}, {}};
+  Asking hasty{query, {}, {}, {}};
+  patient.query.slack = hasty.query.slack = 0.1;
+  patient.query.look_slack = 16 * (2 * tremor + std::abs(rest.drift));
+  Looks looks;
+  for (int step = 0; step < 24; ++step) {
+    const auto seed = static_cast<std::uint64_t>(step);
+    const Eigen::Vector3d way(rest.apart + step * rest.drift, 0.03, 0.02);
+    REQUIRE(a.set_positions(wobbled(rest.a, tremor, seed).positions).taken());
+    REQUIRE(b.set_positions(mapped(wobbled(rest.b, tremor, seed + 50), 1, way).positions).taken());
+    INFO(rest.name << ", step " << step << ", tremor " << tremor << ", threshold " << query.threshold);
+    Asking afresh{query, {}, {}, {}};
+    afresh.ask(a, b);
+    const std::uint64_t with_slack = patient.ask(a, b);
+    const std::uint64_t without = hasty.ask(a, b);
+    check_same(patient.answer, afresh.answer);
+    check_same(hasty.answer, afresh.answer);
+    if (step == 0) continue;
+    looks.with_slack += with_slack;
+    looks.without += without;
+  }
+  return looks;
+}
+
+}  // namespace
+
+TEST_CASE("look slack: what is known of leaves from a look into them spares looks, and shows in no answer") {
+  const FloatingPointScope scope;
+  const Shape ball = shape_of(models::sphere(32, 24));
+  const Shape block = shape_of(models::box({1, 1, 1}));
+  const Shape ring = shape_of(models::torus(32, 16, 0.7, 0.3));
+  const std::array all{Rest{"balls apart", ball, turned(ball, 3), 2.02, 0},
+                       Rest{"balls through each other", ball, turned(ball, 3), 1.9, 0},
+                       Rest{"rings within each other", ring, turned(ring, 5), 0.05, 0},
+                       Rest{"blocks", block, block, 1.001, 0},
+                       Rest{"balls that part", ball, turned(ball, 4), 1.985, 2e-3},
+                       Rest{"balls that meet", ball, turned(ball, 4), 2.03, -2e-3}};
+  Looks sum;
+  for (const Rest& rest : all)
+    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest})
+      for (const double threshold : {0.0, 0.01})
+        for (const double tremor : {0.0, 1e-6, 1e-4}) {
+          PairQuery query = query_of(detail, threshold);
+          query.reach = 0.5;
+          const Looks looks = tremble(rest, query, tremor);
+          if (detail != ContactDetail::none) continue;
+          sum.with_slack += looks.with_slack;
+          sum.without += looks.without;
+        }
+  CHECK(sum.without > 4000);
+  CHECK(sum.with_slack * 3 < sum.without * 2);
+  std::cout << sum.with_slack << " looks into leaves with slack, " << sum.without << " without\n";
+}
+
+}  // namespace graze::tests
