@@ -185,7 +185,18 @@ std::optional<Surface::PartSeen> seen_in_survey(const void* now, std::uint32_t b
   return part;
 }
 
-/// The same of any positions, one by one.
+/// The same of what comes in another precision than before, as at first: that it may be anywhere else.
+std::optional<Surface::PartSeen> seen_as_jump(const PositionView& view, std::uint32_t begin,
+                                              std::uint32_t end) {
+  auto part = view.is_double() ? seen_in_survey<double>(view.data(), begin, end)
+                               : seen_in_survey<float>(view.data(), begin, end);
+  if (!part) return part;
+  part->changed = true;
+  part->furthest_squared = std::numeric_limits<double>::infinity();
+  return part;
+}
+
+/// What is seen in a survey of any positions, one by one.
 Surface::PartSeen seen_one_by_one(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
                                   std::uint32_t end) {
   Surface::PartSeen part;
@@ -247,6 +258,8 @@ Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint
   if (begin < end && is_laid_out_like(view))
     part = view.is_double() ? seen_in_passes<double>(view.data(), in_double_.data(), begin, end, displacement)
                             : seen_in_passes<float>(view.data(), in_float_.data(), begin, end, displacement);
+  else if (begin < end && displacement == Displacement::bound && is_packed(*mesh_, view))
+    part = seen_as_jump(view, begin, end);
   if (!part) part = look(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
   part->in_double = view.is_double();
   return *part;

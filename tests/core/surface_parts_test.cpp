@@ -152,6 +152,38 @@ TEST_CASE("a surface in parts: the first bad vertex is named and nothing is take
   }
 }
 
+TEST_CASE("a surface in parts: in another precision, a bound of the motion is none, and all is taken") {
+  const oracle::Shape shape = shape_of(models::sphere(20, 20));
+  Surface surface(mesh_of(shape));
+  Surface expected(mesh_of(shape));
+  std::vector<Eigen::Vector3f> positions;
+  for (const Eigen::Vector3d& position : shape.positions)
+    positions.push_back((1.25 * position).cast<float>());
+  const std::uint32_t count = surface.mesh().vertex_count();
+  const Travel before = surface.travel();
+  for (int times = 0; times < 2; ++times) {
+    const auto seen = surface.look_at_positions(positions, 0, count, Surface::Displacement::bound);
+    const Surface::ReadResult result = surface.take(seen);
+    REQUIRE(result.taken());
+    CHECK(result.changed == (times == 0));
+    CHECK(result.displacement == (times == 0 ? std::numeric_limits<double>::infinity() : 0));
+    if (result.changed) surface.write_positions(positions, 0, count);
+    expected.set_positions(positions);
+    for (std::uint32_t vertex = 0; vertex < count; ++vertex)
+      CHECK(surface.position(vertex) == expected.position(vertex));
+    CHECK(is_same(surface.box(), expected.box()));
+    CHECK(surface.version() == expected.version());
+  }
+  CHECK(surface.motion_since(before) == std::numeric_limits<double>::infinity());
+  CHECK(surface.displacement() == 0);
+  // Exactly where that is asked for, and none of it where a position is bad.
+  Surface exact(mesh_of(shape));
+  CHECK(std::isfinite(exact.take(exact.look_at_positions(positions, 0, count)).displacement));
+  positions[7].x() = std::numeric_limits<float>::quiet_NaN();
+  Surface bad(mesh_of(shape));
+  CHECK(bad.look_at_positions(positions, 0, count, Surface::Displacement::bound).bad_vertex == 7);
+}
+
 namespace {
 
 /// Positions at random, some where they were before, some coordinates huge, tiny or -0.

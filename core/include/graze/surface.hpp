@@ -65,7 +65,7 @@ class GRAZE_API Surface {
     [[nodiscard]] bool taken() const { return bad_vertex == no_vertex; }
   };
   /// How ReadResult::displacement is found: a bound of the sort takes one quick pass, and is at most √3 times
-  /// too large.
+  /// too large, or infinite where positions come in another precision than before.
   enum class Displacement : std::uint8_t { exact, bound };
   /// Takes all of `view`, which has one position for each vertex, or nothing. Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
