@@ -118,14 +118,15 @@ class Batch {
     Contact& contact = contacts_[contact_[lane]];
     const bool a_is_low = is_a_low(name);
     const Eigen::Vector3d normal = at(batch.normal, lane);
-    contact = {};
-    contact.kind = name.kind();
-    contact.feature_a = name.a().feature;
-    contact.feature_b = name.b().feature;
-    contact.point_a = at(a_is_low ? batch.low_point : batch.high_point, lane);
-    contact.point_b = at(a_is_low ? batch.high_point : batch.low_point, lane);
-    contact.distance = batch.distance[lane];
-    contact.normal = a_is_low ? normal : Eigen::Vector3d(-normal);
+    contact = {name.kind(),
+               Side::none,
+               Side::none,
+               name.a().feature,
+               name.b().feature,
+               at(a_is_low ? batch.low_point : batch.high_point, lane),
+               at(a_is_low ? batch.high_point : batch.low_point, lane),
+               a_is_low ? normal : Eigen::Vector3d(-normal),
+               batch.distance[lane]};
     scratch_.sides.add(pair_, name, contact);
   }
 
