@@ -118,7 +118,7 @@ std::string decision_section(const AccuracyResults& results) {
          "wrong where they are not the true distance rounded down and up. How the questions of all details "
          "were "
          "settled: pairs of features or vertices of two leaves that float arithmetic discarded as too far; "
-         "questions "
+         "contacts that it named; questions "
          "that double arithmetic decided; and those that it left open, which exact arithmetic decided. On "
          "degenerate "
          "input many are ties, which no rounded arithmetic can decide. These counts are of tiny meshes made "
