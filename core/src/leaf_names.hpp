@@ -255,7 +255,7 @@ class LeafNames {
     return local_limit_;
   }
   /// What is nearer than this in the frame is so in truth, where names are all that is wanted.
-  float local_below() const { return batches_.frame.to_local_below(range_.names_below()); }
+  [[nodiscard]] float local_below() const { return batches_.frame.to_local_below(range_.names_below()); }
 
   // ---- Exactly
 

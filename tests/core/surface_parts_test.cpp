@@ -158,7 +158,7 @@ TEST_CASE("a surface in parts: in another precision, a bound of the motion is no
   Surface expected(mesh_of(shape));
   std::vector<Eigen::Vector3f> positions;
   for (const Eigen::Vector3d& position : shape.positions)
-    positions.push_back((1.25 * position).cast<float>());
+    positions.emplace_back((1.25 * position).cast<float>());
   const std::uint32_t count = surface.mesh().vertex_count();
   const Travel before = surface.travel();
   for (int times = 0; times < 2; ++times) {

@@ -119,8 +119,7 @@ struct FeaturePairs {
   float bound[lanes];  ///< of the distance, from below; minus infinity where a size is not to be trusted
   std::int32_t place[lanes];  ///< where the closest points certainly are, or `unsure_place`
 };
-/// A place is a number of `Place`, or of two segments four times a number of `Along` and another one, or
-/// this.
+/// A place is a number of `Place`, or of two segments four times one of `Along` and another; or this.
 inline constexpr std::int32_t unsure_place = -1;
 /// That of a segment through a triangle.
 inline constexpr std::int32_t passes_through = 0;
