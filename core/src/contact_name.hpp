@@ -70,7 +70,8 @@ class ContactName {
     [[nodiscard]] int all() const { return 5 + index_a + index_b + 6; }
   };
   [[nodiscard]] std::uint64_t packed(const Widths& widths) const {
-    // Of which kind the feature of b is, the contact's kind says.
+    // Of which kind the feature of b is, the contact's kind says. The last six bits are the meeting and the
+    // pieces, two each.
     std::uint64_t key = (high_ >> 40U) << 2U | (high_ >> 32U & 3U);
     key = key << widths.index_a | static_cast<std::uint32_t>(high_);
     key = key << widths.index_b | static_cast<std::uint32_t>(low_ >> 24U);

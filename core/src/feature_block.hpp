@@ -74,12 +74,11 @@ class FeatureBlock {
     owners_.reserve(most);
   }
 
-  [[nodiscard]] Part part() const { return part_; }
   [[nodiscard]] std::size_t count() const { return owners_.size(); }
   [[nodiscard]] std::uint32_t owner(std::size_t i) const { return owners_[i]; }
   [[nodiscard]] float component(std::size_t k, std::size_t i) const { return data_[k * stride_ + i]; }
   /// The corners of a feature as they came.
-  [[nodiscard]] const kernels::Point* corners(std::size_t i) const { return points_.data() + i * Corners; }
+  [[nodiscard]] const kernels::Point* corners(std::size_t i) const { return view().corners(i); }
   /// Until something is added or laid out.
   [[nodiscard]] FeatureView<Corners> view() const { return {points_.data(), owners_.data(), part_}; }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }

@@ -638,8 +638,8 @@ void PairSearch::finish_closest(Worker& worker) {
 /// Nothing is nearer than what was found, which an upper distance says to 2^-40, and what was left out.
 void PairSearch::set_apart() {
   const double apart = std::min(closest_.closest.upper * (1 - 0x1p-38), closest_.lower);
-  front_->apart = std::max(0.0, (apart + front_->motion_now(*a_, *b_)) * round_down);
-  if (!(apart > 0) || about_vertices()) front_->apart = 0;
+  const bool is_known = apart > 0 && !about_vertices();
+  front_->apart = is_known ? (apart + front_->motion_now(*a_, *b_)) * round_down : 0;
 }
 
 void PairSearch::report_closest(Worker& worker) {

@@ -185,11 +185,16 @@ std::optional<Surface::PartSeen> seen_in_survey(const void* now, std::uint32_t b
   return part;
 }
 
+std::optional<Surface::PartSeen> seen_in_survey(const PositionView& view, std::uint32_t begin,
+                                                std::uint32_t end) {
+  return view.is_double() ? seen_in_survey<double>(view.data(), begin, end)
+                          : seen_in_survey<float>(view.data(), begin, end);
+}
+
 /// The same of what comes in another precision than before, as at first: that it may be anywhere else.
 std::optional<Surface::PartSeen> seen_as_jump(const PositionView& view, std::uint32_t begin,
                                               std::uint32_t end) {
-  auto part = view.is_double() ? seen_in_survey<double>(view.data(), begin, end)
-                               : seen_in_survey<float>(view.data(), begin, end);
+  auto part = seen_in_survey(view, begin, end);
   if (!part) return part;
   part->changed = true;
   part->furthest_squared = std::numeric_limits<double>::infinity();
@@ -268,9 +273,7 @@ Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint
 Surface::PartSeen Surface::survey(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
                                   std::uint32_t end) {
   std::optional<PartSeen> part;
-  if (begin < end && is_packed(mesh, view))
-    part = view.is_double() ? seen_in_survey<double>(view.data(), begin, end)
-                            : seen_in_survey<float>(view.data(), begin, end);
+  if (begin < end && is_packed(mesh, view)) part = seen_in_survey(view, begin, end);
   if (!part) part = seen_one_by_one(mesh, view, begin, end);
   return *part;
 }
