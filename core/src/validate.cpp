@@ -29,18 +29,27 @@ void require_each_once(std::span<const std::uint32_t> values, std::size_t count,
   require(values.size() == count, what, values.size());
 }
 
-/// The corners of what a leaf owns, where they are now.
-std::vector<Eigen::Vector3d> corners_of(const Surface& surface, const Region& leaf) {
-  const Mesh& mesh = surface.mesh();
-  const RegionTree& tree = mesh.regions();
-  std::vector<Eigen::Vector3d> corners;
-  const auto add = [&](std::uint32_t vertex) { corners.push_back(surface.position(vertex)); };
-  for (const std::uint32_t vertex : tree.vertices(leaf)) add(vertex);
-  for (const std::uint32_t face : tree.faces(leaf))
-    for (const std::uint32_t corner : mesh.face(face)) add(corner);
-  for (const std::uint32_t edge : tree.edges(leaf)) add(mesh.edge(edge)[1]);
-  return corners;
-}
+using Points = std::vector<Eigen::Vector3d>;
+
+/// What a leaf owns, by its corners, where they are now.
+struct CornersOf {
+  Points vertices;
+  Points faces;
+  Points edges;
+
+  CornersOf(const Surface& surface, const Region& leaf) {
+    const Mesh& mesh = surface.mesh();
+    const RegionTree& tree = mesh.regions();
+    const auto add = [&](Points& points, std::uint32_t vertex) {
+      points.push_back(surface.position(vertex));
+    };
+    for (const std::uint32_t vertex : tree.vertices(leaf)) add(vertices, vertex);
+    for (const std::uint32_t face : tree.faces(leaf))
+      for (const std::uint32_t corner : mesh.face(face)) add(faces, corner);
+    for (const std::uint32_t edge : tree.edges(leaf))
+      for (const std::uint32_t end : mesh.edge(edge)) add(edges, end);
+  }
+};
 
 /// A leaf's lists of places give the corners of its edges and triangles.
 void validate_places(const RegionTree& tree, const Region& leaf, const Mesh& mesh) {
@@ -122,12 +131,25 @@ void validate(const Surface& surface) {
   }
 }
 
-void require_apart(const std::vector<Eigen::Vector3d>& corners_a,
-                   const std::vector<Eigen::Vector3d>& corners_b, double lower, const char* what,
+void require_apart(const Points& a, const Points& b, double lower, const char* what, std::size_t index) {
+  for (const Eigen::Vector3d& point_a : a)
+    for (const Eigen::Vector3d& point_b : b) require(upper_distance(point_a, point_b) >= lower, what, index);
+}
+
+void require_apart(const CornersOf& a, const CornersOf& b, double lower, const char* what,
                    std::size_t index) {
-  for (const Eigen::Vector3d& corner_a : corners_a)
-    for (const Eigen::Vector3d& corner_b : corners_b)
-      require(upper_distance(corner_a, corner_b) >= lower, what, index);
+  for (const Points* const of_a : {&a.vertices, &a.faces, &a.edges})
+    for (const Points* const of_b : {&b.vertices, &b.faces, &b.edges})
+      require_apart(*of_a, *of_b, lower, what, index);
+}
+
+/// Of each vertex and face and each two edges: of two corners that neither leaf owns it is another pair of
+/// leaves that is looked into.
+void require_features_apart(const CornersOf& a, const CornersOf& b, double lower, const char* what,
+                            std::size_t index) {
+  require_apart(a.vertices, b.faces, lower, what, index);
+  require_apart(a.faces, b.vertices, lower, what, index);
+  require_apart(a.edges, b.edges, lower, what, index);
 }
 
 /// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,
@@ -141,12 +163,13 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
   for (const auto& [leaves, lower, looked] : front.leaves) {
     listed.insert({leaves.a, leaves.b});
-    require_apart(corners_of(a, regions_a[leaves.a]), corners_of(b, regions_b[leaves.b]),
-                  static_cast<double>(lower) - motion, "listed leaves are nearer than their bound", leaves.a);
+    const CornersOf leaf_a(a, regions_a[leaves.a]);
+    const CornersOf leaf_b(b, regions_b[leaves.b]);
+    require_apart(leaf_a, leaf_b, static_cast<double>(lower) - motion,
+                  "listed leaves are nearer than their bound", leaves.a);
     if (front.apart > motion)
-      require_apart(corners_of(a, regions_a[leaves.a]), corners_of(b, regions_b[leaves.b]),
-                    static_cast<double>(looked) - motion, "listed leaves are nearer than looks said",
-                    leaves.a);
+      require_features_apart(leaf_a, leaf_b, static_cast<double>(looked) - motion,
+                             "listed leaves are nearer than looks said", leaves.a);
   }
   for (std::uint32_t i = 0; i < regions_a.size(); ++i)
     for (std::uint32_t j = 0; j < regions_b.size(); ++j) {
@@ -154,7 +177,7 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
       if (lower_distance(a.box_now(regions_a[i], RefitOf::faces), b.box_now(regions_b[j], RefitOf::faces)) >=
           beyond)
         continue;
-      require_apart(corners_of(a, regions_a[i]), corners_of(b, regions_b[j]), beyond, "a front misses leaves",
+      require_apart(CornersOf(a, regions_a[i]), CornersOf(b, regions_b[j]), beyond, "a front misses leaves",
                     i);
     }
 }

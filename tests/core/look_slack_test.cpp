@@ -78,12 +78,18 @@ TEST_CASE("look slack: what is known of leaves from a look into them spares look
   const Shape ball = shape_of(models::sphere(32, 24));
   const Shape block = shape_of(models::box({1, 1, 1}));
   const Shape ring = shape_of(models::torus(32, 16, 0.7, 0.3));
+  // So few regions that the validators look at all pairs of them.
+  const Shape pebble = shape_of(models::sphere(9, 6, models::Faces::quads));
+  const Shape band = shape_of(models::torus(12, 8, 0.5, 0.2));
   const std::array all{Rest{"balls apart", ball, turned(ball, 3), 2.02, 0},
                        Rest{"balls through each other", ball, turned(ball, 3), 1.9, 0},
                        Rest{"rings within each other", ring, turned(ring, 5), 0.05, 0},
                        Rest{"blocks", block, block, 1.001, 0},
                        Rest{"balls that part", ball, turned(ball, 4), 1.985, 2e-3},
-                       Rest{"balls that meet", ball, turned(ball, 4), 2.03, -2e-3}};
+                       Rest{"balls that meet", ball, turned(ball, 4), 2.03, -2e-3},
+                       Rest{"pebbles apart", pebble, turned(pebble, 6), 2.05, 1e-4},
+                       Rest{"bands apart", band, turned(band, 7), 1.5, -1e-4},
+                       Rest{"a band about a pebble", band, turned(pebble, 8), 1.7, 1e-4}};
   Looks sum;
   for (const Rest& rest : all)
     for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest})

@@ -119,24 +119,39 @@ class Soak {
       : options_(options), world_(options.seed), barrier_(SoakWorld::writer_count + 1) {}
 
   StressResult run() {
-    std::vector<std::thread> threads;
-    for (std::size_t writer = 0; writer < SoakWorld::writer_count; ++writer)
-      threads.emplace_back([this, writer] { write(writer); });
-    for (Holder& holder : holders_)
-      threads.emplace_back([this, &holder] { holder.run(world_, scene_lock_, done_); });
-    step_until_the_end();
-    done_ = true;
-    barrier_.arrive_and_wait();
-    for (std::thread& thread : threads) thread.join();
+    {
+      std::vector<std::jthread> threads;
+      const Ending ending(*this);  // also where a step throws: before the threads are waited for
+      for (std::size_t writer = 0; writer < SoakWorld::writer_count; ++writer)
+        threads.emplace_back([this, writer] { write(writer); });
+      for (Holder& holder : holders_)
+        threads.emplace_back([this, &holder] { holder.run(world_, scene_lock_, done_); });
+      step_until_the_end();
+    }
     return judge();
   }
 
  private:
+  /// Lets the others know, and does not keep them waiting at the barrier.
+  class Ending {
+   public:
+    explicit Ending(Soak& soak) : soak_(soak) {}
+    ~Ending() {
+      soak_.done_ = true;
+      soak_.barrier_.arrive_and_drop();
+    }
+    Ending(const Ending&) = delete;
+    Ending& operator=(const Ending&) = delete;
+
+   private:
+    Soak& soak_;
+  };
+
   /// Between the two barriers of a frame, while the step runs.
   void write(std::size_t writer) {
     for (;;) {
       barrier_.arrive_and_wait();
-      if (done_) return;
+      if (done_) return barrier_.arrive_and_drop();
       world_.write(writer);
       barrier_.arrive_and_wait();
     }
