@@ -27,30 +27,34 @@ class ReportBuilder {
  public:
   explicit ReportBuilder(FrameReport& report) : report_(report) {}
 
-  /// Empties the report and keeps its memory.
+  /// Empties the report and keeps its memory; its contacts are to be written over.
   void begin(std::uint64_t frame) {
     report_.frame_ = frame;
     report_.complete_ = true;
     report_.shown_ = &report_.rows_;
     report_.rows_.pairs.clear();
-    report_.rows_.contacts.clear();
     report_.rows_.region_distances.clear();
     report_.diagnostics_.clear();
     report_.statistics_ = {};
   }
-  /// Appends a pair with what belongs to it, and gives its contacts back for what else is to be said of them.
-  std::span<Contact> add(PairReport pair, std::span<const Contact> contacts,
-                         std::span<const RegionDistance> region_distances) {
+  /// Appends a pair with what belongs to it, but for its contacts, which follow those of the pair before.
+  void add(PairReport pair, std::size_t contact_count, std::span<const RegionDistance> region_distances) {
     pair.first_region_distance = report_.rows_.region_distances.size();
     pair.region_distance_count = region_distances.size();
     report_.rows_.region_distances.insert(report_.rows_.region_distances.end(), region_distances.begin(),
                                           region_distances.end());
-    pair.first_contact = report_.rows_.contacts.size();
-    pair.contact_count = contacts.size();
-    report_.rows_.contacts.insert(report_.rows_.contacts.end(), contacts.begin(), contacts.end());
+    pair.first_contact = report_.rows_.pairs.empty() ? 0
+                                                     : report_.rows_.pairs.back().first_contact +
+                                                           report_.rows_.pairs.back().contact_count;
+    pair.contact_count = contact_count;
     report_.rows_.pairs.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
-    return std::span(report_.rows_.contacts).subspan(pair.first_contact);
+  }
+  /// Where all contacts are to be written, so many. What is there is of a report before: only the room that
+  /// is missing is made, since new contacts would be zeroed first.
+  std::span<Contact> contacts(std::size_t count) {
+    report_.rows_.contacts.resize(count);
+    return report_.rows_.contacts;
   }
   /// Shows the rows of another report, which must stay as it is while this one is read, in place of its own.
   void show_rows_of(const FrameReport& other) {

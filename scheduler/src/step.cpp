@@ -113,6 +113,7 @@ void Step::reserve(const SceneCapacity& capacity) {
                  leaf_pairs_of_front);
   refit_.reserve(capacity.near_pairs);
   jobs_.reserve(capacity.near_pairs, capacity.contacts);
+  contacts_.reserve(capacity.near_pairs);
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
     make_ready(object->surface_to_write());
@@ -126,11 +127,11 @@ void Step::make_ready(Surface& surface) {
   jobs_.reserve_for(surface.mesh());
 }
 
-/// The serial end of a step: jobs ran in any order, but their answers are put together in the order of the
-/// pairs.
+/// The end of a step: jobs ran in any order, but their answers are put together in the order of the pairs.
 void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
   std::size_t rows_again = 0;
+  contacts_.begin();
   for (std::size_t index = 0; index < jobs.size(); ++index) {
     const PairJob& job = jobs[index];
     const bool repeats = !job.is_looked_at();
@@ -140,20 +141,18 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
     if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again;
     const bool in_contact = row->phase == PairPhase::began || row->phase == PairPhase::touching;
     const KeptAnswer& answer = jobs_.answer(index);
-    std::span<const Contact> contacts;
-    if (in_contact) contacts = repeats ? previous.contacts(*job.last) : answer.contacts;
+    const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
+    const std::size_t contacts_before = contacts_.count();
+    if (in_contact) repeats ? contacts_.add_again(last) : contacts_.add(answer.contacts, last);
     const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
-    const auto reported = builder.add(*row, contacts, regions);
+    builder.add(*row, contacts_.count() - contacts_before, regions);
     statistics.region_distances += regions.size();
-    if (!repeats) {
-      statistics.region_distances_left_out += answer.region_distances_left_out;
-      const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
-      set_since(last, reported, builder.frame());
-    }
+    if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
     ++statistics.pairs_near;
     if (in_contact) ++statistics.pairs_in_contact;
-    statistics.contacts += contacts.size();
   }
+  statistics.contacts = contacts_.count();
+  contacts_.write(tasks_, builder.contacts(contacts_.count()), builder.frame());
   is_settled_ = statistics.pairs_tested == 0 && rows_again == statistics.pairs_near;
 }
 
@@ -187,7 +186,8 @@ void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& s
   for (const PairJob& job : jobs)
     if (job.is_looked_at())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
-  statistics.pair_bytes = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count();
+  statistics.pair_bytes =
+      pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() + contacts_.byte_count();
   statistics.thread_bytes = jobs_.thread_byte_count();
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contact_rows.hpp"
 #include "object_store.hpp"
 #include "pair_jobs.hpp"
 #include "pair_table.hpp"
@@ -47,6 +48,7 @@ class Step {
   PairTable pairs_;
   RegionRefit refit_;
   PairJobs jobs_;
+  ContactRows contacts_;
   bool is_reserved_ = false;  ///< room for near pairs, also of objects that come
   /// The last step looked at no pair and all its rows were as before: so will be the next one's if nothing
   /// changes.

@@ -1,0 +1,61 @@
+#include "contact_rows.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "access.hpp"
+
+namespace graze {
+namespace {
+
+/// What a task writes: some tens of microseconds.
+constexpr std::size_t contacts_each = 1024;
+
+/// What contacts are ordered by, as two numbers.
+std::pair<std::uint64_t, std::uint64_t> key_of(const Contact& contact) {
+  const auto number = [](const Feature& feature) {
+    return std::uint64_t{static_cast<std::uint8_t>(feature.kind)} << 32U | feature.index;
+  };
+  return {std::uint64_t{static_cast<std::uint8_t>(contact.kind)} << 40U | number(contact.feature_a),
+          number(contact.feature_b)};
+}
+
+/// Some contacts of a pair, by those of the last report: a contact with the same features is the same one.
+void set_since(std::span<const Contact> last, std::span<Contact> contacts, std::uint64_t frame) {
+  const auto comes_before = [](const Contact& contact, const auto& key) { return key_of(contact) < key; };
+  auto before = std::lower_bound(last.begin(), last.end(), key_of(contacts.front()), comes_before);
+  for (Contact& contact : contacts) {
+    const auto key = key_of(contact);
+    while (before != last.end() && comes_before(*before, key)) ++before;
+    const bool is_old = before != last.end() && key_of(*before) == key;
+    contact.since = is_old ? before->since : frame;
+  }
+}
+
+}  // namespace
+
+/// A task writes a range of rows of its own, whichever pairs they are of.
+void ContactRows::write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const {
+  tasks.run((count_ + contacts_each - 1) / contacts_each, [&](unsigned /*worker*/, std::size_t item) {
+    const AccessScope access({{}, AccessRight::read()});
+    const std::size_t begin = item * contacts_each;
+    write_range(rows, begin, std::min(begin + contacts_each, count_), frame);
+  });
+}
+
+void ContactRows::write_range(std::span<Contact> rows, std::size_t begin, std::size_t end,
+                              std::uint64_t frame) const {
+  auto pair = std::upper_bound(pairs_.begin(), pairs_.end(), begin,
+                               [](std::size_t place, const Pair& each) { return place < each.first; }) -
+              1;
+  for (; begin < end; ++pair) {
+    const std::size_t from = begin - pair->first;
+    const std::size_t count = std::min(end - begin, pair->contacts.size() - from);
+    const auto written = rows.subspan(begin, count);
+    std::copy_n(pair->contacts.begin() + static_cast<std::ptrdiff_t>(from), count, written.begin());
+    if (!pair->is_again) set_since(pair->last, written, frame);
+    begin += count;
+  }
+}
+
+}  // namespace graze
