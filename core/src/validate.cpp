@@ -1,6 +1,7 @@
 #include "validate.hpp"
 
 #ifdef GRAZE_VALIDATE
+#include <algorithm>
 #include <graze/leaf_front.hpp>
 #include <graze/surface.hpp>
 #include <set>
@@ -31,7 +32,16 @@ void require_each_once(std::span<const std::uint32_t> values, std::size_t count,
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// What a leaf owns, by its corners, where they are now.
+/// Where vertices are now, each once.
+Points points_of(const Surface& surface, std::vector<std::uint32_t> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  Points points;
+  for (const std::uint32_t vertex : vertices) points.push_back(surface.position(vertex));
+  return points;
+}
+
+/// What a leaf owns, by its corners.
 struct CornersOf {
   Points vertices;
   Points faces;
@@ -40,14 +50,15 @@ struct CornersOf {
   CornersOf(const Surface& surface, const Region& leaf) {
     const Mesh& mesh = surface.mesh();
     const RegionTree& tree = mesh.regions();
-    const auto add = [&](Points& points, std::uint32_t vertex) {
-      points.push_back(surface.position(vertex));
-    };
-    for (const std::uint32_t vertex : tree.vertices(leaf)) add(vertices, vertex);
+    const auto members = tree.vertices(leaf);
+    vertices = points_of(surface, {members.begin(), members.end()});
+    std::vector<std::uint32_t> corners;
     for (const std::uint32_t face : tree.faces(leaf))
-      for (const std::uint32_t corner : mesh.face(face)) add(faces, corner);
+      for (const std::uint32_t corner : mesh.face(face)) corners.push_back(corner);
+    faces = points_of(surface, std::exchange(corners, {}));
     for (const std::uint32_t edge : tree.edges(leaf))
-      for (const std::uint32_t end : mesh.edge(edge)) add(edges, end);
+      for (const std::uint32_t end : mesh.edge(edge)) corners.push_back(end);
+    edges = points_of(surface, std::move(corners));
   }
 };
 
@@ -152,6 +163,23 @@ void require_features_apart(const CornersOf& a, const CornersOf& b, double lower
   require_apart(a.edges, b.edges, lower, what, index);
 }
 
+double lower_now(const Surface& a, const Region& leaf_a, const Surface& b, const Region& leaf_b) {
+  return lower_distance(a.box_now(leaf_a, RefitOf::faces), b.box_now(leaf_b, RefitOf::faces));
+}
+
+void validate_listed(const ListedLeaves& listed, const LeafFront& front, const Surface& a, const Surface& b) {
+  const Region& leaf_a = a.mesh().regions().region(listed.pair.a);
+  const Region& leaf_b = b.mesh().regions().region(listed.pair.b);
+  const double motion = front.motion_now(a, b);
+  const double lower = static_cast<double>(listed.lower) - motion;
+  const double looked = front.apart > motion ? static_cast<double>(listed.looked) - motion : 0;
+  if (lower_now(a, leaf_a, b, leaf_b) >= std::max(lower, looked)) return;
+  const CornersOf of_a(a, leaf_a);
+  const CornersOf of_b(b, leaf_b);
+  require_apart(of_a, of_b, lower, "listed leaves are nearer than their bound", listed.pair.a);
+  require_features_apart(of_a, of_b, looked, "listed leaves are nearer than looks said", listed.pair.a);
+}
+
 /// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,
 /// and neither those nor the boxes of now always give the greater bound.
 void validate(const LeafFront& front, const Surface& a, const Surface& b) {
@@ -159,24 +187,15 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   const auto regions_b = b.mesh().regions().regions();
   const double beyond = front.beyond_now(a, b);
   if (!(beyond > 0) || regions_a.size() * regions_b.size() > 4096) return;
-  const double motion = front.motion_now(a, b);
   std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
-  for (const auto& [leaves, lower, looked] : front.leaves) {
-    listed.insert({leaves.a, leaves.b});
-    const CornersOf leaf_a(a, regions_a[leaves.a]);
-    const CornersOf leaf_b(b, regions_b[leaves.b]);
-    require_apart(leaf_a, leaf_b, static_cast<double>(lower) - motion,
-                  "listed leaves are nearer than their bound", leaves.a);
-    if (front.apart > motion)
-      require_features_apart(leaf_a, leaf_b, static_cast<double>(looked) - motion,
-                             "listed leaves are nearer than looks said", leaves.a);
+  for (const ListedLeaves& leaves : front.leaves) {
+    listed.insert({leaves.pair.a, leaves.pair.b});
+    validate_listed(leaves, front, a, b);
   }
   for (std::uint32_t i = 0; i < regions_a.size(); ++i)
     for (std::uint32_t j = 0; j < regions_b.size(); ++j) {
       if (!regions_a[i].is_leaf() || !regions_b[j].is_leaf() || listed.count({i, j}) != 0) continue;
-      if (lower_distance(a.box_now(regions_a[i], RefitOf::faces), b.box_now(regions_b[j], RefitOf::faces)) >=
-          beyond)
-        continue;
+      if (lower_now(a, regions_a[i], b, regions_b[j]) >= beyond) continue;
       require_apart(CornersOf(a, regions_a[i]), CornersOf(b, regions_b[j]), beyond, "a front misses leaves",
                     i);
     }

@@ -63,6 +63,7 @@ class Holder {
   /// `scene_lock` is the soak's own: scenes are made anew.
   void run(const SoakWorld& world, std::shared_mutex& scene_lock, const std::atomic<bool>& done) {
     while (!done) {
+      const Clock::time_point start = Clock::now();
       ReportHandle report;
       {
         const std::shared_lock lock(scene_lock);
@@ -70,7 +71,9 @@ class Holder {
       }
       held_.push_back({report, hash_of(*report)});
       if (held_.size() > most_) let_go();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      // Where hashing is slow, under sanitizers, most of the time is left to the steps.
+      std::this_thread::sleep_for(
+          std::max<Clock::duration>(std::chrono::milliseconds(2), 4 * (Clock::now() - start)));
     }
     while (!held_.empty()) let_go();
   }
