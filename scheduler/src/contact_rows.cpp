@@ -1,6 +1,7 @@
 #include "contact_rows.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "access.hpp"
@@ -36,11 +37,13 @@ void set_since(std::span<const Contact> last, std::span<Contact> contacts, std::
 
 /// A task writes a range of rows of its own, whichever pairs they are of.
 void ContactRows::write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const {
-  tasks.run((count_ + contacts_each - 1) / contacts_each, [&](unsigned /*worker*/, std::size_t item) {
+  const auto write_stretch = [&](unsigned /*worker*/, std::size_t item) {
     const AccessScope access({{}, AccessRight::read()});
     const std::size_t begin = item * contacts_each;
     write_range(rows, begin, std::min(begin + contacts_each, count_), frame);
-  });
+  };
+  // By reference: what it captures is too much for a function that takes no memory.
+  tasks.run((count_ + contacts_each - 1) / contacts_each, std::cref(write_stretch));
 }
 
 void ContactRows::write_range(std::span<Contact> rows, std::size_t begin, std::size_t end,
