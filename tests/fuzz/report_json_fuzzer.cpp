@@ -1,6 +1,7 @@
 // The input is a report. What reads is written again, with meshes of the sizes that its header says, and must
 // read back the same.
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <graze/io/report_json.hpp>
@@ -62,6 +63,7 @@ FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::Scen
   FrameReport report;
   ReportBuilder builder(report);
   builder.begin(frame.frame);
+  std::vector<Contact> contacts;
   for (const io::ReportedPair& read : frame.pairs) {
     PairReport pair;
     pair.a = objects[read.a].id;
@@ -71,10 +73,10 @@ FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::Scen
     pair.stale = read.stale;
     pair.distance = read.distance;
     pair.witness = read.witness;
-    std::vector<Contact> contacts;
     for (const io::ReportedContact& contact : read.contacts) contacts.push_back(contact.contact);
-    builder.add(pair, contacts, {});
+    builder.add(pair, read.contacts.size(), {});
   }
+  std::copy(contacts.begin(), contacts.end(), builder.contacts(contacts.size()).begin());
   for (const io::ReportedDiagnostic& read : frame.diagnostics) {
     const bool is_named = read.object && *read.object < objects.size();
     builder.diagnostics().push_back(
