@@ -21,16 +21,26 @@ std::pair<std::uint64_t, std::uint64_t> key_of(const Contact& contact) {
           number(contact.feature_b)};
 }
 
+bool comes_before(const Contact& contact, const std::pair<std::uint64_t, std::uint64_t>& key) {
+  return key_of(contact) < key;
+}
+
 /// Some contacts of a pair, by those of the last report: a contact with the same features is the same one.
 void set_since(std::span<const Contact> last, std::span<Contact> contacts, std::uint64_t frame) {
-  const auto comes_before = [](const Contact& contact, const auto& key) { return key_of(contact) < key; };
-  auto before = std::lower_bound(last.begin(), last.end(), key_of(contacts.front()), comes_before);
+  auto before = last.begin();
   for (Contact& contact : contacts) {
     const auto key = key_of(contact);
     while (before != last.end() && comes_before(*before, key)) ++before;
     const bool is_old = before != last.end() && key_of(*before) == key;
     contact.since = is_old ? before->since : frame;
   }
+}
+
+/// The contacts of a pair that do not come before one. Searched for in the midst of a pair alone: of a whole
+/// pair that would read memory all over before it is read in order.
+std::span<const Contact> from(std::span<const Contact> contacts, const Contact& first) {
+  const auto begin = std::lower_bound(contacts.begin(), contacts.end(), key_of(first), comes_before);
+  return contacts.subspan(static_cast<std::size_t>(begin - contacts.begin()));
 }
 
 }  // namespace
@@ -52,11 +62,12 @@ void ContactRows::write_range(std::span<Contact> rows, std::size_t begin, std::s
                                [](std::size_t place, const Pair& each) { return place < each.first; }) -
               1;
   for (; begin < end; ++pair) {
-    const std::size_t from = begin - pair->first;
-    const std::size_t count = std::min(end - begin, pair->contacts.size() - from);
+    const std::size_t first = begin - pair->first;
+    const std::size_t count = std::min(end - begin, pair->contacts.size() - first);
+    const auto found = pair->contacts.subspan(first, count);
     const auto written = rows.subspan(begin, count);
-    std::copy_n(pair->contacts.begin() + static_cast<std::ptrdiff_t>(from), count, written.begin());
-    if (!pair->is_again) set_since(pair->last, written, frame);
+    std::copy(found.begin(), found.end(), written.begin());
+    if (!pair->is_again) set_since(first == 0 ? pair->last : from(pair->last, found.front()), written, frame);
     begin += count;
   }
 }
