@@ -9,7 +9,8 @@
 namespace graze {
 namespace {
 
-/// What a task writes: some tens of microseconds.
+/// What a task writes where there are several threads: some tens of microseconds. One thread writes all in
+/// one stretch: in many it takes a third longer for pairs of 10,000 contacts.
 constexpr std::size_t contacts_each = 1024;
 
 /// What contacts are ordered by, as two numbers.
@@ -47,13 +48,13 @@ std::span<const Contact> from(std::span<const Contact> contacts, const Contact& 
 
 /// A task writes a range of rows of its own, whichever pairs they are of.
 void ContactRows::write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const {
+  const std::size_t each = tasks.worker_count() > 1 ? contacts_each : std::max<std::size_t>(count_, 1);
   const auto write_stretch = [&](unsigned /*worker*/, std::size_t item) {
     const AccessScope access({{}, AccessRight::read()});
-    const std::size_t begin = item * contacts_each;
-    write_range(rows, begin, std::min(begin + contacts_each, count_), frame);
+    write_range(rows, item * each, std::min((item + 1) * each, count_), frame);
   };
   // By reference: what it captures is too much for a function that takes no memory.
-  tasks.run((count_ + contacts_each - 1) / contacts_each, std::cref(write_stretch));
+  tasks.run((count_ + each - 1) / each, std::cref(write_stretch));
 }
 
 void ContactRows::write_range(std::span<Contact> rows, std::size_t begin, std::size_t end,
