@@ -51,14 +51,15 @@ struct CornersOf {
     const Mesh& mesh = surface.mesh();
     const RegionTree& tree = mesh.regions();
     const auto members = tree.vertices(leaf);
-    vertices = points_of(surface, {members.begin(), members.end()});
-    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> of_faces;
     for (const std::uint32_t face : tree.faces(leaf))
-      for (const std::uint32_t corner : mesh.face(face)) corners.push_back(corner);
-    faces = points_of(surface, std::exchange(corners, {}));
+      for (const std::uint32_t corner : mesh.face(face)) of_faces.push_back(corner);
+    std::vector<std::uint32_t> of_edges;
     for (const std::uint32_t edge : tree.edges(leaf))
-      for (const std::uint32_t end : mesh.edge(edge)) corners.push_back(end);
-    edges = points_of(surface, std::move(corners));
+      for (const std::uint32_t end : mesh.edge(edge)) of_edges.push_back(end);
+    vertices = points_of(surface, {members.begin(), members.end()});
+    faces = points_of(surface, std::move(of_faces));
+    edges = points_of(surface, std::move(of_edges));
   }
 };
 

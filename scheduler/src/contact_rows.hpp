@@ -27,7 +27,7 @@ class ContactRows {
   void add_again(std::span<const Contact> contacts) { append({contacts, {}, true, count_}); }
   /// Of all pairs.
   [[nodiscard]] std::size_t count() const { return count_; }
-  /// Writes them into `rows`, which has room for them, and since which frame they have been there.
+  /// Writes them into `rows`, of which there are `count()`, and since which frame they have been there.
   void write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const;
 
   /// Makes room for so many pairs with contacts.

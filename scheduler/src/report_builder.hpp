@@ -43,17 +43,15 @@ class ReportBuilder {
     pair.region_distance_count = region_distances.size();
     report_.rows_.region_distances.insert(report_.rows_.region_distances.end(), region_distances.begin(),
                                           region_distances.end());
-    pair.first_contact = report_.rows_.pairs.empty() ? 0
-                                                     : report_.rows_.pairs.back().first_contact +
-                                                           report_.rows_.pairs.back().contact_count;
+    pair.first_contact = contact_count_of_pairs();
     pair.contact_count = contact_count;
     report_.rows_.pairs.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
   }
-  /// Where all contacts are to be written, so many. What is there is of a report before: only the room that
-  /// is missing is made, since new contacts would be zeroed first.
-  std::span<Contact> contacts(std::size_t count) {
-    report_.rows_.contacts.resize(count);
+  /// Where the contacts of the pairs are to be written, when all pairs are there. What is there is of a
+  /// report before: only the room that is missing is made, since new contacts would be zeroed first.
+  std::span<Contact> contacts() {
+    report_.rows_.contacts.resize(contact_count_of_pairs());
     return report_.rows_.contacts;
   }
   /// Shows the rows of another report, which must stay as it is while this one is read, in place of its own.
@@ -82,6 +80,12 @@ class ReportBuilder {
   }
 
  private:
+  [[nodiscard]] std::size_t contact_count_of_pairs() const {
+    if (report_.rows_.pairs.empty()) return 0;
+    const PairReport& last = report_.rows_.pairs.back();
+    return last.first_contact + last.contact_count;
+  }
+
   FrameReport& report_;
 };
 

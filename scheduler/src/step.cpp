@@ -142,17 +142,18 @@ void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previou
     const bool in_contact = row->phase == PairPhase::began || row->phase == PairPhase::touching;
     const KeptAnswer& answer = jobs_.answer(index);
     const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
-    const std::size_t contacts_before = contacts_.count();
-    if (in_contact) repeats ? contacts_.add_again(last) : contacts_.add(answer.contacts, last);
+    std::span<const Contact> contacts;
+    if (in_contact) contacts = repeats ? last : answer.contacts;
+    repeats ? contacts_.add_again(contacts) : contacts_.add(contacts, last);
     const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
-    builder.add(*row, contacts_.count() - contacts_before, regions);
+    builder.add(*row, contacts.size(), regions);
     statistics.region_distances += regions.size();
     if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
     ++statistics.pairs_near;
     if (in_contact) ++statistics.pairs_in_contact;
+    statistics.contacts += contacts.size();
   }
-  statistics.contacts = contacts_.count();
-  contacts_.write(tasks_, builder.contacts(contacts_.count()), builder.frame());
+  contacts_.write(tasks_, builder.contacts(), builder.frame());
   is_settled_ = statistics.pairs_tested == 0 && rows_again == statistics.pairs_near;
 }
 

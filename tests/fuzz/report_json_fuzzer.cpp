@@ -76,7 +76,7 @@ FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::Scen
     for (const io::ReportedContact& contact : read.contacts) contacts.push_back(contact.contact);
     builder.add(pair, read.contacts.size(), {});
   }
-  std::copy(contacts.begin(), contacts.end(), builder.contacts(contacts.size()).begin());
+  std::copy(contacts.begin(), contacts.end(), builder.contacts().begin());
   for (const io::ReportedDiagnostic& read : frame.diagnostics) {
     const bool is_named = read.object && *read.object < objects.size();
     builder.diagnostics().push_back(

@@ -61,7 +61,7 @@ PairContacts any_pair(scenes::Random& random, std::size_t most) {
   return pair;
 }
 
-/// Checks the rows from `row` on, which a pair's contacts must be, and says how many of those are old.
+/// Checks rows that must be a pair's contacts, and says how many of those are old.
 std::size_t check_rows(std::span<const Contact> rows, const PairContacts& pair, std::uint64_t frame) {
   std::map<Key, std::uint64_t> since;
   for (const Contact& contact : pair.last) since[key_of(contact)] = contact.since;
