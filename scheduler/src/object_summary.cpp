@@ -50,6 +50,7 @@ void ObjectSummaries::follow(std::span<const std::unique_ptr<Object>> objects) {
 
 void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks) {
   follow(objects);
+  changed_.resize(objects.size());
   std::atomic<bool> some_unread = false;
   const auto refresh_slice = [&](unsigned, std::size_t index) {
     bool unread = false;
@@ -60,6 +61,9 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
       summary.motion = motion_between(summary.box, object.box);
       summary.moved = summary.read_late || !(summary.motion == 0);
       summary.read_late = false;
+      const bool changed = !(summary.motion == 0) || summary.version != object.version ||
+                           summary.frozen != object.frozen || summary.unread || object.unread;
+      changed_[place] = changed ? 1 : 0;
       summary.box = object.box;
       summary.version = object.version;
       summary.frozen = object.frozen;

@@ -48,12 +48,18 @@ class ObjectSummaries {
   /// are where they were. New objects stand behind all others.
   [[nodiscard]] std::span<const std::uint32_t> moves() const { return moves_; }
   [[nodiscard]] bool some_unread() const { return some_unread_; }
+  /// Whether an object may be otherwise than at the refresh before, or is unread. It says nothing of new
+  /// ones.
+  [[nodiscard]] bool changed(std::uint32_t place) const { return changed_[place] != 0; }
   /// Makes room for so many objects.
   void reserve(std::size_t objects) {
     summaries_.reserve(objects);
     moves_.reserve(objects);
+    changed_.reserve(objects);
   }
-  [[nodiscard]] std::size_t byte_count() const { return bytes_of(summaries_) + bytes_of(moves_); }
+  [[nodiscard]] std::size_t byte_count() const {
+    return bytes_of(summaries_) + bytes_of(moves_) + bytes_of(changed_);
+  }
 
  private:
   /// Takes those out that are gone, and puts new ones in.
@@ -61,6 +67,7 @@ class ObjectSummaries {
 
   std::vector<ObjectSummary> summaries_;
   std::vector<std::uint32_t> moves_;
+  std::vector<std::uint8_t> changed_;  ///< side by side, since it is asked of both objects of every pair
   bool some_unread_ = false;
 };
 

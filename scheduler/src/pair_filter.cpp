@@ -59,6 +59,7 @@ void PairFilter::find_half_reach(std::uint32_t kind) {
 }
 
 void PairFilter::set_ignored(const Object& a, const Object& b, bool ignored) {
+  ++ignored_version_;
   if (!ignored) return ignored_.erase(serials_of(a, b));
   if (ignored_.is_full() && !forgotten_.empty()) {
     drop_forgotten();

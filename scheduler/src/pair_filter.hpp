@@ -48,6 +48,8 @@ class PairFilter {
   }
   /// Changes with every rule.
   [[nodiscard]] std::uint64_t rules_version() const { return rules_version_; }
+  /// The same, and with every pair that is ignored or is no longer.
+  [[nodiscard]] std::uint64_t version() const { return rules_version_ + ignored_version_; }
   [[nodiscard]] const BroadPhase::HalfReaches& half_reaches() const { return half_reaches_; }
 
   [[nodiscard]] std::size_t byte_count() const;
@@ -74,6 +76,7 @@ class PairFilter {
   std::vector<Distances> distances_;    ///< the scene's own, then one for each rule
   std::vector<std::uint16_t> rule_of_;  ///< into `distances_`, for each kind and kind; empty without rules
   std::uint64_t rules_version_ = 0;
+  std::uint64_t ignored_version_ = 0;
   BroadPhase::HalfReaches half_reaches_{};
   PairSet ignored_;                       ///< by serials, the lower first
   std::vector<std::uint64_t> forgotten_;  ///< serials that `ignored_` may still name

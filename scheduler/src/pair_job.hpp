@@ -2,13 +2,19 @@
 
 #include <cstdint>
 #include <graze/report.hpp>
+#include <span>
 
 #include "access.hpp"
 #include "object_store.hpp"
 #include "pair_filter.hpp"
 #include "pair_memory.hpp"
+#include "place_pair.hpp"
 
 namespace graze {
+
+inline bool is_contact(PairPhase phase) {
+  return phase == PairPhase::began || phase == PairPhase::touching;
+}
 
 /// What is to be done about one pair in this step.
 struct PairJob {
@@ -20,6 +26,7 @@ struct PairJob {
   };
   Task task = Task::detect;
   bool allowed = true;  ///< by the filters
+  PlacePair places = 0;
   Object* a = nullptr;
   Object* b = nullptr;
   const PairReport* last = nullptr;  ///< in the previous report; null where it was not listed
@@ -31,9 +38,22 @@ struct PairJob {
     return *memory;
   }
   [[nodiscard]] bool is_looked_at() const { return task == Task::detect || task == Task::end; }
-  [[nodiscard]] bool was_in_contact() const {
-    return last != nullptr && (last->phase == PairPhase::began || last->phase == PairPhase::touching);
-  }
+  [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }
+};
+
+/// Rows of the last report that stand as they are in this one, before a job's.
+struct RestingRows {
+  std::size_t job;
+  std::uint32_t listed;  ///< the first, among the pairs that the last report lists
+  std::uint32_t row;     ///< the first
+  std::uint32_t count;
+};
+
+/// What is to be done and said about the pairs of a scene, in the order of addition of a, then b.
+struct PairList {
+  std::span<const PairJob> jobs;
+  std::span<const RestingRows> resting;  ///< ascending by the job they stand before
+  std::size_t pair_count = 0;            ///< of all pairs with a memory
 };
 
 }  // namespace graze

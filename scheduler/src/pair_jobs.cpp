@@ -72,11 +72,11 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.region_distance_reach = query.reach;
   query.region_distance_limit = settings_.region_distances == 0
                                     ? 0
-                                    : std::max<std::size_t>(1, settings_.region_distances / jobs_.size());
+                                    : std::max<std::size_t>(1, settings_.region_distances / pair_count_);
   if (job.was_in_contact()) query.reach = infinity;
   query.slack = slack_of(job.a->surface(), job.b->surface());
   query.look_slack = look_slack_of(job.a->surface(), job.b->surface());
-  query.front_limit = front_pairs_of_all / jobs_.size();
+  query.front_limit = front_pairs_of_all / pair_count_;
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
     if (!is_about_vertices(query.detail)) query.detail = ContactDetail::none;
@@ -84,8 +84,9 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   return query;
 }
 
-void PairJobs::run(std::span<const PairJob> jobs, std::uint64_t rules_version, Clock::time_point start) {
-  jobs_ = jobs;
+void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start) {
+  jobs_ = list.jobs;
+  pair_count_ = list.pair_count;
   rules_version_ = rules_version;
   deadline_ = deadline_of(start, settings_.time_budget);
   answers_.begin(jobs_.size());

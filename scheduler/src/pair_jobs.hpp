@@ -21,7 +21,7 @@ class PairJobs {
   PairJobs(const SceneSettings& settings, TaskPool& tasks);
 
   /// Answers every job that is looked at; budgets began at `start`.
-  void run(std::span<const PairJob> jobs, std::uint64_t rules_version, Clock::time_point start);
+  void run(const PairList& list, std::uint64_t rules_version, Clock::time_point start);
 
   /// Of the job at that place, where it is looked at; until `even_out_memory`.
   [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
@@ -82,6 +82,7 @@ class PairJobs {
   const SceneSettings& settings_;
   TaskPool& tasks_;
   std::span<const PairJob> jobs_;
+  std::size_t pair_count_ = 0;  ///< of all pairs, those that rest included
   std::uint64_t rules_version_ = 0;
   Clock::time_point deadline_ = PairQuery::no_deadline;
   PairAnswers answers_;

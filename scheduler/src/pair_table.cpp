@@ -4,85 +4,157 @@
 #include <utility>
 
 namespace graze {
+namespace {
+
+/// So many pairs before it is asked for a memory begins to come from further away.
+constexpr std::size_t ahead = 12;
+
+}  // namespace
 
 PairTable::PairTable(const SceneSettings& settings, ObjectStore& store) : store_(store), filter_(settings) {}
 
-std::span<const PairJob> PairTable::list(const FrameReport& previous, TaskPool& tasks,
-                                         std::vector<Diagnostic>& diagnostics, StepStatistics& statistics) {
+PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
+                         StepStatistics& statistics) {
   const auto objects = store_.objects();
   statistics.objects = objects.size();
   statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
   summaries_.refresh(objects, tasks);
+  find_listed(previous);
   const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), tasks);
   statistics.boxes_tested = broad_phase_.counters().boxes_tested;
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
-  if (summaries_.some_unread()) read_what_is_near(close, previous, tasks, diagnostics);
-  list_jobs(selection_.select(close, summaries_, filter_, tasks, statistics), previous, statistics);
-  return jobs_;
+  if (summaries_.some_unread()) read_what_is_near(close, tasks, diagnostics);
+  list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);
+  const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
+  count_jobs(statistics);
+  return {jobs_, resting_, pair_count};
+}
+
+/// The pairs that the last report lists, by the places that their objects have now.
+void PairTable::find_listed(const FrameReport& previous) {
+  listed_.swap(rows_);
+  const auto moves = summaries_.moves();
+  if (rows_frame_ != previous.frame()) {
+    // A step did not go through the pairs, or came to no end.
+    listed_.clear();
+    for (std::uint32_t row = 0; row < previous.pairs().size(); ++row) {
+      const Object* const a = store_.find(previous.pairs()[row].a);
+      const Object* const b = store_.find(previous.pairs()[row].b);
+      if (a != nullptr && b != nullptr)
+        listed_.push_back({pair_of(summaries_.place_of(*a), summaries_.place_of(*b)), row});
+    }
+  } else if (!moves.empty()) {
+    std::size_t kept = 0;
+    for (const auto [pair, row] : listed_) {
+      const std::uint32_t first = moves[first_of(pair)];
+      const std::uint32_t second = moves[second_of(pair)];
+      if (first != ObjectSummaries::no_place && second != ObjectSummaries::no_place)
+        listed_[kept++] = {pair_of(first, second), row};
+    }
+    listed_.resize(kept);
+  }
+}
+
+void PairTable::begin_rows(std::uint64_t frame) {
+  rows_.clear();
+  rows_frame_ = frame;
+}
+
+void PairTable::add_rows(const RestingRows& rows) {
+  for (std::uint32_t i = 0; i < rows.count; ++i) add_row(listed_[rows.listed + i].pair);
 }
 
 /// A pair of which one object was not read, because of a promise or since it was surveyed, is near only where
 /// their boxes are; then it is read after all. So is what the last report listed, since that has to be said
 /// of it again.
-void PairTable::read_what_is_near(std::span<const PlacePair> pairs, const FrameReport& previous,
-                                  TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
+void PairTable::read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
+                                  std::vector<Diagnostic>& diagnostics) {
   const auto objects = store_.objects();
   wanted_.clear();
-  const auto want = [&](Object* object) {
-    if (object != nullptr && object->unread && !std::exchange(object->wanted, true))
-      wanted_.push_back(object);
+  const auto want = [&](std::uint32_t place) {
+    Object* const object = objects[place].get();
+    if (object->unread && !std::exchange(object->wanted, true)) wanted_.push_back(object);
   };
   for (const PlacePair pair : pairs) {
+    if (!summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair)))
+      continue;  // both are read
     const ObjectSummary& a = summaries_[first_of(pair)];
     const ObjectSummary& b = summaries_[second_of(pair)];
     if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::looked_at &&
         lower_distance(a.box, b.box) <= filter_.reach(a, b)) {
-      want(objects[first_of(pair)].get());
-      want(objects[second_of(pair)].get());
+      want(first_of(pair));
+      want(second_of(pair));
     }
   }
-  for (const PairReport& row : previous.pairs()) {
-    want(store_.find(row.a));
-    want(store_.find(row.b));
-  }
+  for (const ListedPair& listed : listed_)
+    for (const std::uint32_t place : {first_of(listed.pair), second_of(listed.pair)})
+      if (summaries_.changed(place)) want(place);
   if (wanted_.empty()) return;
   store_.read_unread(wanted_, tasks, diagnostics);
   summaries_.refresh(wanted_);
 }
 
-/// Merges the pairs that are to be looked at with those of the last report, some of which have something to
-/// be said of all the same: both are sorted by the order of addition, and so are the jobs.
-void PairTable::list_jobs(std::span<const PlacePair> selected, const FrameReport& previous,
-                          StepStatistics& statistics) {
-  const auto objects = store_.objects();
+void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous) {
   jobs_.clear();
-  memories_.begin();
-  auto next = selected.begin();
-  const auto key_of = [](const Object& a, const Object& b) { return PairMemories::Key{a.serial, b.serial}; };
-  const auto add_next = [&](const PairReport* last) {
-    const std::uint32_t a = first_of(*next);
-    const std::uint32_t b = second_of(*next++);
-    PairJob job;
-    job.a = objects[a].get();
-    job.b = objects[b].get();
-    job.last = last;
-    add(job, summaries_[a], summaries_[b]);
-  };
-  const auto next_key = [&] {
-    return PairMemories::Key{summaries_[first_of(*next)].serial, summaries_[second_of(*next)].serial};
-  };
-  for (const PairReport& row : previous.pairs()) {
-    Object* const a = store_.find(row.a);
-    Object* const b = store_.find(row.b);
-    if (a == nullptr || b == nullptr) continue;
-    while (next != selected.end() && next_key() < key_of(*a, *b)) add_next(nullptr);
-    if (next != selected.end() && next_key() == key_of(*a, *b))
-      add_next(&row);
+  resting_.clear();
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    if (i + ahead < selected.size()) selection_.prefetch(selected[i + ahead]);
+    const SelectedPair& each = selected[i];
+    if (each.kind == SelectedPair::Kind::resting) {
+      resting_.push_back({jobs_.size(), each.listed, listed_[each.listed].row, each.count});
+      continue;
+    }
+    PairJob job = job_of(each, previous);
+    if (each.kind == SelectedPair::Kind::looked_at || says_something(job))
+      add(job, each);
     else
-      add_unselected(*a, *b, row);
+      selection_.forget(each);
   }
-  while (next != selected.end()) add_next(nullptr);
-  memories_.end();
+}
+
+PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previous) const {
+  PairJob job;
+  job.places = selected.pair;
+  job.a = store_.objects()[first_of(selected.pair)].get();
+  job.b = store_.objects()[second_of(selected.pair)].get();
+  if (selected.listed != SelectedPair::none) job.last = &previous.pairs()[listed_[selected.listed].row];
+  job.thresholds =
+      filter_.thresholds(summaries_[first_of(selected.pair)], summaries_[second_of(selected.pair)]);
+  return job;
+}
+
+/// Decides about a pair that the last report listed and that is filtered out now, has parted, or is frozen:
+/// one that was in contact is listed once more however far it is.
+bool PairTable::says_something(PairJob& job) const {
+  const ObjectSummary& a = summaries_[first_of(job.places)];
+  const ObjectSummary& b = summaries_[second_of(job.places)];
+  job.allowed = filter_.verdict(a, b) == PairVerdict::looked_at;
+  if (!job.allowed && !job.was_in_contact()) return false;
+  if (!job.allowed) job.task = PairJob::Task::end;
+  if (a.frozen || b.frozen) {
+    job.task = PairJob::Task::repeat_last;
+    return true;
+  }
+  return job.was_in_contact() || may_be_near(lower_distance(a.box, b.box), job.thresholds.reach);
+}
+
+void PairTable::add(PairJob job, const SelectedPair& selected) {
+  job.memory = &selection_.memory_of(selected);
+  if (job.task == PairJob::Task::detect && is_unchanged(job)) {
+    job.task = PairJob::Task::unchanged;
+    if (selected.kind == SelectedPair::Kind::looked_at) selection_.let_rest(selected);
+  }
+  jobs_.push_back(job);
+}
+
+/// Whether the last answer, about the same positions by the same rules, is also this one's.
+bool PairTable::is_unchanged(const PairJob& job) const {
+  return job.memory->version_a == summaries_[first_of(job.places)].version &&
+         job.memory->version_b == summaries_[second_of(job.places)].version &&
+         job.memory->rules_version == filter_.rules_version();
+}
+
+void PairTable::count_jobs(StepStatistics& statistics) const {
   for (const PairJob& job : jobs_) {
     if (job.is_looked_at()) {
       ++statistics.pairs_tested;
@@ -92,52 +164,21 @@ void PairTable::list_jobs(std::span<const PlacePair> selected, const FrameReport
   }
 }
 
-/// A pair that the last report listed and that is filtered out now, has parted, or is frozen: one that was in
-/// contact is listed once more however far it is.
-void PairTable::add_unselected(Object& a, Object& b, const PairReport& last) {
-  const ObjectSummary& summary_a = summaries_[summaries_.place_of(a)];
-  const ObjectSummary& summary_b = summaries_[summaries_.place_of(b)];
-  PairJob job;
-  job.a = &a;
-  job.b = &b;
-  job.last = &last;
-  job.allowed = filter_.verdict(summary_a, summary_b) == PairVerdict::looked_at;
-  if (!job.allowed && !job.was_in_contact()) return;
-  if (!job.allowed) job.task = PairJob::Task::end;
-  if (a.frozen || b.frozen)
-    job.task = PairJob::Task::repeat_last;
-  else if (!job.was_in_contact() &&
-           !may_be_near(lower_distance(a.box, b.box), filter_.reach(summary_a, summary_b)))
-    return;
-  add(job, summary_a, summary_b);
-}
-
-void PairTable::add(PairJob& job, const ObjectSummary& a, const ObjectSummary& b) {
-  job.thresholds = filter_.thresholds(a, b);
-  job.memory = &memories_.of({a.serial, b.serial});
-  if (job.task == PairJob::Task::detect && is_unchanged(*job.memory, a, b))
-    job.task = PairJob::Task::unchanged;
-  jobs_.push_back(job);
-}
-
-/// Whether the last answer, about the same positions by the same rules, is also this one's.
-bool PairTable::is_unchanged(const PairMemory& last, const ObjectSummary& a, const ObjectSummary& b) const {
-  return last.version_a == a.version && last.version_b == b.version &&
-         last.rules_version == filter_.rules_version();
-}
-
 void PairTable::reserve(std::size_t objects, std::size_t pairs, std::size_t leaf_pairs) {
   summaries_.reserve(objects);
   broad_phase_.reserve(objects, pairs);
-  selection_.reserve(pairs);
-  memories_.reserve(pairs, leaf_pairs);
+  selection_.reserve(pairs, leaf_pairs);
   jobs_.reserve(pairs);
+  resting_.reserve(pairs);
+  listed_.reserve(pairs);
+  rows_.reserve(pairs);
   wanted_.reserve(objects);
 }
 
 std::size_t PairTable::byte_count() const {
-  return memories_.byte_count() + filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
-         selection_.byte_count() + bytes_of(jobs_) + bytes_of(wanted_);
+  return filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
+         selection_.byte_count() + bytes_of(jobs_) + bytes_of(resting_) + bytes_of(listed_) +
+         bytes_of(rows_) + bytes_of(wanted_);
 }
 
 }  // namespace graze

@@ -9,7 +9,6 @@
 #include "object_summary.hpp"
 #include "pair_filter.hpp"
 #include "pair_job.hpp"
-#include "pair_memory.hpp"
 #include "pair_selection.hpp"
 #include "task_pool.hpp"
 
@@ -23,11 +22,15 @@ class PairTable {
 
   [[nodiscard]] PairFilter& filter() { return filter_; }
 
-  /// The pairs that have to be looked at or said something about, in the order of addition of a, then b.
-  /// Reads objects that promises left unread, where they may be near after all. `previous` is the last
-  /// report.
-  std::span<const PairJob> list(const FrameReport& previous, TaskPool& tasks,
-                                std::vector<Diagnostic>& diagnostics, StepStatistics& statistics);
+  /// The pairs that have to be looked at or said something about. Reads objects that promises left unread,
+  /// where they may be near after all. `previous` is the last report.
+  PairList list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
+                StepStatistics& statistics);
+
+  /// Begins to be told which pairs a report lists, in its order.
+  void begin_rows(std::uint64_t frame);
+  void add_row(const PairJob& job) { add_row(job.places); }
+  void add_rows(const RestingRows& rows);
 
   /// Makes room for so many objects, and pairs whose loose boxes meet, with fronts of up to `leaf_pairs`.
   /// Before a step's `list` only.
@@ -36,22 +39,27 @@ class PairTable {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  void read_what_is_near(std::span<const PlacePair> pairs, const FrameReport& previous, TaskPool& tasks,
+  void find_listed(const FrameReport& previous);
+  void read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
                          std::vector<Diagnostic>& diagnostics);
-  void list_jobs(std::span<const PlacePair> selected, const FrameReport& previous,
-                 StepStatistics& statistics);
-  void add_unselected(Object& a, Object& b, const PairReport& last);
-  void add(PairJob& job, const ObjectSummary& a, const ObjectSummary& b);
-  [[nodiscard]] bool is_unchanged(const PairMemory& last, const ObjectSummary& a,
-                                  const ObjectSummary& b) const;
+  void list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous);
+  [[nodiscard]] PairJob job_of(const SelectedPair& selected, const FrameReport& previous) const;
+  void add(PairJob job, const SelectedPair& selected);
+  [[nodiscard]] bool says_something(PairJob& job) const;
+  [[nodiscard]] bool is_unchanged(const PairJob& job) const;
+  void count_jobs(StepStatistics& statistics) const;
+  void add_row(PlacePair pair) { rows_.push_back({pair, static_cast<std::uint32_t>(rows_.size())}); }
 
   ObjectStore& store_;
   PairFilter filter_;
   ObjectSummaries summaries_;
   BroadPhase broad_phase_;
   PairSelection selection_;
-  PairMemories memories_;
   std::vector<PairJob> jobs_;
+  std::vector<RestingRows> resting_;
+  std::vector<ListedPair> listed_;  ///< by the last report
+  std::vector<ListedPair> rows_;    ///< by the report of `rows_frame_`
+  std::uint64_t rows_frame_ = 0;
   std::vector<Object*> wanted_;  ///< to be read after all
 };
 

@@ -48,6 +48,24 @@ class ReportBuilder {
     report_.rows_.pairs.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
   }
+  /// Appends pairs that followed each other in an earlier report, as they were there, with the distances of
+  /// regions that belonged to them.
+  void add_again(std::span<const PairReport> pairs, std::span<const RegionDistance> region_distances) {
+    if (pairs.empty()) return;
+    auto& rows = report_.rows_;
+    const std::size_t contacts = contact_count_of_pairs() - pairs.front().first_contact;
+    const std::size_t regions = rows.region_distances.size() - pairs.front().first_region_distance;
+    const std::size_t count = rows.pairs.size();
+    rows.region_distances.insert(rows.region_distances.end(), region_distances.begin(),
+                                 region_distances.end());
+    rows.pairs.insert(rows.pairs.end(), pairs.begin(), pairs.end());
+    for (PairReport& pair : std::span(rows.pairs).subspan(count)) {
+      // Modulo 2^64 where they stand further ahead than they did.
+      pair.first_contact += contacts;
+      pair.first_region_distance += regions;
+      report_.complete_ = report_.complete_ && pair.complete;
+    }
+  }
   /// Where the contacts of the pairs are to be written, when all pairs are there. What is there is of a
   /// report before: only the room that is missing is made, since new contacts would be zeroed first.
   std::span<Contact> contacts() {

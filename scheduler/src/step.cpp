@@ -54,17 +54,17 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
   if (std::exchange(is_settled_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
   } else {
-    const auto jobs = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
+    const PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
     statistics.pairs_ms = lap();
-    refit_.run(jobs);
+    refit_.run(list.jobs);
     statistics.refit_ms = lap();
-    jobs_.run(jobs, pairs_.filter().rules_version(), start);
+    jobs_.run(list, pairs_.filter().rules_version(), start);
     statistics.jobs_ms = lap();
-    write_pairs(jobs, previous, builder);
+    write_pairs(list, previous, builder);
     sum_counters(statistics);
     jobs_.even_out_memory();
     reports_.even_out();
-    count_bytes_of_pairs(jobs, statistics);
+    count_bytes_of_pairs(list.jobs, statistics);
   }
   statistics.objects_unread = store_.unread_count();
   statistics.objects_surveyed = store_.surveyed_count();
@@ -128,33 +128,66 @@ void Step::make_ready(Surface& surface) {
 }
 
 /// The end of a step: jobs ran in any order, but their answers are put together in the order of the pairs.
-void Step::write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder) {
+void Step::write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
-  std::size_t rows_again = 0;
+  rows_again_ = 0;
   contacts_.begin();
-  for (std::size_t index = 0; index < jobs.size(); ++index) {
-    const PairJob& job = jobs[index];
-    const bool repeats = !job.is_looked_at();
-    std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
-    if (!row) continue;
-    if (repeats && !job.allowed) row->phase = PairPhase::ended;
-    if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again;
-    const bool in_contact = row->phase == PairPhase::began || row->phase == PairPhase::touching;
-    const KeptAnswer& answer = jobs_.answer(index);
-    const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
-    std::span<const Contact> contacts;
-    if (in_contact) contacts = repeats ? last : answer.contacts;
-    repeats ? contacts_.add_again(contacts) : contacts_.add(contacts, last);
-    const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
-    builder.add(*row, contacts.size(), regions);
-    statistics.region_distances += regions.size();
-    if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
-    ++statistics.pairs_near;
-    if (in_contact) ++statistics.pairs_in_contact;
-    statistics.contacts += contacts.size();
+  pairs_.begin_rows(builder.frame());
+  auto resting = list.resting.begin();
+  for (std::size_t index = 0; index < list.jobs.size(); ++index) {
+    for (; resting != list.resting.end() && resting->job == index; ++resting)
+      repeat_pairs(*resting, previous, builder);
+    write_pair(list.jobs[index], index, previous, builder);
   }
+  for (; resting != list.resting.end(); ++resting) repeat_pairs(*resting, previous, builder);
   contacts_.write(tasks_, builder.contacts(), builder.frame());
-  is_settled_ = statistics.pairs_tested == 0 && rows_again == statistics.pairs_near;
+  is_settled_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
+}
+
+void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& previous,
+                      ReportBuilder& builder) {
+  StepStatistics& statistics = builder.statistics();
+  const bool repeats = !job.is_looked_at();
+  std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
+  if (!row) return;
+  if (repeats && !job.allowed) row->phase = PairPhase::ended;
+  if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again_;
+  const bool in_contact = is_contact(row->phase);
+  const KeptAnswer& answer = jobs_.answer(index);
+  const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
+  std::span<const Contact> contacts;
+  if (in_contact) contacts = repeats ? last : answer.contacts;
+  repeats ? contacts_.add_again(contacts) : contacts_.add(contacts, last);
+  const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
+  builder.add(*row, contacts.size(), regions);
+  pairs_.add_row(job);
+  statistics.region_distances += regions.size();
+  if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
+  ++statistics.pairs_near;
+  if (in_contact) ++statistics.pairs_in_contact;
+  statistics.contacts += contacts.size();
+}
+
+/// Rows of the last report, with all that belongs to them.
+void Step::repeat_pairs(const RestingRows& resting, const FrameReport& previous, ReportBuilder& builder) {
+  StepStatistics& statistics = builder.statistics();
+  const auto rows = previous.pairs().subspan(resting.row, resting.count);
+  const PairReport& first = rows.front();
+  const PairReport& last = rows.back();
+  const auto contacts = previous.contacts().subspan(
+      first.first_contact, last.first_contact + last.contact_count - first.first_contact);
+  const auto regions = previous.region_distances().subspan(
+      first.first_region_distance,
+      last.first_region_distance + last.region_distance_count - first.first_region_distance);
+  contacts_.add_again(contacts);
+  builder.add_again(rows, regions);
+  pairs_.add_rows(resting);
+  rows_again_ += rows.size();
+  statistics.pairs_near += rows.size();
+  statistics.contacts += contacts.size();
+  statistics.region_distances += regions.size();
+  for (const PairReport& row : rows)
+    if (is_contact(row.phase)) ++statistics.pairs_in_contact;
 }
 
 /// The rows of the last report again, which looked at no pair.

@@ -35,7 +35,9 @@ class Step {
   void take_up_calls(std::vector<Diagnostic>& diagnostics);
   void reserve(const SceneCapacity& capacity);
   void make_ready(Surface& surface);
-  void write_pairs(std::span<const PairJob> jobs, const FrameReport& previous, ReportBuilder& builder);
+  void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
+  void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);
+  void repeat_pairs(const RestingRows& resting, const FrameReport& previous, ReportBuilder& builder);
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
   void sum_counters(StepStatistics& statistics);
   void count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics);
@@ -49,7 +51,8 @@ class Step {
   RegionRefit refit_;
   PairJobs jobs_;
   ContactRows contacts_;
-  bool is_reserved_ = false;  ///< room for near pairs, also of objects that come
+  bool is_reserved_ = false;    ///< room for near pairs, also of objects that come
+  std::size_t rows_again_ = 0;  ///< of the report being written, as they were in the last
   /// The last step looked at no pair and all its rows were as before: so will be the next one's if nothing
   /// changes.
   bool is_settled_ = false;

@@ -1,5 +1,6 @@
 // Steps in which nothing has changed: their reports show the rows of the report before.
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
@@ -54,7 +56,169 @@ class RestingAndNot {
   double far_height_ = 1000;
 };
 
+/// Small bodies in a heap, in two scenes that are told the same; but one is also given a rule about kinds
+/// that no object has before every step, so that no pair of it rests.
+class Heap {
+ public:
+  Heap(const SceneSettings& settings, std::uint64_t seed)
+      : random_(seed), scenes_{Scene(settings), Scene(settings)} {
+    while (bodies_.size() < 40) add();
+  }
+
+  /// Something happens to a few bodies.
+  void happen() {
+    for (Body& body : bodies_) body.touched = false;
+    rules_changed_ = false;
+    for (std::uint32_t count = random_.below(4); count > 0; --count) {
+      Body& body = bodies_[random_.below(static_cast<std::uint32_t>(bodies_.size()))];
+      Body& other = bodies_[random_.below(static_cast<std::uint32_t>(bodies_.size()))];
+      body.touched = true;
+      switch (random_.below(12)) {
+        case 0:
+          for (const std::size_t k : {0U, 1U}) scenes_[k].remove(body.ids[k]);
+          body = std::move(bodies_.back());
+          bodies_.pop_back();
+          break;
+        case 1:
+          add();
+          break;
+        case 2:
+          for (const std::size_t k : {0U, 1U}) scenes_[k].ignore(body.ids[k], other.ids[k]);
+          break;
+        case 3:
+          for (const std::size_t k : {0U, 1U}) scenes_[k].watch(body.ids[k], other.ids[k]);
+          break;
+        case 4:
+          body.positions[0].x() = std::numeric_limits<double>::quiet_NaN();
+          break;
+        case 5:
+          rules_changed_ = true;
+          set_rule(random_.chance(0.5) ? 0.01 : 0.05);
+          break;
+        case 6:  // and its box stays
+          std::swap(body.positions[1], body.positions[2]);
+          break;
+        default:
+          move(body);
+      }
+    }
+  }
+  /// The report of the scene in which pairs rest, and that of the other.
+  std::array<ReportHandle, 2> step() {
+    scenes_[1].set_rule(250, 251, {.contact_distance = 1, .range = 1});
+    return {scenes_[0].step(), scenes_[1].step()};
+  }
+  [[nodiscard]] bool is_touched(ObjectId id) const {
+    return rules_changed_ ||
+           std::ranges::any_of(bodies_, [&](const Body& body) { return body.ids[0] == id && body.touched; });
+  }
+
+ private:
+  struct Body {
+    std::shared_ptr<const Mesh> mesh;
+    std::array<ObjectId, 2> ids;
+    Positions positions;  ///< that both scenes have bound
+    bool touched = true;
+  };
+
+  void set_rule(double contact_distance) {
+    for (Scene& scene : scenes_) scene.set_rule(1, 0, {.contact_distance = contact_distance, .range = 0.2});
+  }
+  void add() {
+    const auto mesh = mesh_of(models::sphere(6 + random_.below(4), 4));
+    ObjectSettings settings;
+    settings.layer = 1U << random_.below(3);
+    settings.collides_with = random_.chance(0.2) ? 3 : ~0U;
+    settings.group = random_.below(12);
+    settings.kind = random_.below(2);
+    settings.margin = random_.chance(0.2) ? 0.01 : 0;
+    settings.motion = random_.chance(0.2) ? Motion::fixed : Motion::deformable;
+    Body body;
+    body.mesh = mesh;
+    body.positions.assign(mesh->rest().begin(), mesh->rest().end());
+    for (const std::size_t k : {0U, 1U}) body.ids[k] = scenes_[k].add(mesh, settings);
+    if (settings.motion == Motion::fixed) {
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation() = place();
+      for (const std::size_t k : {0U, 1U}) scenes_[k].set_pose(body.ids[k], pose);
+    } else {
+      move(body);
+      for (const std::size_t k : {0U, 1U})
+        scenes_[k].bind_positions(body.ids[k], PositionView(body.positions));
+    }
+    bodies_.push_back(std::move(body));
+  }
+  Eigen::Vector3d place() { return {random_.between(-4, 4), random_.between(-4, 4), random_.between(-2, 2)}; }
+  /// Elsewhere, or a little.
+  void move(Body& body) {
+    const Eigen::Vector3d middle = body.positions[0].allFinite() ? body.positions[0] : place();
+    const Eigen::Vector3d to = random_.chance(0.5) ? place() : Eigen::Vector3d(middle + 0.02 * place());
+    for (std::size_t i = 0; i < body.positions.size(); ++i)
+      body.positions[i] = 0.4 * body.mesh->rest()[i] + to + 0.01 * place();
+  }
+
+  oracle::Random random_;
+  std::array<Scene, 2> scenes_;
+  std::vector<Body> bodies_;
+  bool rules_changed_ = false;
+};
+
 }  // namespace
+
+TEST_CASE("rest: pairs that rest among others that do not are as if they had been looked at") {
+  std::uint64_t rested = 0;
+  std::uint64_t ended = 0;
+  std::uint32_t seed = 0;
+  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::vertices, ContactDetail::features}) {
+    SceneSettings settings = settings_of(0.02, 0.1, detail);
+    settings.threads = ++seed;
+    Heap heap(settings, seed);
+    for (int step = 0; step < 80; ++step) {
+      heap.happen();
+      const auto [resting, looked_at] = heap.step();
+      INFO("step " << step << ", detail " << static_cast<int>(detail));
+      REQUIRE(difference_of(*resting, *looked_at) == "");
+      REQUIRE(inconsistency_of(*resting) == "");
+      const StepStatistics& statistics = resting->statistics();
+      const StepStatistics& other = looked_at->statistics();
+      REQUIRE(statistics.pairs_unchanged + statistics.pairs_tested == other.pairs_tested);
+      REQUIRE(statistics.pairs_filtered == other.pairs_filtered);
+      REQUIRE(statistics.pairs_apart == other.pairs_apart);
+      REQUIRE(statistics.contacts == other.contacts);
+      REQUIRE(statistics.pairs_in_contact == other.pairs_in_contact);
+      rested += statistics.pairs_unchanged;
+      for (const PairReport& row : resting->pairs()) ended += row.phase == PairPhase::ended ? 1U : 0U;
+    }
+  }
+  CHECK(rested > 5'000);
+  CHECK(ended > 50);
+}
+
+TEST_CASE("rest: distances of regions stay with the pairs that rest") {
+  SceneSettings settings = settings_of(0.1, 1);
+  settings.region_distances = 4096;
+  Heap heap(settings, 5);
+  ReportHandle last;
+  std::size_t compared = 0;
+  for (int step = 0; step < 100; ++step) {
+    heap.happen();
+    const ReportHandle report = heap.step()[0];
+    REQUIRE(inconsistency_of(*report) == "");
+    for (const PairReport& row : report->pairs()) {
+      const PairReport* const before = last ? find_pair(*last, row.a, row.b) : nullptr;
+      if (before == nullptr || heap.is_touched(row.a) || heap.is_touched(row.b)) continue;
+      const auto now = report->region_distances(row);
+      const auto same = [](const RegionDistance& left, const RegionDistance& right) {
+        return left.region_a == right.region_a && left.region_b == right.region_b &&
+               left.distance == right.distance;
+      };
+      REQUIRE(std::ranges::equal(now, last->region_distances(*before), same));
+      compared += now.size();
+    }
+    last = report;
+  }
+  CHECK(compared > 3'000);
+}
 
 TEST_CASE("rest: reports say the same as where something else moves, whatever happens in between") {
   RestingAndNot scenes(settings_of(0.5, 1));
