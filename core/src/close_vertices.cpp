@@ -51,7 +51,7 @@ void CloseVertices::compare() {
   scratch_.a.take(pair_.a, std::span(scratch_.found_a).first(rows), frame);
   std::fill_n(scratch_.rows.first.begin(), rows, 0U);
   std::fill_n(scratch_.rows.last.begin(), rows, static_cast<std::uint32_t>(points));
-  add_close_rows(pair_, limit_, {scratch_.a, scratch_.b, true}, reach_of(frame, box_, limit_), scratch_.rows,
+  add_close_rows(pair_, limit_, {scratch_.a, scratch_.b}, reach_of(frame, box_, limit_), scratch_.rows,
                  names_);
 }
 

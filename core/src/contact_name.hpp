@@ -50,6 +50,8 @@ class ContactName {
     return {{static_cast<FeatureKind>(high_ >> 32U & 3U), static_cast<std::uint32_t>(high_)},
             static_cast<Piece>(low_ >> 8U & 3U)};
   }
+  /// A number that orders names by kind and feature of a.
+  [[nodiscard]] std::uint64_t of_a() const { return high_; }
   [[nodiscard]] FeaturePiece b() const {
     return {{static_cast<FeatureKind>(low_ >> 56U), static_cast<std::uint32_t>(low_ >> 24U)},
             static_cast<Piece>(low_ & 3U)};

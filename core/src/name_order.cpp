@@ -25,6 +25,22 @@ ContactName::Widths widths_of(const std::vector<ContactName>& names) {
   return {static_cast<int>(std::bit_width(of_a)), static_cast<int>(std::bit_width(of_b))};
 }
 
+/// By kind and feature of a alone.
+bool by_feature_of_a(const ContactName& left, const ContactName& right) {
+  return left.of_a() < right.of_a();
+}
+
+/// Sorts those of one feature of a each, as a sweep over its vertices leaves them: mostly a few.
+void sort_groups(std::vector<ContactName>& names) {
+  for (auto begin = names.begin(); begin != names.end();) {
+    auto end = begin;
+    while (++end != names.end() && end->of_a() == begin->of_a()) {
+    }
+    if (end - begin > 1) std::sort(begin, end);
+    begin = end;
+  }
+}
+
 std::size_t digit(std::uint64_t key, int place) {
   return key >> (place * digit_bits) & (digit_count - 1);
 }
@@ -48,6 +64,7 @@ void NameOrder::sort_keys() {
 }
 
 void NameOrder::sort(std::vector<ContactName>& names) {
+  if (std::is_sorted(names.begin(), names.end(), by_feature_of_a)) return sort_groups(names);
   if (names.size() < short_list) return std::sort(names.begin(), names.end());
   const ContactName::Widths widths = widths_of(names);
   if (widths.all() > 64) return std::sort(names.begin(), names.end());

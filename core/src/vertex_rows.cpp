@@ -12,17 +12,14 @@ constexpr std::size_t pairs_at_once = 4096;
 void add_some(const SurfacePair& pair, double limit, const VertexRows& vertices, float reach,
               std::size_t begin, std::size_t end, std::size_t pairs, VertexRowsScratch& scratch,
               std::vector<ContactName>& names) {
-  const auto [rows, points, rows_are_of_a] = vertices;
+  const auto [rows, points] = vertices;
   const std::size_t found = kernels::filter().near_rows(
       rows.block(), begin, end, points.block(), scratch.first.data(), scratch.last.data(), reach * reach,
       {scratch.near_row.data(), scratch.near_point.data()});
   pair.count.discarded_in_float += pairs - found;
   for (std::size_t k = 0; k < found; ++k) {
-    const std::uint32_t row = rows.vertex(scratch.near_row[k]);
-    const std::uint32_t point = points.vertex(scratch.near_point[k]);
-    const std::uint32_t a = rows_are_of_a ? row : point;
-    const std::uint32_t b = rows_are_of_a ? point : row;
-    const auto name = ContactName::of(vertex_piece(a), vertex_piece(b));
+    const auto name = ContactName::of(vertex_piece(rows.vertex(scratch.near_row[k])),
+                                      vertex_piece(points.vertex(scratch.near_point[k])));
     if (is_closer_than(pair, name, limit)) names.push_back(name);
   }
 }

@@ -9,11 +9,10 @@
 
 namespace graze {
 
-/// Vertices of one surface, the rows, and of the other, the points.
+/// Vertices of a surface a, the rows, and of b, the points.
 struct VertexRows {
   const LocalVertices& rows;
   const LocalVertices& points;
-  bool rows_are_of_a = false;
 };
 
 /// The stretch of points that each row is compared with, and what a kernel leaves of them.
@@ -34,7 +33,8 @@ struct VertexRowsScratch {
 /// In a frame: vertices in `box` that are no nearer than this in float are certainly not nearer than `limit`.
 float reach_of(const FilterFrame& frame, const Box& box, double limit);
 
-/// Appends the pairs of each row and the points of its stretch that are strictly closer than `limit`.
+/// Appends the pairs of each row and the points of its stretch that are strictly closer than `limit`, row by
+/// row.
 void add_close_rows(const SurfacePair& pair, double limit, const VertexRows& vertices, float reach,
                     VertexRowsScratch& scratch, std::vector<ContactName>& names);
 

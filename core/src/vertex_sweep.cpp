@@ -70,19 +70,19 @@ class VertexSweep {
     if (near_both_.empty()) return Swept::all;
     Box box_a;
     Box box_b;
-    if (!collect(pair_.a, near_both_, scratch_.a, box_a)) return gave_up_;
-    if (scratch_.a.count() == 0) return Swept::all;
-    if (!collect(pair_.b, common(near_both_, grown(box_a, limit_)), scratch_.b, box_b)) return gave_up_;
+    if (!collect(pair_.b, near_both_, scratch_.b, box_b)) return gave_up_;
     if (scratch_.b.count() == 0) return Swept::all;
-    scratch_.rows.make_room(scratch_.b.count(), scratch_.a.count());
+    if (!collect(pair_.a, common(near_both_, grown(box_b, limit_)), scratch_.a, box_a)) return gave_up_;
+    if (scratch_.a.count() == 0) return Swept::all;
+    scratch_.rows.make_room(scratch_.a.count(), scratch_.b.count());
     if (scratch_.a.count() * scratch_.b.count() <= few_pairs) {
-      std::fill_n(scratch_.rows.first.begin(), scratch_.b.count(), 0U);
-      std::fill_n(scratch_.rows.last.begin(), scratch_.b.count(),
-                  static_cast<std::uint32_t>(scratch_.a.count()));
-      compare_with(scratch_.a);
+      std::fill_n(scratch_.rows.first.begin(), scratch_.a.count(), 0U);
+      std::fill_n(scratch_.rows.last.begin(), scratch_.a.count(),
+                  static_cast<std::uint32_t>(scratch_.b.count()));
+      compare_with(scratch_.b);
       return Swept::all;
     }
-    const Slabs slabs(frame_.to_local(common(box_a, grown(box_b, limit_))), local_limit_);
+    const Slabs slabs(frame_.to_local(common(box_b, grown(box_a, limit_))), local_limit_);
     sort_into(slabs);
     if (list_beside(slabs) > most_pairs) return Swept::too_many;
     compare_with(scratch_.sorted);
@@ -104,8 +104,11 @@ class VertexSweep {
       if (!meter_.spend()) return give_up(Swept::out_of_budget);
       make_room(surface.mesh().vertex_count() + Surface::beyond_found);
       count = surface.find_inside(box, scratch_.found);
-    } else if (!collect_from_tree(surface, box, count)) {
-      return false;
+    } else {
+      if (!collect_from_tree(surface, box, count)) return false;
+      // Names then come in the order of those of a.
+      if (&surface == &pair_.a)
+        std::sort(scratch_.found.begin(), scratch_.found.begin() + static_cast<std::ptrdiff_t>(count));
     }
     found_box = vertices.take(surface, std::span(scratch_.found).first(count), frame_);
     return true;
@@ -147,27 +150,27 @@ class VertexSweep {
     return false;
   }
 
-  /// The vertices of a, slab by slab.
+  /// The vertices of b, slab by slab.
   void sort_into(const Slabs& slabs) {
-    const LocalVertices& a = scratch_.a;
+    const LocalVertices& b = scratch_.b;
     auto& slab_of = scratch_.slab;
     auto& begin = scratch_.begin;
-    slab_of.resize(a.count());
+    slab_of.resize(b.count());
     begin.assign(slabs.count() + 1, 0);
-    const std::span<const float> along = a.coordinates(slabs.axis());
+    const std::span<const float> along = b.coordinates(slabs.axis());
     for (std::size_t i = 0; i < along.size(); ++i) slab_of[i] = slabs.at(along[i]);
     for (const std::uint32_t slab : slab_of) ++begin[slab];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    make_room(a.count() + LocalVertices::padding);
-    std::fill_n(scratch_.found.begin() + static_cast<std::ptrdiff_t>(a.count()), LocalVertices::padding, 0U);
-    for (std::size_t i = a.count(); i-- > 0;)
+    make_room(b.count() + LocalVertices::padding);
+    std::fill_n(scratch_.found.begin() + static_cast<std::ptrdiff_t>(b.count()), LocalVertices::padding, 0U);
+    for (std::size_t i = b.count(); i-- > 0;)
       scratch_.found[--begin[slab_of[i]]] = static_cast<std::uint32_t>(i);
-    scratch_.sorted.take(a, std::span(scratch_.found).first(a.count()));
+    scratch_.sorted.take(b, std::span(scratch_.found).first(b.count()));
   }
 
-  /// For each vertex of b those of a in the slabs about it; how many in all.
+  /// For each vertex of a those of b in the slabs about it; how many in all.
   std::size_t list_beside(const Slabs& slabs) {
-    const std::span<const float> along = scratch_.b.coordinates(slabs.axis());
+    const std::span<const float> along = scratch_.a.coordinates(slabs.axis());
     std::uint32_t* const first = scratch_.rows.first.data();
     std::uint32_t* const last = scratch_.rows.last.data();
     for (std::size_t row = 0; row < along.size(); ++row) first[row] = slabs.at(along[row] - reach_);
@@ -181,8 +184,8 @@ class VertexSweep {
     return pairs;
   }
 
-  void compare_with(const LocalVertices& a) {
-    add_close_rows(pair_, limit_, {scratch_.b, a, false}, reach_, scratch_.rows, names_);
+  void compare_with(const LocalVertices& b) {
+    add_close_rows(pair_, limit_, {scratch_.a, b}, reach_, scratch_.rows, names_);
   }
 
   const SurfacePair& pair_;

@@ -16,10 +16,10 @@ struct VertexSweepScratch {
   std::vector<std::uint32_t> regions;  ///< to be gone through
   LocalVertices a;
   LocalVertices b;
-  LocalVertices sorted;              ///< those of a by their slabs
-  std::vector<std::uint32_t> slab;   ///< of each vertex of a
+  LocalVertices sorted;              ///< those of b by their slabs
+  std::vector<std::uint32_t> slab;   ///< of each vertex of b
   std::vector<std::uint32_t> begin;  ///< of the slabs
-  VertexRowsScratch rows;            ///< of b
+  VertexRowsScratch rows;            ///< of a
 
   template <typename Self>
   static auto parts(Self& self) {
