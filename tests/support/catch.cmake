@@ -8,8 +8,6 @@ include(Catch)
 set(GRAZE_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
   "Real meshes that some tests read; those tests are skipped where it is missing")
 
-set(GRAZE_TEST_OPTIONS "" CACHE STRING "More compiler options for the tests themselves, such as -O1 to build them sooner")
-
 if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
   set(GRAZE_CATCH_MAIN Catch2::Catch2WithMain)
 else()
