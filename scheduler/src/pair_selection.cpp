@@ -11,6 +11,7 @@ namespace {
 
 /// Pairs looked at at a time.
 constexpr std::size_t pairs_of_slice = 4096;
+static_assert(pairs_of_slice <= std::numeric_limits<decltype(SelectedPair::count)>::max());
 
 constexpr PlacePair behind_all = ~PlacePair{0};
 

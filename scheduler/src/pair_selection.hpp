@@ -34,7 +34,7 @@ struct SelectedPair {
   std::uint32_t place = none;  ///< among the pairs of the broad phase
   std::uint32_t memory = none;
   std::uint32_t listed = none;  ///< among those that the last report lists; of several the first
-  std::uint32_t count = 1;
+  std::uint16_t count = 1;
   Kind kind = Kind::looked_at;
 };
 

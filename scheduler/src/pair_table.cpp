@@ -58,6 +58,9 @@ void PairTable::find_listed(const FrameReport& previous) {
 void PairTable::begin_rows(std::uint64_t frame) {
   rows_.clear();
   rows_frame_ = frame;
+  std::size_t most = jobs_.size();
+  for (const RestingRows& rows : resting_) most += rows.count;
+  rows_.reserve(most);
 }
 
 void PairTable::add_rows(const RestingRows& rows) {
@@ -97,6 +100,7 @@ void PairTable::read_what_is_near(std::span<const PlacePair> pairs, TaskPool& ta
 void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous) {
   jobs_.clear();
   resting_.clear();
+  jobs_.reserve(selected.size());  // no more than that: with millions of pairs half as much again is felt
   for (std::size_t i = 0; i < selected.size(); ++i) {
     if (i + ahead < selected.size()) selection_.prefetch(selected[i + ahead]);
     const SelectedPair& each = selected[i];
