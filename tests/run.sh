@@ -28,9 +28,8 @@ run_preset() {
 }
 
 run_preset release --parallel "$(nproc)"
-# Without undefined behaviour's checks of null, of object sizes and of virtual tables, which are a fifth of the build:
-# the address sanitizer sees what such accesses do, and the fuzzers have them. Tests and programs are compiled with less
-# optimisation, which is another third.
+# Without undefined behaviour's checks of null, of object sizes and of virtual tables, which take long to build: the
+# address sanitizer sees what such accesses do, and the fuzzers have them.
 # The contract's programs build libraries of their own, and all experiments in short take half a minute as users build
 # them and ten times that here: one run of them is enough.
 run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_|^experiment: every study'

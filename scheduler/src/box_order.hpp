@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "place_pair.hpp"
 #include "task_pool.hpp"
 
 namespace graze {
@@ -16,7 +17,6 @@ namespace graze {
 class BoxOrder {
  public:
   static constexpr std::uint32_t block = 8;
-  static constexpr std::uint32_t no_place = ~std::uint32_t{0};
 
   /// Fills `slots` with the numbers of `boxes`, each once. Boxes of each size begin a block of their own;
   /// what stays empty of the last is no_place, and the count is a multiple of `block`.

@@ -21,8 +21,6 @@ namespace graze {
 /// One thread changes it; while none does, any number may ask.
 class BoxTree {
  public:
-  static constexpr std::uint32_t no_place = BoxOrder::no_place;
-
   /// Makes a new order for all boxes; box i is place i.
   void build(std::span<const Box> boxes, TaskPool& tasks);
   /// Gives every place a new box; the order stays.

@@ -7,8 +7,6 @@
 namespace graze {
 namespace {
 
-constexpr std::uint32_t no_place = BoxTree::no_place;
-
 // Work done at a time. How it is cut depends on the work alone, never on the number of threads.
 constexpr std::size_t objects_of_slice = 2048;
 constexpr std::uint32_t blocks_of_slice = 64;
@@ -88,13 +86,9 @@ void BroadPhase::follow(const ObjectSummaries& summaries) {
     for (std::size_t place = 0; place < moves.size(); ++place)
       if (moves[place] != no_place) loose_[count++] = loose_[place];
     loose_.resize(count);
-    // Those that stay keep their order, and so do their pairs.
     std::size_t kept = 0;
-    for (const PlacePair pair : pairs_) {
-      const std::uint32_t first = moves[first_of(pair)];
-      const std::uint32_t second = moves[second_of(pair)];
-      if (first != no_place && second != no_place) pairs_[kept++] = pair_of(first, second);
-    }
+    for (const PlacePair pair : pairs_)
+      if (const PlacePair moved = moved_pair(pair, moves); moved != no_pair) pairs_[kept++] = moved;
     pairs_.resize(kept);
   }
   for (std::size_t place = loose_.size(); place < summaries.all().size(); ++place) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "object_store.hpp"
+#include "place_pair.hpp"
 #include "task_pool.hpp"
 
 namespace graze {
@@ -33,8 +34,6 @@ struct ObjectSummary {
 /// The summaries of all objects in one array, in their order of addition. Stepping thread only.
 class ObjectSummaries {
  public:
-  static constexpr std::uint32_t no_place = ~std::uint32_t{0};
-
   /// Brings all up to date; the box of an object that is new has not moved.
   void refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks);
   /// The same for objects that were read since.

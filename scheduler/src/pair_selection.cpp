@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t pairs_of_slice = 4096;
 static_assert(pairs_of_slice <= std::numeric_limits<decltype(SelectedPair::count)>::max());
 
-constexpr PlacePair behind_all = ~PlacePair{0};
-
 /// Where in an ascending array `pair` is or would be.
 template <typename Array>
 std::size_t place_in(const Array& array, PlacePair pair) {
@@ -52,7 +50,7 @@ class PairSelection::Walk {
 
   void run() {
     for (std::size_t place = slice_.begin; place < slice_.end; ++place) take(place);
-    pass_by(slice_.end < given_.pairs.size() ? given_.pairs[slice_.end] : behind_all);
+    pass_by(slice_.end < given_.pairs.size() ? given_.pairs[slice_.end] : no_pair);  // behind all others
   }
 
  private:
@@ -155,18 +153,15 @@ std::span<const SelectedPair> PairSelection::select(std::span<const PlacePair> p
   return std::span(selected_).first(gather());
 }
 
-/// Calls pairs by the places that their objects have now; the order stays the same.
+/// Calls pairs by the places that their objects have now.
 void PairSelection::follow(std::span<const std::uint32_t> moves) {
   std::size_t kept = 0;
-  for (const Known& known : last_) {
-    const std::uint32_t first = moves[first_of(known.pair)];
-    const std::uint32_t second = moves[second_of(known.pair)];
-    if (first != ObjectSummaries::no_place && second != ObjectSummaries::no_place) {
-      last_[kept] = known;
-      last_[kept++].pair = pair_of(first, second);
-    } else if (known.memory != SelectedPair::none) {
+  for (Known known : last_) {
+    known.pair = moved_pair(known.pair, moves);
+    if (known.pair != no_pair)
+      last_[kept++] = known;
+    else if (known.memory != SelectedPair::none)
       memories_.release(known.memory);
-    }
   }
   last_.resize(kept);
 }

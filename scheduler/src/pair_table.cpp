@@ -25,6 +25,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
   if (summaries_.some_unread()) read_what_is_near(close, tasks, diagnostics);
   list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);
+  // Those counted so far rest, and have no job.
   const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
   count_jobs(statistics);
   return {jobs_, resting_, pair_count};
@@ -32,26 +33,24 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
 
 /// The pairs that the last report lists, by the places that their objects have now.
 void PairTable::find_listed(const FrameReport& previous) {
+  // Of another report where a step did not go through the pairs, or came to no end.
+  if (rows_frame_ != previous.frame()) return look_up_listed(previous);
   listed_.swap(rows_);
   const auto moves = summaries_.moves();
-  if (rows_frame_ != previous.frame()) {
-    // A step did not go through the pairs, or came to no end.
-    listed_.clear();
-    for (std::uint32_t row = 0; row < previous.pairs().size(); ++row) {
-      const Object* const a = store_.find(previous.pairs()[row].a);
-      const Object* const b = store_.find(previous.pairs()[row].b);
-      if (a != nullptr && b != nullptr)
-        listed_.push_back({pair_of(summaries_.place_of(*a), summaries_.place_of(*b)), row});
-    }
-  } else if (!moves.empty()) {
-    std::size_t kept = 0;
-    for (const auto [pair, row] : listed_) {
-      const std::uint32_t first = moves[first_of(pair)];
-      const std::uint32_t second = moves[second_of(pair)];
-      if (first != ObjectSummaries::no_place && second != ObjectSummaries::no_place)
-        listed_[kept++] = {pair_of(first, second), row};
-    }
-    listed_.resize(kept);
+  if (moves.empty()) return;
+  std::size_t kept = 0;
+  for (const auto [pair, row] : listed_)
+    if (const PlacePair moved = moved_pair(pair, moves); moved != no_pair) listed_[kept++] = {moved, row};
+  listed_.resize(kept);
+}
+
+void PairTable::look_up_listed(const FrameReport& previous) {
+  listed_.clear();
+  for (std::uint32_t row = 0; row < previous.pairs().size(); ++row) {
+    const Object* const a = store_.find(previous.pairs()[row].a);
+    const Object* const b = store_.find(previous.pairs()[row].b);
+    if (a != nullptr && b != nullptr)
+      listed_.push_back({pair_of(summaries_.place_of(*a), summaries_.place_of(*b)), row});
   }
 }
 

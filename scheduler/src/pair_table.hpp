@@ -40,6 +40,7 @@ class PairTable {
 
  private:
   void find_listed(const FrameReport& previous);
+  void look_up_listed(const FrameReport& previous);
   void read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
                          std::vector<Diagnostic>& diagnostics);
   void list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 namespace graze {
 
@@ -17,6 +18,18 @@ constexpr std::uint32_t first_of(PlacePair pair) {
 }
 constexpr std::uint32_t second_of(PlacePair pair) {
   return static_cast<std::uint32_t>(pair);
+}
+
+/// Of an object that is gone, and of a pair of which one is.
+constexpr std::uint32_t no_place = ~std::uint32_t{0};
+constexpr PlacePair no_pair = ~PlacePair{0};
+
+/// A pair by the places that its objects have after they moved from each place to that in `moves`; no_pair
+/// where one is gone. Objects keep their order, and so do their pairs.
+inline PlacePair moved_pair(PlacePair pair, std::span<const std::uint32_t> moves) {
+  const std::uint32_t first = moves[first_of(pair)];
+  const std::uint32_t second = moves[second_of(pair)];
+  return first == no_place || second == no_place ? no_pair : pair_of(first, second);
 }
 
 }  // namespace graze
