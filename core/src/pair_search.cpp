@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <graze/cut_by_work.hpp>
+#include <graze/room_to_spare.hpp>
 #include <tuple>
 #include <utility>
 
@@ -107,7 +108,6 @@ void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& quer
   slice_count_ = 0;
   answer.in_contact = answer.listed = false;
   answer.complete = true;
-  answer.contacts.clear();
 }
 
 bool PairSearch::advance(SearchScratch& scratch, PairCounters& counters) {
@@ -421,13 +421,13 @@ void PairSearch::finish_contacts(Worker& worker) {
 void PairSearch::begin_measuring(Worker& worker) {
   slice_count_ = 0;
   if (names_.empty() && query_.reach <= query_.threshold) {
+    answer_->contacts.clear();
     stage_ = Stage::done;
   } else if (names_.empty()) {
     begin_approach(worker);
   } else {
     stage_ = Stage::measured;
-    // Made in place each would be zeroed first, by a slow string store.
-    answer_->contacts.resize(names_.size(), Contact{});
+    resize_to_overwrite(answer_->contacts, names_.size());
     add_slices_of(0, names_.size(), contacts_each);
   }
 }
@@ -476,6 +476,7 @@ Ties PairSearch::ties() const {
 /// Surfaces that touched mostly still do, and then one place where they do is enough: that is looked for
 /// first, with nothing else to be near.
 void PairSearch::begin_approach(Worker& worker) {
+  answer_->contacts.clear();
   front_->walked = true;
   only_touching_ = front_->touched && ties() == Ties::lowest && !about_vertices();
   begin_search(worker);
@@ -663,6 +664,7 @@ void PairSearch::report_closest(Worker& worker) {
 // ---- As in the paper
 
 void PairSearch::as_in_paper(Worker& worker) {
+  answer_->contacts.clear();
   names_.clear();
   const PaperFound found = find_as_in_paper(worker.pair, query_, worker.scratch.paper, worker.meter, names_);
   if (!found.complete) return give_up();

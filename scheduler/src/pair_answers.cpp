@@ -1,5 +1,7 @@
 #include "pair_answers.hpp"
 
+#include <graze/bytes_of.hpp>
+
 namespace graze {
 
 void PairAnswers::begin(std::size_t count) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <graze/bytes_of.hpp>
 #include <graze/report.hpp>
+#include <graze/room_to_spare.hpp>
 
 namespace graze {
 
@@ -67,9 +68,9 @@ class ReportBuilder {
     }
   }
   /// Where the contacts of the pairs are to be written, when all pairs are there. What is there is of a
-  /// report before: only the room that is missing is made, since new contacts would be zeroed first.
+  /// report before.
   std::span<Contact> contacts() {
-    report_.rows_.contacts.resize(contact_count_of_pairs());
+    resize_to_overwrite(report_.rows_.contacts, contact_count_of_pairs());
     return report_.rows_.contacts;
   }
   /// Shows the rows of another report, which must stay as it is while this one is read, in place of its own.
@@ -81,10 +82,11 @@ class ReportBuilder {
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
 
+  /// Of a report that is to be filled: what it has no room for is gone.
   void reserve(const ReportRoom& room) {
-    report_.rows_.pairs.reserve(room.pairs);
-    report_.rows_.contacts.reserve(room.contacts);
-    report_.rows_.region_distances.reserve(room.region_distances);
+    reserve_to_overwrite(report_.rows_.pairs, room.pairs);
+    reserve_to_overwrite(report_.rows_.contacts, room.contacts);
+    reserve_to_overwrite(report_.rows_.region_distances, room.region_distances);
   }
   [[nodiscard]] ReportRoom room() const {
     return {report_.rows_.pairs.capacity(), report_.rows_.contacts.capacity(),

@@ -103,11 +103,14 @@ std::uint32_t ReportPool::add_slot() {
   return slot_count_++;
 }
 
-/// In a slot that nobody reads.
+/// In a slot that nobody reads, and that is to be filled.
 void ReportPool::make_room(std::uint32_t index) {
-  ReportBuilder builder(slot(index).report);
-  builder.reserve(room_);
-  const std::size_t bytes = builder.byte_count();
+  ReportBuilder(slot(index).report).reserve(room_);
+  count_bytes(index);
+}
+
+void ReportPool::count_bytes(std::uint32_t index) {
+  const std::size_t bytes = ReportBuilder(slot(index).report).byte_count();
   byte_count_ += bytes - std::exchange(slot(index).counted_bytes, bytes);
 }
 
@@ -115,11 +118,11 @@ void ReportPool::even_out() {
   const ReportRoom needed = ReportBuilder(slot(filling_).report).room();
   if (!room_.covers(needed)) all_have_room_ = false;
   room_.include(needed);
-  make_room(filling_);
+  count_bytes(filling_);
   if (all_have_room_) return;
   all_have_room_ = true;
   for (std::uint32_t index = 0; index < slot_count_; ++index) {
-    if (is_free(index)) make_room(index);
+    if (index != filling_ && is_free(index)) make_room(index);
     all_have_room_ = all_have_room_ && has_room(index);
   }
 }

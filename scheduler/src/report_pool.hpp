@@ -90,6 +90,7 @@ class ReportPool {
   [[nodiscard]] bool has_room(std::uint32_t index);
   std::uint32_t add_slot();
   void make_room(std::uint32_t index);
+  void count_bytes(std::uint32_t index);
   void release(std::uint32_t index) noexcept;
   void retire(std::uint64_t taken) noexcept;
   void was_freed() noexcept;

@@ -3,18 +3,23 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <graze/bytes_of.hpp>
+#include <graze/room_to_spare.hpp>
+#include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace graze {
 
 /// Memory that the threads of a step put lists into: one room for all, of which each list takes the next part
 /// by one atomic addition. Which part is chance and shows nowhere. Lists that find no room have memory of
-/// their own until `even_out`, which makes the room as large as all of them were.
+/// their own until `even_out`, which makes the room larger than all of them were.
 template <typename Element>
 class SharedRoom {
  public:
+  static_assert(std::is_trivially_destructible_v<Element> &&
+                alignof(Element) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+
   explicit SharedRoom(unsigned workers) : beyond_(workers) {}
 
   /// Forgets all lists. Stepping thread only, as are all but `keep`.
@@ -25,27 +30,29 @@ class SharedRoom {
     if (list.empty()) return {};
     // Relaxed: each part has one writer, and who reads it has waited for the tasks.
     const std::size_t begin = used_.fetch_add(list.size(), std::memory_order_relaxed);
-    if (begin + list.size() > room_.size()) return beyond_[worker].emplace_back(list.begin(), list.end());
-    const auto part = std::span(room_).subspan(begin, list.size());
-    std::copy(list.begin(), list.end(), part.begin());
-    return part;
+    if (begin + list.size() > size_) return beyond_[worker].emplace_back(list.begin(), list.end());
+    Element* const part = reinterpret_cast<Element*>(room_.get()) + begin;
+    std::uninitialized_copy(list.begin(), list.end(), part);
+    return {part, list.size()};
   }
   /// Makes room for lists like those kept since `begin`, and forgets them.
   void even_out() {
     const std::size_t used = used_.exchange(0, std::memory_order_relaxed);
-    const std::size_t size = room_.size();
-    if (used <= size) return;
-    room_.clear();
-    room_.resize(std::max(used, size + size / 2));
+    if (used <= size_) return;
+    reserve(with_room_to_spare(used));
     for (auto& lists : beyond_) lists = {};
   }
   void reserve(std::size_t count) {
-    if (room_.size() < count) room_.resize(count);
+    if (size_ >= count) return;
+    room_ = nullptr;  // first, so that both are never there at once
+    room_ = std::make_unique_for_overwrite<std::byte[]>(count * sizeof(Element));
+    size_ = count;
   }
-  [[nodiscard]] std::size_t byte_count() const { return bytes_of(room_); }
+  [[nodiscard]] std::size_t byte_count() const { return size_ * sizeof(Element); }
 
  private:
-  std::vector<Element> room_;
+  std::unique_ptr<std::byte[]> room_;  ///< not touched before something is kept there
+  std::size_t size_ = 0;               ///< elements that it has room for
   std::atomic<std::size_t> used_{0};
   std::vector<std::vector<std::vector<Element>>> beyond_;  ///< by worker; empty between steps
 };

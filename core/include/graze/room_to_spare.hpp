@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace graze {
+
+/// How many elements to take memory for where `count` have none: half as many again, so that a number that
+/// rises a little from step to step takes memory a few times only. What is to spare costs addresses; memory
+/// that nobody has written to is not there yet.
+constexpr std::size_t with_room_to_spare(std::size_t count) {
+  return count + count / 2;
+}
+
+/// Makes room for elements that are all to be written over. Where there is too little, what there was is
+/// gone: neither is it copied, nor is the new memory touched.
+template <typename Element>
+void reserve_to_overwrite(std::vector<Element>& elements, std::size_t room) {
+  if (elements.capacity() >= room) return;
+  std::vector<Element>().swap(elements);  // first, so that both are never there at once
+  elements.reserve(room);
+}
+
+/// Makes them so many, all to be written over: those that there were stay what they are, so that in most
+/// steps none is made.
+template <typename Element>
+void resize_to_overwrite(std::vector<Element>& elements, std::size_t count) {
+  if (count > elements.capacity()) reserve_to_overwrite(elements, with_room_to_spare(count));
+  // Made in place each would be zeroed first, by a slow string store.
+  elements.resize(count, Element{});
+}
+
+}  // namespace graze
