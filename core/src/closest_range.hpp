@@ -69,6 +69,8 @@ class ClosestRange {
   /// pierce each other do so in many places, any of which is a witness.
   [[nodiscard]] bool is_settled() const { return set_.is_settled(query_.threshold); }
 
+  /// Nothing further than this is nearest.
+  [[nodiscard]] double upper() const { return set_.upper(); }
   void offer(const ContactName& name) { set_.offer(name); }
   void offer_middles(const RegionPair& regions) {
     const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;

@@ -4,7 +4,6 @@
 #include <graze/leaf_front.hpp>
 #include <graze/pair_query.hpp>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,29 +22,6 @@ struct LeafPair {
   RegionPair pair;
   std::uint32_t listed = 0;  ///< its place in the front that it was taken from
   float looked = 0;          ///< as ListedLeaves has it, now
-};
-
-/// Sorts pairs of leaves by the leaf of a, those of one leaf as they come.
-class LeafPairOrder {
- public:
-  void sort(std::vector<LeafPair>& leaves, std::size_t regions_of_a) {
-    begin_.assign(regions_of_a, 0);
-    for (const LeafPair& each : leaves) ++begin_[each.pair.a];
-    std::exclusive_scan(begin_.begin(), begin_.end(), begin_.begin(), 0U);
-    sorted_.resize(leaves.size());
-    for (const LeafPair& each : leaves) sorted_[begin_[each.pair.a]++] = each;
-    leaves.swap(sorted_);
-  }
-
-  template <typename Self>
-  static auto parts(Self& self) {
-    return std::tie(self.begin_, self.sorted_);
-  }
-  void reserve(const PairRoom& room) { begin_.reserve(room.regions); }
-
- private:
-  std::vector<std::uint32_t> begin_;  ///< by region of a
-  std::vector<LeafPair> sorted_;
 };
 
 /// Places in a front.
@@ -71,12 +47,11 @@ struct LeafPairScratch {
   DmvScratch dmv;
   LeafBoxes boxes_a;
   LeafBoxes boxes_b;
-  LeafPairOrder order;
   ListedPlaces listed;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.order, self.listed);
+    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.listed);
   }
 };
 

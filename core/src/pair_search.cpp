@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "close_vertices.hpp"
 #include "closest_vertices.hpp"
 #include "feature_pairs.hpp"
 #include "last_witness.hpp"
@@ -27,7 +26,7 @@ constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound t
 constexpr std::size_t closest_each = 64;
 constexpr std::size_t touching_first = 4096;  ///< leaf pairs of a large pair that one thread asks alone
 constexpr std::size_t leaf_pairs_each = 8;
-constexpr std::size_t leaf_pairs_each_of_vertices = 64;
+constexpr std::size_t blocks_each = 64;
 constexpr std::size_t contacts_each = 128;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -137,6 +136,7 @@ void PairSearch::next_stage(Worker& worker) {
     case Stage::reach:
       return begin_contacts(worker);
     case Stage::contacts:
+    case Stage::vertices:
       return finish_contacts(worker);
     case Stage::measured:
       return finish_measuring(worker);
@@ -155,6 +155,10 @@ void PairSearch::run(Slice& slice, Worker& worker) {
       return run_reach(slice, worker);
     case Stage::contacts:
       return run_contacts(slice, worker);
+    case Stage::vertices:
+      slice.complete = NearVertices(worker.pair, query_.threshold, near_blocks_, worker.scratch.vertices)
+                           .name(slice.begin, slice.end, worker.meter, slice.names);
+      return;
     case Stage::measured:
       return measure(worker.pair, std::span(names_).subspan(slice.begin, slice.end - slice.begin),
                      std::span(answer_->contacts).subspan(slice.begin, slice.end - slice.begin),
@@ -181,6 +185,7 @@ void PairSearch::reserve_as(const PairSearch& other) {
   const std::size_t names = std::max(other.names_.capacity(), other.slices_.front().names.capacity());
   names_.reserve(names);
   slices_.front().names.reserve(names);
+  graze::reserve_as(near_blocks_, other.near_blocks_);
   graze::reserve_as(closest_.closest, other.closest_.closest);
 }
 
@@ -189,12 +194,13 @@ void PairSearch::reserve(const PairRoom& room) {
   for (auto* const leaves : {&found_.leaves, &slices_.front().found.leaves}) leaves->reserve(room.leaf_pairs);
   for (auto* const names : {&names_, &slices_.front().names})
     names->reserve(names_of_contact * room.contacts);
+  graze::reserve(near_blocks_, room);
   graze::reserve(closest_.closest, room);
 }
 
 std::size_t PairSearch::byte_count() const {
   std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
-                      bytes_of(closest_.closest);
+                      bytes_of(near_blocks_) + bytes_of(closest_.closest);
   for (const Slice& slice : slices_)
     bytes += bytes_of(slice.found.leaves) + bytes_of(slice.names) + bytes_of(slice.closest.closest);
   return bytes;
@@ -321,25 +327,22 @@ auto PairSearch::may_touch_within_slack() const {
   return [this](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); };
 }
 
-/// Vertices near each other are mostly in one place of their surfaces, where no walk is needed; where a walk
-/// has left a front, they were not.
 void PairSearch::begin_contact(Worker& worker) {
-  const bool has_front = front_->beyond_now(*a_, *b_) > query_.threshold;
-  if (query_.detail != ContactDetail::vertices || has_front) return begin_reach(worker);
-  const Swept swept =
-      sweep_close_vertices(worker.pair, query_.threshold, worker.scratch.sweep, worker.meter, names_);
-  if (swept == Swept::out_of_budget) return give_up();
-  if (swept == Swept::too_many) return begin_reach(worker);
-  front_->walked = false;
-  worker.scratch.order.sort(names_);
-  begin_measuring(worker);
-}
-
-void PairSearch::begin_reach(Worker& worker) {
+  if (query_.detail == ContactDetail::vertices) return begin_vertices(worker);
   stage_ = Stage::reach;
   from_front_ = front_->beyond_now(*a_, *b_) > query_.threshold;
   if (from_front_) return slice_front();
   slice_walk(worker, may_touch_within_slack(), [](const RegionPair&) {});
+}
+
+/// Without a walk: blocks of vertices are found by their boxes alone.
+void PairSearch::begin_vertices(Worker& worker) {
+  if (!worker.meter.spend()) return give_up();
+  stage_ = Stage::vertices;
+  NearVertices(worker.pair, query_.threshold, near_blocks_, worker.scratch.vertices).find_blocks();
+  front_->walked = false;
+  slice_count_ = 0;
+  add_slices_of(0, near_blocks_.a.count, blocks_each);
 }
 
 void PairSearch::run_reach(Slice& slice, Worker& worker) {
@@ -351,35 +354,24 @@ void PairSearch::run_reach(Slice& slice, Worker& worker) {
 
 void PairSearch::begin_contacts(Worker& worker) {
   gather_found();
-  if (!from_front_) {
-    if (query_.detail == ContactDetail::vertices) sort_found(worker);
-    remember(query_.threshold, worker);
-  }
+  if (!from_front_) remember(query_.threshold, worker);
   stage_ = Stage::contacts;
   slice_count_ = 0;
   slice_leaves_in_contact();
-}
-
-/// By the leaf of a, which is compared with all leaves beside it at once. A front stays in this order.
-void PairSearch::sort_found(Worker& worker) {
-  worker.scratch.leaf_pairs.order.sort(found_.leaves, a_->mesh().regions().region_count());
 }
 
 /// Cuts the leaf pairs found so that every slice has as many to look into.
 void PairSearch::slice_leaves_in_contact() {
   const auto& leaves = found_.leaves;
   if (!sliced_) return add_slices_of(0, leaves.size(), leaves.size());
-  const bool of_vertices = query_.detail == ContactDetail::vertices;
   cut_by_work(
-      0, leaves.size(), of_vertices ? leaf_pairs_each_of_vertices : leaf_pairs_each,
-      [&](std::size_t i) { return may_touch(leaves[i].lower) ? 1U : 0U; },
+      0, leaves.size(), leaf_pairs_each, [&](std::size_t i) { return may_touch(leaves[i].lower) ? 1U : 0U; },
       [&](std::size_t begin, std::size_t end) { add_slices_of(begin, end, end - begin); });
 }
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
   worker.begin_leaves(found_);
   CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
-  CloseVertices vertices(worker.pair, query_.threshold, worker.scratch.vertices, slice.names);
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
     slice.complete = !from_front_ || worker.meter.spend();
@@ -390,13 +382,10 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
     const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
     if (query_.detail == ContactDetail::features)
       features.add(a, b);
-    else if (query_.detail == ContactDetail::vertices)
-      vertices.add(a, b);
     else
       add_closest_vertices(a, b, slice, worker);
   }
   features.finish();
-  vertices.finish();
   // So that less is left for the thread that puts the slices together, where an edge between two slices'
   // faces is met once more.
   if (slice_count_ > 1 && query_.detail == ContactDetail::features) sort_names(slice.names, worker);
@@ -477,9 +466,24 @@ Ties PairSearch::ties() const {
 /// first, with nothing else to be near.
 void PairSearch::begin_approach(Worker& worker) {
   answer_->contacts.clear();
+  if (query_.detail == ContactDetail::vertices) return approach_vertices(worker);
   front_->walked = true;
   only_touching_ = front_->touched && ties() == Ties::lowest && !about_vertices();
   begin_search(worker);
+}
+
+/// By blocks, beginning with what the middle vertices and the last witness say.
+void PairSearch::approach_vertices(Worker& worker) {
+  closest_.clear();
+  ClosestRange range(worker.pair, query_, Ties::lowest, closest_);
+  range.offer_middles({});
+  range.at_most(upper_distance(worker.pair, front_->witness, true));
+  NearVertices vertices(worker.pair, range.limit(), near_blocks_, worker.scratch.vertices);
+  vertices.find_blocks();
+  if (!vertices.offer(worker.meter, range)) return give_up();
+  slice_count_ = 0;
+  stage_ = Stage::done;
+  if (!closest_.closest.names.empty()) report_closest(worker);
 }
 
 void PairSearch::begin_search(Worker& worker) {

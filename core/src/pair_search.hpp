@@ -4,24 +4,22 @@
 #include <span>
 #include <vector>
 
-#include "close_vertices.hpp"
 #include "closest_range.hpp"
 #include "contact_name.hpp"
 #include "leaf_names.hpp"
 #include "leaf_pairs.hpp"
 #include "measure_batch.hpp"
 #include "name_order.hpp"
+#include "near_vertices.hpp"
 #include "paper.hpp"
 #include "parallel.hpp"
-#include "vertex_sweep.hpp"
 
 namespace graze {
 
 /// Working memory of one thread.
 struct SearchScratch {
   LeafPairScratch leaf_pairs;
-  VertexSweepScratch sweep;
-  CloseVerticesScratch vertices;
+  NearVerticesScratch vertices;
   LeafScratch features;
   Closest nearest_of_leaves;
   PaperScratch paper;
@@ -32,8 +30,8 @@ struct SearchScratch {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.leaf_pairs, self.sweep, self.vertices, self.features, self.nearest_of_leaves,
-                    self.paper, self.lowest, self.parallel, self.order, self.measure);
+    return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_leaves, self.paper,
+                    self.lowest, self.parallel, self.order, self.measure);
   }
 };
 
@@ -64,6 +62,7 @@ class PairSearch {
     start,
     reach,     ///< pairs of leaves that may be in contact
     contacts,  ///< the names of all contacts in them
+    vertices,  ///< the names of all pairs of vertices in blocks that may be near
     measured,  ///< the contacts themselves
     approach,  ///< pairs of leaves where the closest points may be
     closest,   ///< the closest points in them
@@ -71,7 +70,7 @@ class PairSearch {
   };
   struct Slice {
     std::span<const RegionPair> start;  ///< where to walk from
-    std::size_t begin = 0;              ///< a range of a front, of leaf pairs or of names
+    std::size_t begin = 0;              ///< a range of a front, of leaf pairs, of blocks or of names
     std::size_t end = 0;
     bool complete = true;
     LeafPairList found;
@@ -86,7 +85,7 @@ class PairSearch {
   void as_in_paper(Worker& worker);
 
   void begin_contact(Worker& worker);
-  void begin_reach(Worker& worker);
+  void begin_vertices(Worker& worker);
   void run_reach(Slice& slice, Worker& worker);
   void begin_contacts(Worker& worker);
   void run_contacts(Slice& slice, Worker& worker);
@@ -101,6 +100,7 @@ class PairSearch {
   [[nodiscard]] auto may_touch_within_slack() const;
 
   void begin_approach(Worker& worker);
+  void approach_vertices(Worker& worker);
   void begin_search(Worker& worker);
   void look_for_touching(Worker& worker);
   [[nodiscard]] auto offering_middles(ClosestRange& range) const;
@@ -120,7 +120,6 @@ class PairSearch {
   void add_slices_of(std::size_t begin, std::size_t end, std::size_t each);
   void slice_front();
   void take_front(Slice& slice, double distance, Worker& worker) const;
-  void sort_found(Worker& worker);
   void slice_leaves_in_contact();
   template <typename Keep, typename Meet>
   void slice_walk(Worker& worker, const Keep& keep, const Meet& meet);
@@ -148,6 +147,7 @@ class PairSearch {
   std::size_t slice_count_ = 0;
   std::vector<RegionPair> roots_;  ///< where the slices walk from
   LeafPairList found_;
+  NearBlocks near_blocks_;
   std::vector<ContactName> names_;
   ClosestFound closest_;
 };

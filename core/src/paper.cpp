@@ -4,6 +4,7 @@
 
 #include "bounds.hpp"
 #include "closest_vertices.hpp"
+#include "leaf_vertex_pairs.hpp"
 
 namespace graze {
 namespace {
@@ -18,6 +19,15 @@ double epsilon_of(const SurfacePair& pair, const PairQuery& query, const Region&
   const std::size_t last = std::max<std::size_t>(1, query.epsilon.size() - 1);
   return query.epsilon[std::min(level, last) - 1];
 }
+
+/// What is nearer than the threshold, for a look at pairs of vertices.
+struct BelowThreshold {
+  double threshold;
+
+  [[nodiscard]] double limit() const { return threshold; }
+  [[nodiscard]] bool keep(double lower) const { return lower < threshold; }
+  void left_out(double /*limit*/) const {}
+};
 
 class Paper {
  public:
@@ -67,15 +77,20 @@ class Paper {
     nearest_.offer(name);
     found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(name.a().feature.index),
                                                          pair_.b.position(name.b().feature.index)));
-    if (query_.detail == ContactDetail::vertices) {
-      CloseVertices close(pair_, query_.threshold, scratch_.close, names_);
-      close.add(leaf_a, leaf_b);
-      return close.finish();
-    }
+    if (query_.detail == ContactDetail::vertices) return add_close_vertices(leaf_a, leaf_b);
     while (step_to_neighbour(name)) {
     }
     nearest_.offer(name);
     if (is_closer_than(pair_, name, query_.threshold)) names_.push_back(name);
+  }
+
+  void add_close_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b) {
+    const BelowThreshold range{query_.threshold};
+    for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch_.leaves, range,
+                         [&](std::uint32_t a, std::uint32_t b) {
+                           const auto name = ContactName::of(vertex_piece(a), vertex_piece(b));
+                           if (is_closer_than(pair_, name, query_.threshold)) names_.push_back(name);
+                         });
   }
 
   /// Moves both ends to the nearest of their neighbours and themselves; false where nothing is nearer.

@@ -3,7 +3,6 @@
 #include <graze/pair_query.hpp>
 #include <vector>
 
-#include "close_vertices.hpp"
 #include "closest_set.hpp"
 #include "dmv.hpp"
 #include "leaf_names.hpp"
@@ -13,13 +12,12 @@ namespace graze {
 struct PaperScratch {
   DmvScratch dmv;
   LeafScratch leaves;
-  CloseVerticesScratch close;
   Closest closest;
   Closest leaf_closest;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.dmv, self.leaves, self.close, self.closest, self.leaf_closest);
+    return std::tie(self.dmv, self.leaves, self.closest, self.leaf_closest);
   }
 };
 

@@ -16,14 +16,18 @@ const kernels::PassesOf<Number>& passes_for() {
     return kernels::position_passes().doubles;
 }
 
+/// Positions that lie one beside the other, of the number that they have.
+template <typename Number>
+kernels::PointArray<Number> points_of(const PositionView& positions) {
+  return {static_cast<const Number*>(positions.data()), static_cast<std::uint32_t>(positions.size() - 1)};
+}
+
 /// Calls `use` with the surface's points, which are floats or doubles.
 template <typename Use>
 auto with_points(const Surface& surface, const Use& use) {
   const PositionView positions = surface.positions();
-  const std::uint32_t last = surface.mesh().vertex_count() - 1;
-  if (positions.is_double())
-    return use(kernels::PointArray<double>{static_cast<const double*>(positions.data()), last});
-  return use(kernels::PointArray<float>{static_cast<const float*>(positions.data()), last});
+  if (positions.is_double()) return use(points_of<double>(positions));
+  return use(points_of<float>(positions));
 }
 
 }  // namespace graze

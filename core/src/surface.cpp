@@ -98,18 +98,27 @@ Surface::ReadResult Surface::take(const PartSeen& all) {
   result.bad_vertex = all.bad_vertex;
   result.bad_position = all.bad_position;
   if (!result.taken()) return result;
-  result.changed = all.changed || version_ == 0;
+  result.changed = all.changed || is_behind_ || version_ == 0;
   if (result.changed) {
     const std::uint32_t count = mesh_->vertex_count();
     if (all.in_double != in_float_.empty()) {
       in_double_ = std::vector<Eigen::Vector3d>(all.in_double ? count : 0, Eigen::Vector3d::Zero());
       in_float_ = std::vector<Eigen::Vector3f>(all.in_double ? 0 : count, Eigen::Vector3f::Zero());
     }
-    result.displacement = std::sqrt(std::max(all.furthest_squared, all.furthest.squaredNorm()));
+    const bool is_jump = std::exchange(is_behind_, false);
+    result.displacement = is_jump ? std::numeric_limits<double>::infinity()
+                                  : std::sqrt(std::max(all.furthest_squared, all.furthest.squaredNorm()));
     count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, all.box));
   }
   displacement_ = result.displacement;
   return result;
+}
+
+void Surface::view(const PositionView& view, const Box& box) {
+  viewed_ = view;
+  is_behind_ = true;
+  displacement_ = std::numeric_limits<double>::infinity();
+  count_motion(displacement_, std::exchange(box_, box));
 }
 
 /// A motion beyond the object's size is a jump: what was known before it is of no use, and the sum of all
@@ -257,6 +266,10 @@ bool Surface::is_laid_out_like(const PositionView& view) const {
   return is_packed(*mesh_, view) && view.is_double() == in_float_.empty();
 }
 
+bool Surface::can_view(const PositionView& view) const {
+  return is_packed(*mesh_, view);
+}
+
 Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
                                              Displacement displacement) const {
   std::optional<PartSeen> part;
@@ -397,9 +410,15 @@ void Surface::box_inner_regions(std::vector<Box>& boxes) const {
   }
 }
 
+void Surface::make_blocks() {
+  if (has_blocks()) return;
+  blocks_.make(*mesh_, positions());
+  blocks_version_ = version_;
+}
+
 std::size_t Surface::byte_count() const {
   return sizeof(Surface) + bytes_of(in_float_) + bytes_of(in_double_) + bytes_of(radii_) +
-         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) + bytes_of(stretches_);
+         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) + blocks_.byte_count();
 }
 
 }  // namespace graze

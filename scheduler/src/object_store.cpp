@@ -57,10 +57,12 @@ void add_promise(Object& object) {
 }
 
 /// Whether an object's box will do, unless that turns out to be near another: it was in no pair of the last
-/// step, and nobody will ask how far it has moved. What stands still is read, which then writes nothing.
-bool can_be_surveyed(const Object& object) {
-  return is_read_in_every_step(object) && !object.promises && !object.frozen && !object.looked_at &&
-         (object.surveyed || object.moved);
+/// step or can be viewed, and nobody will ask how far it has moved. What stands still is read, which then
+/// writes nothing.
+bool can_be_surveyed(const Object& object, bool with_views) {
+  return is_read_in_every_step(object) && !object.promises && !object.frozen &&
+         (object.surveyed || object.moved) &&
+         (!object.looked_at || (with_views && object.surface().can_view(*object.bound)));
 }
 
 /// Looks at some vertices of what an object is to be read from.
@@ -104,6 +106,7 @@ Looked take_survey(Object& object, const Surface::PartSeen& all) {
     looked.problem = bad_vertex(object, {all.bad_vertex, all.bad_position}, stands_still);
   } else {
     looked.changed = !is_same(object.box, all.box);
+    object.moved = looked.changed;
     object.box = all.box;
     object.promised = std::numeric_limits<double>::infinity();
   }
@@ -113,9 +116,11 @@ Looked take_survey(Object& object, const Surface::PartSeen& all) {
 /// Takes what was seen of all vertices, or says why not.
 Looked take_seen(Object& object, const Surface::PartSeen& all) {
   if (object.to_survey) return take_survey(object, all);
+  const bool seems_at_rest = object.surface().is_behind() && is_same(object.box, all.box);
   const Surface::ReadResult result = object.surface_to_write().take(all);
   Looked looked{result.changed, result.changed, std::nullopt};
-  object.moved = result.changed;
+  // Where a view came before, it shows in the next step whether the object moves.
+  object.moved = result.changed && !seems_at_rest;
   if (object.pose) {
     if (!result.taken()) looked.problem = bad_vertex(object, result, "the pose was not taken");
   } else {
@@ -142,10 +147,28 @@ void finish_read(Object& object) {
   object.version = object.surface().version();
 }
 
+/// Has the surface look at the memory that was surveyed, until the next read.
+void view_memory(Object& object) {
+  Surface& surface = object.surface_to_write();
+  surface.view(*object.bound, object.box);
+  if (!object.in_parts) surface.make_blocks();
+  object.unread = object.surveyed = object.to_view = false;
+  object.viewed = true;
+  object.version = surface.version();
+}
+
 Looked read_whole(Object& object) {
+  if (object.to_view) {
+    view_memory(object);
+    return {};
+  }
   const std::uint32_t count = object.mesh->vertex_count();
   Looked looked = take_seen(object, look_at_part(object, 0, count));
   if (looked.to_write) write_part(object, 0, count);
+  if (object.to_survey && object.to_block && !object.frozen)
+    view_memory(object);
+  else if (object.to_block)
+    object.surface_to_write().make_blocks();
   finish_read(object);
   return looked;
 }
@@ -231,6 +254,7 @@ void ObjectStore::apply(UnbindPositions& call) {
     return apply(last);
   }
   object->bound.reset();
+  if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
   // What is frozen stays so: if it was surveyed before, nobody knows its last good positions.
   object->frozen = object->frozen || call.is_bad;
   object->unread = false;
@@ -308,9 +332,10 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
 /// Leaves an object unread where promises allow it, and lists it otherwise.
 void ObjectStore::take_input(Object& object) {
   add_promise(object);
-  object.to_survey = can_be_surveyed(object);
+  if (std::exchange(object.viewed, false)) object.surface_to_write().end_view();
+  object.to_survey = can_be_surveyed(object, with_blocks_);
   if (object.to_survey) ++surveyed_count_;
-  object.looked_at = false;
+  object.to_block = std::exchange(object.looked_at, false) && with_blocks_;
   const bool was_unread = object.unread;
   object.unread = !checks_every_promise && !object.pose && !object.frozen && std::isfinite(object.promised);
   if ((was_unread && !object.to_survey) || object.unread) changed_ = true;
@@ -333,7 +358,12 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
   for (Object* const object : wanted) {
     if (!object->surveyed) --unread_count_;
     object->wanted = object->to_survey = false;
-    list_to_read(*object);
+    object->to_block = with_blocks_;
+    object->to_view = with_blocks_ && object->surveyed && object->surface().can_view(*object->bound);
+    if (object->to_view && object->in_parts)
+      view_memory(*object);
+    else
+      list_to_read(*object);
   }
   read_listed(tasks, diagnostics);
   // The next step finds what pairs have come by this.
@@ -404,6 +434,7 @@ void ObjectStore::take_large(TaskPool& tasks) {
     const std::size_t begin = part;
     for (; part < end; ++part) all.add(parts_[part].seen);
     Looked looked = take_seen(*object, all);
+    if (object->to_survey && object->to_block && !object->frozen) view_memory(*object);
     if (looked.changed) changed_ = true;
     if (looked.problem) problems_.emplace_back(object->serial, std::move(*looked.problem));
     if (!looked.to_write) continue;

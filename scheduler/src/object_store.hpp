@@ -50,6 +50,9 @@ struct Object {
   bool to_survey = false;  ///< and not read, in the read that is under way
   bool moved = false;      ///< it was elsewhere than before when it was read last
   bool looked_at = false;  ///< in a pair of the last step
+  bool to_block = false;   ///< blocks are made of its vertices as soon as they are read, and in a cache
+  bool to_view = false;    ///< in place of being read: it was surveyed
+  bool viewed = false;     ///< its surface looks at its bound memory, which after a step may go
   /// What the refit under way counted; of another one where the numbers differ.
   struct Asked {
     std::uint64_t refit = 0;
@@ -79,6 +82,10 @@ struct Object {
 /// array of pointers in a step with removals.
 class ObjectStore {
  public:
+  /// `with_blocks`: nothing is asked of objects but blocks of their vertices, so that these are made as soon
+  /// as what is near something is read, and memory that is read in every step is viewed in place of that.
+  explicit ObjectStore(bool with_blocks) : with_blocks_(with_blocks) {}
+
   void apply(AddObject& call);
   void apply(const RemoveObject& call);
   void apply(const SetPose& call);
@@ -91,7 +98,8 @@ class ObjectStore {
 
   /// Brings every object to where it is now, but for those of which promises say about where they are, and
   /// those in memory that is read in every step that were near nothing a step ago: these are surveyed, which
-  /// takes a third of the traffic. Several objects at a time; appends what was wrong in the objects' order.
+  /// takes a third of the traffic. So are those that can be viewed. Several objects at a time; appends what
+  /// was wrong in the objects' order.
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
@@ -136,6 +144,7 @@ class ObjectStore {
   void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   void take_large(TaskPool& tasks);
 
+  bool with_blocks_;
   std::vector<std::unique_ptr<Object>> objects_;  ///< null in the place of one removed, until the next read
   std::vector<std::uint64_t> serials_;            ///< of `objects_`, side by side for the search of one
   std::vector<Object*> by_index_;

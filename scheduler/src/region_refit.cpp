@@ -31,11 +31,25 @@ std::uint32_t work_of(const Region& region, RefitOf what) {
 RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
     : tasks_(tasks),
       boxes_(boxes_for(settings.detail)),
+      with_blocks_(wants_blocks(settings.detail, settings.accuracy.mode())),
       to_the_letter_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
 
 void RegionRefit::run(std::span<const PairJob> jobs) {
-  refit(jobs, boxes_);
-  if (with_radii()) refit(jobs, RefitOf::radii);
+  if (with_blocks_ && !to_the_letter_) {
+    list_objects(jobs, boxes_);
+  } else {
+    refit(jobs, boxes_);
+    if (with_radii()) refit(jobs, RefitOf::radii);
+  }
+  if (with_blocks_) make_blocks();
+}
+
+/// Of all objects that were listed last.
+void RegionRefit::make_blocks() {
+  tasks_.run(objects_.size(), [&](unsigned, std::size_t item) {
+    const AccessScope access({AccessRight::write(objects_[item]), {}});
+    objects_[item]->surface_to_write().make_blocks();
+  });
 }
 
 void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
@@ -60,7 +74,7 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
 
 void RegionRefit::make_ready(Surface& surface) const {
   surface.refit(boxes_);
-  if (boxes_ == RefitOf::vertices) surface.box_stretches();
+  if (with_blocks_) surface.make_blocks();
   if (with_radii()) surface.refit(RefitOf::radii);
 }
 
@@ -118,7 +132,6 @@ void RegionRefit::refit_small(Object& object, RefitOf what) const {
   const AccessScope access({AccessRight::write(&object), {}});
   Surface& surface = object.surface_to_write();
   const bool is_asked_often = object.asked.jobs >= jobs_worth_a_refit;
-  if (is_asked_often && what == RefitOf::vertices) surface.box_stretches();
   if ((is_asked_often && what == RefitOf::faces) || is_stale(object, what)) surface.refit(what);
 }
 

@@ -39,9 +39,11 @@ class RegionRefit {
   [[nodiscard]] bool is_stale(const Object& object, RefitOf what) const;
   void list_parts(Object& object, RefitOf what);
   void refit_small(Object& object, RefitOf what) const;
+  void make_blocks();
 
   TaskPool& tasks_;
   RefitOf boxes_;
+  bool with_blocks_;              ///< of vertices
   bool to_the_letter_;            ///< bounds are told of or compared as they are in the paper
   std::uint64_t refits_ = 0;      ///< made so far, by which objects know the one under way
   std::vector<Object*> objects_;  ///< of the jobs, each once

@@ -1,6 +1,7 @@
 #include "step.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "report_rows.hpp"
 
@@ -37,6 +38,7 @@ Step::Step(const SceneSettings& settings, Staging& staging, ReportPool& reports)
       staging_(staging),
       reports_(reports),
       tasks_(settings.threads, settings.arena),
+      store_(wants_blocks(settings.detail, settings.accuracy.mode()) && settings.region_distances == 0),
       pairs_(settings, store_),
       refit_(settings, tasks_),
       jobs_(settings, tasks_) {}
@@ -116,6 +118,7 @@ void Step::reserve(const SceneCapacity& capacity) {
   contacts_.reserve(capacity.near_pairs);
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
+    if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
     make_ready(object->surface_to_write());
     store_.count_bytes(*object);
   }

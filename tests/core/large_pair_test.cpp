@@ -53,6 +53,7 @@ class SlicedQueries {
 /// The regions' bounds are made anew in some frames only.
 void move_to(Surface& surface, const oracle::Shape& shape, bool refits) {
   REQUIRE(surface.set_positions(shape.positions).taken());
+  surface.make_blocks();
   if (!refits) return;
   surface.refit_vertices();
   surface.refit(RefitOf::radii);

@@ -147,6 +147,8 @@ TEST_CASE("last witness: what an earlier step left does not show in an answer") 
         a.refit_vertices();
         b.refit_faces();
         b.refit_vertices();
+        a.make_blocks();
+        b.make_blocks();
         PairQuery query = query_of(detail, 0.02);
         query.reach = step % 3 == 0 ? infinity : 0.7;
         query.slack = step % 4 < 2 ? 0.05 : 0;

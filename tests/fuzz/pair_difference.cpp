@@ -29,6 +29,7 @@ std::optional<Surface> surface_of(const oracle::Shape& shape) {
     surface.refit_vertices();
     surface.refit(RefitOf::radii);
     surface.refit_faces();
+    surface.make_blocks();
     return surface;
   } catch (const Error&) {
     return std::nullopt;

@@ -94,6 +94,10 @@ class GRAZE_API Mesh {
   /// The octree of regions, built with the mesh.
   [[nodiscard]] const RegionTree& regions() const { return regions_; }
 
+  /// The order in which vertices are taken in blocks of sixteen: empty where that is as they are numbered,
+  /// since numbers that follow one another are mostly side by side; otherwise the tree's, of the used ones.
+  [[nodiscard]] std::span<const std::uint32_t> block_order() const { return block_order_; }
+
   /// Bytes held, the region tree included.
   [[nodiscard]] std::size_t byte_count() const;
 
@@ -124,6 +128,7 @@ class GRAZE_API Mesh {
   std::vector<std::uint32_t> edge_faces_;
   std::vector<std::uint32_t> edge_face_begin_;
   RegionTree regions_;
+  std::vector<std::uint32_t> block_order_;
   bool uses_all_vertices_ = true;
 };
 

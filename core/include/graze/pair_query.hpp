@@ -143,6 +143,10 @@ class GRAZE_API PairDetector {
 constexpr bool is_about_vertices(ContactDetail detail) {
   return detail == ContactDetail::regions || detail == ContactDetail::vertices;
 }
+/// Whether a query asks for blocks of vertices.
+constexpr bool wants_blocks(ContactDetail detail, AccuracyMode mode) {
+  return detail == ContactDetail::vertices && mode != AccuracyMode::paper;
+}
 /// The boxes that a query of this detail asks for.
 constexpr RefitOf boxes_for(ContactDetail detail) {
   return is_about_vertices(detail) ? RefitOf::vertices : RefitOf::faces;

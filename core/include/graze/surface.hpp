@@ -7,6 +7,7 @@
 #include <graze/export.hpp>
 #include <graze/mesh.hpp>
 #include <graze/position_view.hpp>
+#include <graze/vertex_blocks.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,11 +39,13 @@ class GRAZE_API Surface {
   [[nodiscard]] const std::shared_ptr<const Mesh>& shared_mesh() const { return mesh_; }
   /// That of an unused vertex means nothing.
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t vertex) const {
+    if (viewed_.data() != nullptr) return viewed_[vertex];
     if (in_double_.empty()) return in_float_[vertex].cast<double>();
     return in_double_[vertex];
   }
   /// All of them, as they lie in memory; until they are set again.
   [[nodiscard]] PositionView positions() const {
+    if (viewed_.data() != nullptr) return viewed_;
     return in_double_.empty() ? PositionView(in_float_) : PositionView(in_double_);
   }
   /// The box of the used vertices, and so of the faces.
@@ -101,6 +104,16 @@ class GRAZE_API Surface {
   [[nodiscard]] static PartSeen survey(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
                                        std::uint32_t end);
 
+  /// Whether positions can be looked at where they are: one beside the other, all of them used.
+  [[nodiscard]] bool can_view(const PositionView& view) const;
+  /// Looks at positions where they are, which a survey found good, in that box, in place of reading them:
+  /// they are this surface's until `end_view`, and how far they moved is not known. After that its positions
+  /// are of no use before it is read again or has another view.
+  void view(const PositionView& view, const Box& box);
+  void end_view() { viewed_ = {}; }
+  /// Whether it has had a view since it was read.
+  [[nodiscard]] bool is_behind() const { return is_behind_; }
+
   /// Never another surface's in this process.
   [[nodiscard]] std::uint64_t serial() const { return serial_; }
   /// Changes whenever any used vertex does, by any bit.
@@ -131,16 +144,12 @@ class GRAZE_API Surface {
   /// The box of a region's vertices at the present positions, or of a leaf's faces.
   [[nodiscard]] Box box_now(const Region& region, RefitOf what) const;
 
-  /// The used vertices in a box, ascending; how many. There is room for all of the mesh's vertices and for
-  /// `beyond_found` more.
-  [[nodiscard]] std::size_t find_inside(const Box& box, std::span<std::uint32_t> found) const;
-  static constexpr std::size_t beyond_found = 16;
-  /// So many vertices are searched in memory order; of larger surfaces the regions are quicker.
-  static constexpr std::uint32_t most_searched = 8192;
-  /// Makes boxes of stretches of vertices, as they follow one another in memory, of which `find_inside`
-  /// passes over those that are not in its box, until the surface moves. Worth it from the third search on;
-  /// none are made where there are few vertices, or more than `most_searched`.
-  void box_stretches();
+  /// Makes blocks of the vertices at the present positions; free if they are already.
+  void make_blocks();
+  /// The last ones made.
+  [[nodiscard]] const VertexBlocks& blocks() const { return blocks_; }
+  /// Whether they are those of now.
+  [[nodiscard]] bool has_blocks() const { return blocks_version_ == version_; }
 
   /// Of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
@@ -182,6 +191,8 @@ class GRAZE_API Surface {
   // Positions in the precision in which they came; the other is empty.
   std::vector<Eigen::Vector3f> in_float_;
   std::vector<Eigen::Vector3d> in_double_;
+  PositionView viewed_;     ///< in place of these, where there is one
+  bool is_behind_ = false;  ///< there has been one since they were written
   Box box_;
   std::vector<double> radii_;
   std::vector<double> level_radii_;
@@ -192,8 +203,8 @@ class GRAZE_API Surface {
   Travel travel_;
   double displacement_ = 0;
   std::array<Refit, 3> refits_;  ///< by RefitOf
-  std::vector<Box> stretches_;
-  std::uint64_t stretches_version_ = 0;  ///< when they were made
+  VertexBlocks blocks_;
+  std::uint64_t blocks_version_ = 0;  ///< when they were made
 };
 
 }  // namespace graze

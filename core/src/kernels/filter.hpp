@@ -158,12 +158,10 @@ struct Filter {
   /// the place is `passes_through` where it certainly goes through the triangle's inside from one side to the
   /// other.
   std::uint32_t (*passing)(SegmentTrianglePairs& pairs);
-  /// Compares every row from `first` to `last` with the points from `begin[row]` to `end[row]`, and lists
-  /// those whose squared distance is below `reach_squared`, row after row; how many. Behind the points
-  /// `lanes` more may be read.
-  std::size_t (*near_rows)(const Block& rows, std::size_t first, std::size_t last, const Block& points,
-                           const std::uint32_t* begin, const std::uint32_t* end, float reach_squared,
-                           const NearPairs& out);
+  /// Lists the boxes, six rows of them, that meet another one, of those in `group_count` groups of sixteen:
+  /// the listed ones, or the first ones where `groups` is null. Room for all of them and `lanes` more.
+  std::size_t (*meeting)(const Block& boxes, const std::uint32_t* groups, std::size_t group_count,
+                         const BoxInFrame& with, std::uint32_t* found);
 };
 
 /// The kernels in use, chosen once; see graze/instruction_set.hpp.

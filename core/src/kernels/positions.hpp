@@ -31,11 +31,8 @@ struct PointFrame {
   double scale;
 };
 
-/// Rows of x, of y and of z, with room for a multiple of four.
-struct PointRows {
-  float* x;
-  std::size_t stride;
-};
+/// Points of a block.
+inline constexpr std::size_t block_size = 8;
 
 /// Passes over points of three floats or doubles each, of which there is one at least.
 template <typename Number>
@@ -47,22 +44,23 @@ struct PassesOf {
   void (*survey)(const Number* now, std::size_t count, Number limit, PositionsSeen<Number>& seen);
   /// The largest square of a point's motion: differences, squares and sums rounded in double.
   double (*furthest)(const Number* now, const Number* before, std::size_t count);
-  /// Numbers of the points from `begin` to `end` that no coordinate leads out of a box, ascending; how many.
-  /// Room for all of them and `lanes` more.
-  std::size_t (*inside)(const Number* points, std::uint32_t begin, std::uint32_t end, const Number* low,
-                        const Number* high, std::uint32_t* index);
-  /// The box of the points from `begin` to `end`; x, y and z.
-  void (*extent)(const Number* points, std::uint32_t begin, std::uint32_t end, Number* low, Number* high);
   /// Listed points in a frame, as `lay_out_…` of Filter reads them.
   void (*bring)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
                 const PointFrame& frame, Point* brought);
-  /// The same in rows and without sizes; of one at least. And the box of the points, each of four numbers.
-  void (*bring_in_rows)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
-                        const PointFrame& frame, const PointRows& rows, Number* low, Number* high);
-  /// Those listed points that no coordinate leads out of a box, of four numbers each; how many. Room for all.
-  std::size_t (*listed_inside)(const PointArray<Number>& points, const std::uint32_t* listed,
-                               std::size_t count, const Number* low, const Number* high,
-                               std::uint32_t* inside);
+  /// The boxes of listed points, one for each eight of them, about `origin`: differences of coordinates,
+  /// rounded to Number and then to float, in six rows.
+  void (*box_blocks)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
+                     const Number* origin, float* boxes, std::size_t stride);
+  /// Up to eight listed points as a block: eight x, y and z, where no numbers stand in the place of points
+  /// that are not there.
+  void (*lay_out_block)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
+                        Number* block);
+  /// Compares the points of one block, of which `count` are there, with those of all listed blocks, and lists
+  /// the pairs whose squared distance, each operation rounded, is at most `reach_squared`, point after point:
+  /// its number, and eight times the place in the list and the number there; how many.
+  std::size_t (*near_points)(const Number* block, std::size_t count, const Number* blocks,
+                             const std::uint32_t* listed, std::size_t listed_count, Number reach_squared,
+                             const NearPairs& out);
 };
 
 /// The passes of one instruction set.

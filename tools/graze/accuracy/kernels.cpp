@@ -24,6 +24,7 @@ Surface surface_of(const oracle::Shape& shape) {
   surface.refit_vertices();
   surface.refit(RefitOf::radii);
   surface.refit_faces();
+  surface.make_blocks();
   return surface;
 }
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <graze/mesh.hpp>
+#include <graze/position_view.hpp>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// A surface's used vertices, eight at a time in the order of Mesh::block_order, and a box of each such
+/// block; of sixteen boxes one again, and so on. Made anew wherever the surface moved: for vertices that
+/// costs less than what a hierarchy that is kept from step to step would save.
+class VertexBlocks {
+ public:
+  static constexpr std::uint32_t block_size = 8;   ///< vertices
+  static constexpr std::uint32_t group_size = 16;  ///< boxes
+  /// Boxes in six rows, least x, y, z and greatest, about the origin; up to a multiple of sixteen, of which
+  /// those behind the last are NaN and meet nothing.
+  struct Level {
+    const float* rows = nullptr;
+    std::size_t stride = 0;
+    std::size_t count = 0;
+  };
+
+  /// Of positions that lie one beside the other.
+  void make(const Mesh& mesh, const PositionView& positions);
+
+  /// The place that boxes are about, amid most vertices.
+  [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
+  /// Of blocks first, and then of sixteen of the level before; the last has a few groups.
+  [[nodiscard]] std::size_t level_count() const { return level_count_; }
+  [[nodiscard]] Level level(std::size_t index) const;
+  /// The box of one block about the origin: least x, y, z and greatest.
+  [[nodiscard]] std::array<float, 6> box(std::uint32_t block) const;
+
+  /// The vertices of a block.
+  [[nodiscard]] std::span<const std::uint32_t> vertices(std::uint32_t block) const {
+    const std::size_t first = std::size_t{block} * block_size;
+    return order_.subspan(first, std::min<std::size_t>(block_size, order_.size() - first));
+  }
+
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  template <typename Number>
+  void box_blocks(const PositionView& positions);
+  void lay_out_levels();
+  void box_level(std::size_t level);
+
+  /// Of 2^32 vertices.
+  static constexpr std::size_t most_levels = 8;
+  struct Place {
+    std::size_t first = 0;  ///< in `boxes_`
+    std::size_t stride = 0;
+    std::size_t count = 0;
+  };
+
+  std::span<const std::uint32_t> order_;  ///< the mesh's
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::vector<float> boxes_;
+  std::array<Place, most_levels> places_;
+  std::size_t level_count_ = 0;
+};
+
+}  // namespace graze

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <graze/surface.hpp>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "closest_range.hpp"
+#include "contact_name.hpp"
+#include "dmv.hpp"
+#include "kernels/filter.hpp"
+#include "working_memory.hpp"
+
+namespace graze {
+
+/// Numbers that a kernel lists, in memory that is longer than they are many.
+struct IndexList {
+  std::vector<std::uint32_t> room;
+  std::size_t count = 0;
+
+  /// Room for so many, and what a kernel writes beyond the last.
+  std::uint32_t* room_for(std::size_t most) {
+    if (room.size() < most + kernels::lanes) room.resize(most + kernels::lanes);
+    return room.data();
+  }
+  [[nodiscard]] std::span<const std::uint32_t> listed() const { return std::span(room).first(count); }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.room);
+  }
+  void reserve_as(const IndexList& other) { room.resize(std::max(room.size(), other.room.size())); }
+  void reserve(std::size_t most) { room_for(most); }
+};
+
+/// What is left of two surfaces' blocks where either may be near the other, for all slices of a search. Boxes
+/// are seen about the origin of b's.
+struct NearBlocks {
+  IndexList a;  ///< ascending
+  IndexList b;
+  /// Whether those of b are so few that they are looked at one after the other, by their places in the list.
+  /// Of more all levels are, and they have their places among all blocks of b.
+  bool few = false;
+  std::vector<float> boxes;  ///< of the few, in six rows
+  std::size_t stride = 0;    ///< of these
+  // The points of each block of b in its place, in one of the two.
+  std::vector<float> floats;
+  std::vector<double> doubles;
+  Eigen::Vector3f shift;  ///< from the origin of a's
+  float reach = 0;  ///< what is no nearer along an axis, in float, is certainly not nearer than looked for
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.a, self.b, self.boxes, self.floats, self.doubles);
+  }
+  void reserve(const PairRoom& room);
+};
+
+/// Working memory of one thread.
+struct NearVerticesScratch {
+  IndexList groups;
+  IndexList beside;                                          ///< a block of a, places of blocks of b
+  IndexList near_a;                                          ///< points of a block of a
+  IndexList near_b;                                          ///< and of those beside it
+  std::vector<std::pair<double, std::uint32_t>> near_first;  ///< how far they are at least, blocks of a
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.groups, self.beside, self.near_a, self.near_b, self.near_first);
+  }
+  void reserve(const PairRoom& room);
+};
+
+/// Names all pairs of vertices that are strictly nearer than a limit, from the blocks of both surfaces: those
+/// in each other's box, of these those whose boxes are near each other, and of these the points.
+class NearVertices {
+ public:
+  /// Both surfaces have their blocks.
+  NearVertices(const SurfacePair& pair, double limit, NearBlocks& near, NearVerticesScratch& scratch);
+
+  /// Lists the blocks that may have such a pair; none of a where there is none.
+  void find_blocks();
+  /// Appends the pairs of some of the listed blocks of a, in their order, by the points of a and then of b;
+  /// false when the budget ran out. Reads the lists alone, so that several threads may at once.
+  bool name(std::size_t begin, std::size_t end, WorkMeter& meter, std::vector<ContactName>& names);
+  /// Offers the nearest pairs of all listed blocks, and what comes before them; false when the budget ran
+  /// out. What is of no use any more beside the nearest so far is not looked for.
+  bool offer(WorkMeter& meter, ClosestRange& nearest);
+
+ private:
+  void look_within(double limit);
+  void tighten();
+  void lay_out_blocks_of_b();
+  void order_near_first();
+  void find_beside(std::uint32_t block_of_a);
+  template <typename Number>
+  std::size_t compare(std::uint32_t block_of_a, std::span<const std::uint32_t> beside,
+                      const std::vector<Number>& blocks_of_b);
+  /// Calls `visit(name)` for all pairs of a block of a that are not certainly too far.
+  template <typename Visit>
+  void for_each_near(std::uint32_t block_of_a, const Visit& visit);
+
+  const SurfacePair& pair_;
+  const VertexBlocks& of_a_;
+  const VertexBlocks& of_b_;
+  double limit_;
+  bool in_float_;
+  NearBlocks& near_;
+  NearVerticesScratch& scratch_;
+};
+
+}  // namespace graze

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <graze/bytes_of.hpp>
+#include <graze/vertex_blocks.hpp>
+#include <limits>
+
+#include "passes_for.hpp"
+
+namespace graze {
+namespace {
+
+static_assert(VertexBlocks::block_size == kernels::block_size);
+
+/// So many groups are gone through as quickly as another level would be.
+constexpr std::size_t few_groups = 8;
+
+constexpr std::size_t up_to_whole_groups(std::size_t count) {
+  return (count + VertexBlocks::group_size - 1) / VertexBlocks::group_size * VertexBlocks::group_size;
+}
+
+/// Of the first, the middle and the last vertex the middle coordinates, so that one part that exploded takes
+/// no precision from the rest.
+Eigen::Vector3d middle_of_three(const PositionView& positions, std::span<const std::uint32_t> order) {
+  if (order.empty()) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d first = positions[order.front()];
+  const Eigen::Vector3d middle = positions[order[order.size() / 2]];
+  const Eigen::Vector3d last = positions[order.back()];
+  return first.cwiseMin(middle).cwiseMax(first.cwiseMax(middle).cwiseMin(last));
+}
+
+}  // namespace
+
+void VertexBlocks::make(const Mesh& mesh, const PositionView& positions) {
+  order_ = mesh.block_order();
+  origin_ = middle_of_three(positions, order_);
+  lay_out_levels();
+  positions.is_double() ? box_blocks<double>(positions) : box_blocks<float>(positions);
+  for (std::size_t level = 1; level < level_count_; ++level) box_level(level);
+}
+
+template <typename Number>
+void VertexBlocks::box_blocks(const PositionView& positions) {
+  const Eigen::Matrix<Number, 3, 1> about = origin_.cast<Number>();  // exact: it is one of their coordinates
+  passes_for<Number>().box_blocks(points_of<Number>(positions), order_.data(), order_.size(), about.data(),
+                                  boxes_.data(), places_[0].stride);
+}
+
+/// Boxes behind the last of a level stay NaN, so that they meet nothing, not even what has no end; they are
+/// made so when the number of blocks changes: once.
+void VertexBlocks::lay_out_levels() {
+  std::size_t count = (order_.size() + block_size - 1) / block_size;
+  if (level_count_ > 0 && places_[0].count == count) return;
+  level_count_ = 0;
+  std::size_t first = 0;
+  while (true) {
+    const std::size_t stride = up_to_whole_groups(count);
+    places_[level_count_++] = {first, stride, count};
+    first += 6 * stride;
+    if (stride / group_size <= few_groups) break;
+    count = stride / group_size;
+  }
+  boxes_.assign(first, std::numeric_limits<float>::quiet_NaN());
+}
+
+/// A group's first box is there, so that one that is not is never the least or the greatest.
+void VertexBlocks::box_level(std::size_t level) {
+  const Place& below = places_[level - 1];
+  const Place& place = places_[level];
+  for (std::size_t row = 0; row < 6; ++row) {
+    const float* const from = boxes_.data() + below.first + row * below.stride;
+    float* const to = boxes_.data() + place.first + row * place.stride;
+    for (std::size_t i = 0; i < place.count; ++i) {
+      const std::span<const float> group(from + i * group_size, group_size);
+      to[i] = row < 3 ? *std::min_element(group.begin(), group.end())
+                      : *std::max_element(group.begin(), group.end());
+    }
+  }
+}
+
+VertexBlocks::Level VertexBlocks::level(std::size_t index) const {
+  const Place& place = places_[index];
+  return {boxes_.data() + place.first, place.stride, place.count};
+}
+
+std::array<float, 6> VertexBlocks::box(std::uint32_t block) const {
+  std::array<float, 6> box;
+  for (std::size_t row = 0; row < 6; ++row) box[row] = boxes_[row * places_[0].stride + block];
+  return box;
+}
+
+std::size_t VertexBlocks::byte_count() const {
+  return bytes_of(boxes_);
+}
+
+}  // namespace graze
