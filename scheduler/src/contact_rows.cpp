@@ -1,8 +1,8 @@
 #include "contact_rows.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <functional>
-#include <utility>
 
 #include "access.hpp"
 
@@ -14,7 +14,13 @@ namespace {
 constexpr std::size_t contacts_each = 1024;
 
 /// What contacts are ordered by, as two numbers.
-std::pair<std::uint64_t, std::uint64_t> key_of(const Contact& contact) {
+struct Key {
+  std::uint64_t of_a, of_b;
+
+  friend auto operator<=>(const Key&, const Key&) = default;
+};
+
+Key key_of(const Contact& contact) {
   const auto number = [](const Feature& feature) {
     return std::uint64_t{static_cast<std::uint8_t>(feature.kind)} << 32U | feature.index;
   };
@@ -22,18 +28,23 @@ std::pair<std::uint64_t, std::uint64_t> key_of(const Contact& contact) {
           number(contact.feature_b)};
 }
 
-bool comes_before(const Contact& contact, const std::pair<std::uint64_t, std::uint64_t>& key) {
+bool comes_before(const Contact& contact, const Key& key) {
   return key_of(contact) < key;
 }
 
-/// Some contacts of a pair, by those of the last report: a contact with the same features is the same one.
-void set_since(std::span<const Contact> last, std::span<Contact> contacts, std::uint64_t frame) {
+/// Writes some contacts of a pair, by those of the last report: a contact with the same features is the same
+/// one.
+void write_contacts(std::span<const Contact> found, std::span<const Contact> last, std::span<Contact> rows,
+                    std::uint64_t frame) {
+  constexpr Key behind_all{~std::uint64_t{0}, 0};
   auto before = last.begin();
-  for (Contact& contact : contacts) {
-    const auto key = key_of(contact);
-    while (before != last.end() && comes_before(*before, key)) ++before;
-    const bool is_old = before != last.end() && key_of(*before) == key;
-    contact.since = is_old ? before->since : frame;
+  const auto key_before = [&] { return before == last.end() ? behind_all : key_of(*before); };
+  Key key_there = key_before();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Key key = key_of(found[i]);
+    for (; key_there < key; key_there = key_before()) ++before;
+    rows[i] = found[i];
+    rows[i].since = key_there == key ? before->since : frame;
   }
 }
 
@@ -67,8 +78,10 @@ void ContactRows::write_range(std::span<Contact> rows, std::size_t begin, std::s
     const std::size_t count = std::min(end - begin, pair->contacts.size() - first);
     const auto found = pair->contacts.subspan(first, count);
     const auto written = rows.subspan(begin, count);
-    std::copy(found.begin(), found.end(), written.begin());
-    if (!pair->is_again) set_since(first == 0 ? pair->last : from(pair->last, found.front()), written, frame);
+    if (pair->is_again)
+      std::copy(found.begin(), found.end(), written.begin());
+    else
+      write_contacts(found, first == 0 ? pair->last : from(pair->last, found.front()), written, frame);
     begin += count;
   }
 }
