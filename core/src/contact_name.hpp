@@ -56,6 +56,8 @@ class ContactName {
     return {{static_cast<FeatureKind>(low_ >> 56U), static_cast<std::uint32_t>(low_ >> 24U)},
             static_cast<Piece>(low_ & 3U)};
   }
+  [[nodiscard]] std::uint32_t index_a() const { return static_cast<std::uint32_t>(high_); }
+  [[nodiscard]] std::uint32_t index_b() const { return static_cast<std::uint32_t>(low_ >> 24U); }
   [[nodiscard]] Meeting meeting() const { return static_cast<Meeting>(low_ >> 16U & 3U); }
 
   friend bool operator==(const ContactName&, const ContactName&) = default;

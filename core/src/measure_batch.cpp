@@ -5,6 +5,8 @@
 
 #include "corner_lane.hpp"
 #include "measure.hpp"
+#include "normals.hpp"
+#include "passes_for.hpp"
 
 namespace graze {
 
@@ -38,37 +40,78 @@ void measure_alone(const SurfacePair& pair, const ContactName& name, Contact& co
   sides.add(pair, name, contact);
 }
 
-/// Measures contacts of vertices, as many at once as the kernels take.
-void measure_vertices(const SurfacePair& pair, std::span<const ContactName> names, Contact* contact,
-                      MeasureScratch& scratch) {
-  kernels::ContactBatch& batch = scratch.batch;
-  while (!names.empty()) {
-    const auto some = names.first(std::min(names.size(), kernels::contact_lanes));
-    for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      put_corner(pair.a, some[lane].a().feature.index, batch.low[0], lane);
-      put_corner(pair.b, some[lane].b().feature.index, batch.high[0], lane);
+void put_points(const Surface& surface, std::span<const std::uint32_t> vertices, double (*points)[4]) {
+  with_points(surface, [&]<typename Number>(const kernels::PointArray<Number>& all) {
+    for (const std::uint32_t vertex : vertices) {
+      const Number* const point = all.numbers + std::size_t{3} * vertex;
+      for (std::size_t axis = 0; axis < 3; ++axis) (*points)[axis] = point[axis];
+      ++points;
     }
-    kernels::measure().points(batch);
-    for (std::size_t lane = 0; lane < some.size(); ++lane, ++contact) {
-      const ContactName& name = some[lane];
-      if (batch.certain[lane] == 0) {
-        measure_alone(pair, name, *contact, scratch.sides);
-        continue;
-      }
-      *contact = {name.kind(),
-                  Side::none,
-                  Side::none,
-                  name.a().feature,
-                  name.b().feature,
-                  at(batch.low[0], lane),
-                  at(batch.high[0], lane),
-                  at(batch.normal, lane),
-                  batch.distance[lane]};
-      scratch.sides.add(pair, name, *contact);
-    }
-    names = names.subspan(some.size());
-  }
+  });
 }
+
+/// Measures contacts of vertices, as many at once as the kernel takes.
+class VertexContacts {
+ public:
+  VertexContacts(const SurfacePair& pair, MeasureScratch& scratch)
+      : pair_(pair), sides_(scratch.sides), batch_(scratch.vertices) {}
+
+  void measure(std::span<const ContactName> names, Contact* contacts) {
+    lay_out(names);
+    kernels::measure().vertices(batch_);
+    for (std::size_t i = 0; i < names.size(); ++i) take(i, names[i], contacts[i]);
+  }
+
+ private:
+  void lay_out(std::span<const ContactName> names) {
+    std::array<std::uint32_t, kernels::vertices_at_once> a, b;
+    const std::size_t rows = (names.size() + 3) / 4 * 4;
+    batch_.count = names.size();
+    sides_.begin_normals();
+    for (std::size_t i = 0; i < rows; ++i) {
+      const ContactName& name = names[std::min(i, names.size() - 1)];
+      a[i] = name.index_a();
+      b[i] = name.index_b();
+      // Names of one vertex of a follow each other.
+      const bool is_last = i > 0 && a[i] == a[i - 1];
+      batch_.normal_a[i] = is_last ? batch_.normal_a[i - 1] : sides_.normal_of_a(pair_, a[i]);
+      batch_.normal_b[i] = sides_.normal_of_b(pair_, b[i]);
+    }
+    put_points(pair_.a, std::span(a).first(rows), batch_.a);
+    put_points(pair_.b, std::span(b).first(rows), batch_.b);
+    sides_.finish_normals();
+  }
+
+  void take(std::size_t i, const ContactName& name, Contact& contact) {
+    const auto found = static_cast<unsigned>(batch_.found[i]);
+    if (found == 0) {
+      contact = measure_without_sides(pair_, name);
+      if (contact.distance == 0) return;
+    } else {
+      contact = {ContactKind::VV,
+                 static_cast<Side>(found >> 2U & 3U),
+                 static_cast<Side>(found >> 4U),
+                 {FeatureKind::vertex, name.index_a()},
+                 {FeatureKind::vertex, name.index_b()},
+                 Eigen::Map<const Eigen::Vector3d>(batch_.a[i]),
+                 Eigen::Map<const Eigen::Vector3d>(batch_.b[i]),
+                 Eigen::Map<const Eigen::Vector3d>(batch_.normal[i]),
+                 batch_.normal[i][3]};
+      if (contact.side_a != Side::none && contact.side_b != Side::none) return;
+    }
+    contact.side_a = side(*batch_.normal_a[i], pair_.a, contact.feature_a, contact.normal);
+    contact.side_b = side(*batch_.normal_b[i], pair_.b, contact.feature_b, -contact.normal);
+  }
+  [[nodiscard]] Side side(const RoughNormal& normal, const Surface& surface, const Feature& vertex,
+                          const Eigen::Vector3d& direction) const {
+    const auto known = certain_side(normal, direction);
+    return known ? *known : side_of(surface, vertex_piece(vertex.index), direction, pair_.count);
+  }
+
+  const SurfacePair& pair_;
+  Sides& sides_;
+  kernels::VertexBatch& batch_;
+};
 
 /// Measures contacts of one shape, as many at once as the kernels take.
 class Batch {
@@ -148,7 +191,10 @@ void measure(const SurfacePair& pair, std::span<const ContactName> names, std::s
   const auto vertices = std::find_if(names.begin(), names.end(),
                                      [](const ContactName& name) { return name.kind() != ContactKind::VV; });
   const auto vertex_count = static_cast<std::size_t>(vertices - names.begin());
-  measure_vertices(pair, names.first(vertex_count), contacts.data(), scratch);
+  VertexContacts of_vertices(pair, scratch);
+  for (std::size_t i = 0; i < vertex_count; i += kernels::vertices_at_once)
+    of_vertices.measure(names.subspan(i, std::min(vertex_count - i, kernels::vertices_at_once)),
+                        &contacts[i]);
   Batch batch(pair, names, contacts, scratch);
   for (std::size_t i = vertex_count; i < names.size(); ++i) {
     const Shape shape = shape_of(names[i]);

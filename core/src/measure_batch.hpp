@@ -12,6 +12,7 @@ namespace graze {
 
 struct MeasureScratch {
   kernels::ContactBatch batch{};
+  kernels::VertexBatch vertices{};
   Sides sides;
 
   template <typename Self>

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
-#include <type_traits>
 
 #include "corner_lane.hpp"
 #include "passes_for.hpp"
@@ -32,69 +30,55 @@ void for_each_triangle_from(std::uint32_t vertex, std::span<const std::uint32_t>
   }
 }
 
-/// Where both are at one place there is no edge, nor a triangle with area at it. Edges that are none in float
-/// alone are made such that nothing is certain.
+void make_normals(const kernels::FanBatch<float>& batch) {
+  kernels::measure().fans_of_floats(batch);
+}
+void make_normals(const kernels::FanBatch<double>& batch) {
+  kernels::measure().fans_of_doubles(batch);
+}
+
 template <typename Number>
-void put_edge(const Number* from, const Number* to, kernels::FanBatch& batch, std::size_t edge,
-              std::size_t lane) {
-  std::array<float, 3> way;
-  for (std::size_t axis = 0; axis < 3; ++axis) way[axis] = static_cast<float>(to[axis] - from[axis]);
-  if constexpr (std::is_same_v<Number, double>)
-    if (way[0] == 0 && way[1] == 0 && way[2] == 0 && !std::equal(from, from + 3, to))
-      way[0] = std::numeric_limits<float>::quiet_NaN();
-  for (std::size_t axis = 0; axis < 3; ++axis) batch.edge[edge][axis][lane] = way[axis];
+void finish_fans(kernels::FanBatch<Number>& batch) {
+  if (batch.count == 0) return;
+  for (std::size_t i = batch.count; i % 4 != 0; ++i) batch.fan[i] = batch.fan[0];
+  make_normals(batch);
+  batch.count = batch.longest = 0;
 }
 
 }  // namespace
 
+void NormalSums::begin() {
+  triangles_ = 0;
+  std::apply([](auto&... batch) { ((batch.count = batch.longest = 0), ...); }, fans_);
+}
+
 void NormalSums::add(const Surface& surface, const FeaturePiece& piece, RoughNormal& normal) {
-  normal = {};
   const std::uint32_t index = piece.feature.index;
   switch (piece.feature.kind) {
     case FeatureKind::vertex:
       return add_vertex(surface, index, normal);
     case FeatureKind::edge:
+      normal = {};
       return add_edge(surface, index, normal);
     case FeatureKind::face:
+      normal = {};
       if (piece.piece != Piece::fold) add_triangle(surface, corners_of(surface.mesh(), piece), normal);
   }
 }
 
-/// A long fan is walked in parts, of which each begins with the last edge of the one before.
 void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughNormal& normal) {
-  std::span<const std::uint32_t> around = surface.mesh().vertex_fans(vertex);
-  while (around.size() > kernels::fan_edges) {
-    add_fan(surface, vertex, around.first(kernels::fan_edges), normal);
-    around = around.subspan(kernels::fan_edges - 1);
+  const std::span<const std::uint32_t> around = surface.mesh().vertex_fans(vertex);
+  if (around.empty()) {
+    normal = {};
+    return;
   }
-  add_fan(surface, vertex, around, normal);
-}
-
-void NormalSums::add_fan(const Surface& surface, std::uint32_t vertex, std::span<const std::uint32_t> around,
-                         RoughNormal& normal) {
+  __builtin_prefetch(around.data());
   with_points(surface, [&]<typename Number>(const kernels::PointArray<Number>& points) {
-    const Number* const centre = points.numbers + std::size_t{3} * vertex;
-    for (std::size_t k = 0; k < around.size(); ++k)
-      put_edge(centre, points.numbers + std::size_t{3} * around[k], fan_batch_, k, fans_);
+    auto& batch = std::get<kernels::FanBatch<Number>>(fans_);
+    batch.fan[batch.count++] = {points.numbers, points.last, vertex, around.data(), around.size(), &normal};
+    batch.longest = std::max(batch.longest, around.size());
+    if (batch.count == kernels::contact_lanes) finish_fans(batch);
   });
-  fan_edges_[fans_] = around.size();
-  of_fan_[fans_] = &normal;
-  if (++fans_ == of_fan_.size()) finish_fans();
-}
-
-void NormalSums::finish_fans() {
-  if (fans_ == 0) return;
-  fan_batch_.edges = *std::max_element(fan_edges_.begin(), fan_edges_.begin() + fans_);
-  for (std::size_t i = 0; i < fans_; ++i)
-    for (std::size_t k = fan_edges_[i]; k < fan_batch_.edges; ++k)
-      for (auto& coordinates : fan_batch_.edge[k]) coordinates[i] = 0;
-  kernels::measure().fans(fan_batch_);
-  for (std::size_t i = 0; i < fans_; ++i) {
-    const auto& normal = fan_batch_.normal;
-    of_fan_[i]->sum += Eigen::Vector3f(normal[0][i], normal[1][i], normal[2][i]).cast<double>();
-    of_fan_[i]->error += fan_batch_.error[i];
-  }
-  fans_ = 0;
 }
 
 void NormalSums::add_edge(const Surface& surface, std::uint32_t edge, RoughNormal& normal) {
@@ -115,8 +99,8 @@ void NormalSums::finish_triangles() {
   if (triangles_ == 0) return;
   kernels::measure().normals(triangle_batch_);
   for (std::size_t i = 0; i < triangles_; ++i) {
-    const auto& normal = triangle_batch_.normal;
-    of_triangle_[i]->sum += Eigen::Vector3d(normal[0][i], normal[1][i], normal[2][i]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      of_triangle_[i]->sum[axis] += triangle_batch_.normal[axis][i];
     of_triangle_[i]->error += triangle_batch_.error[i];
   }
   triangles_ = 0;
@@ -124,11 +108,11 @@ void NormalSums::finish_triangles() {
 
 void NormalSums::finish() {
   finish_triangles();
-  finish_fans();
+  std::apply([](auto&... batch) { (finish_fans(batch), ...); }, fans_);
 }
 
 std::optional<Side> certain_side(const RoughNormal& normal, const Eigen::Vector3d& direction) {
-  const double along = normal.sum.dot(direction);
+  const double along = Eigen::Map<const Eigen::Vector3d>(normal.sum).dot(direction);
   if (!(std::abs(along) > normal.error + 0x1p-34)) return std::nullopt;
   return along > 0 ? Side::front : Side::back;
 }

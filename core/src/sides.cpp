@@ -8,20 +8,8 @@ namespace graze {
 
 void NormalCache::begin() {
   entries_.resize(size);
-  first_round_ = ++round_;
-}
-
-NormalCache::Found NormalCache::find(const FeaturePiece& piece) {
-  const std::size_t place =
-      std::size_t{piece.feature.index} * 3 + static_cast<std::size_t>(piece.feature.kind);
-  Entry& entry = entries_[place % size];
-  const bool is_known = entry.round >= first_round_ && entry.piece == piece;
-  if (!is_known) {
-    if (entry.round == round_) return {nullptr, false};
-    entry.piece = piece;
-  }
-  entry.round = round_;
-  return {&entry.normal, !is_known};
+  normals_.resize(size);
+  first_ = oldest_ = next_;
 }
 
 void Sides::begin() {
@@ -33,21 +21,19 @@ void Sides::begin() {
 
 void Sides::add(const SurfacePair& pair, const ContactName& name, Contact& contact) {
   if (contact.distance == 0) return;
-  if (count_ < asked_.size() && take(pair, name, contact)) return;
-  finish(pair);
-  take(pair, name, contact);
+  if (count_ == asked_.size()) finish(pair);
+  const FeaturePiece a = name.a();
+  const FeaturePiece b = name.b();
+  const auto [normal_a, is_new_a] = normals_a_.find(a);
+  if (is_new_a) sums_.add(pair.a, a, *normal_a);
+  const auto [normal_b, is_new_b] = normals_b_.find(b);
+  if (is_new_b) sums_.add(pair.b, b, *normal_b);
+  asked_[count_++] = {a, b, &contact, normal_a, normal_b};
 }
 
-/// False where a normal is to be kept in the place of another one.
-bool Sides::take(const SurfacePair& pair, const ContactName& name, Contact& contact) {
-  const auto [normal_a, is_new_a] = normals_a_.find(name.a());
-  if (normal_a == nullptr) return false;
-  if (is_new_a) sums_.add(pair.a, name.a(), *normal_a);
-  const auto [normal_b, is_new_b] = normals_b_.find(name.b());
-  if (normal_b == nullptr) return false;
-  if (is_new_b) sums_.add(pair.b, name.b(), *normal_b);
-  asked_[count_++] = {name.a(), name.b(), &contact, normal_a, normal_b};
-  return true;
+void Sides::begin_normals() {
+  normals_a_.begin_round();
+  normals_b_.begin_round();
 }
 
 void Sides::finish(const SurfacePair& pair) {
@@ -60,8 +46,7 @@ void Sides::finish(const SurfacePair& pair) {
     asked.contact->side_b = side_b ? *side_b : side_of(pair.b, asked.b, -direction, pair.count);
   }
   count_ = 0;
-  normals_a_.begin_round();
-  normals_b_.begin_round();
+  begin_normals();
 }
 
 }  // namespace graze

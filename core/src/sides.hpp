@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <graze/contact.hpp>
 #include <graze/pair_query.hpp>
@@ -17,33 +18,50 @@ namespace graze {
 /// asked about last are kept.
 class NormalCache {
  public:
+  /// Of so many features that are asked about in a row all are kept, until the next.
+  static constexpr std::size_t at_once = 128;
+
   /// Forgets all, for another surface.
   void begin();
   /// From here on the normals found before may be replaced.
-  void begin_round() { ++round_; }
+  void begin_round() {
+    oldest_ = std::max(first_, next_ + at_once - std::min<std::uint64_t>(next_ + at_once, size));
+  }
   struct Found {
-    RoughNormal* normal;  ///< null where one found in this round is in its place
-    bool is_new;          ///< it is to be made
+    RoughNormal* normal;
+    bool is_new;  ///< it is to be made
   };
-  Found find(const FeaturePiece& piece);
+  Found find(const FeaturePiece& piece) {
+    const auto kind = static_cast<std::uint32_t>(piece.feature.kind);
+    const std::uint64_t key =
+        std::uint64_t{piece.feature.index} << 4U | kind << 2U | static_cast<std::uint32_t>(piece.piece);
+    Entry& entry = entries_[(std::size_t{piece.feature.index} * 3 + kind) % size];
+    const bool is_new = entry.key != key || entry.number < oldest_;
+    if (is_new) entry = {key, next_++};
+    return {&normals_[entry.number % size], is_new};
+  }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.entries_);
+    return std::tie(self.entries_, self.normals_);
   }
-  void reserve(const PairRoom& /*room*/) { entries_.reserve(size); }
+  void reserve(const PairRoom& /*room*/) {
+    entries_.reserve(size);
+    normals_.reserve(size);
+  }
 
  private:
   static constexpr std::size_t size = 512;
   struct Entry {
-    FeaturePiece piece;
-    std::uint64_t round = 0;  ///< in which it was found last
-    RoughNormal normal;
+    std::uint64_t key = 0;
+    std::uint64_t number = 0;  ///< of the normal, in the order in which they are made
   };
 
   std::vector<Entry> entries_;
-  std::uint64_t round_ = 0;
-  std::uint64_t first_round_ = 0;  ///< of this surface
+  std::vector<RoughNormal> normals_;  ///< the last ones, in the place of their number
+  std::uint64_t next_ = 1;
+  std::uint64_t first_ = 1;   ///< of this surface
+  std::uint64_t oldest_ = 1;  ///< that is not replaced in this round
 };
 
 /// Says on which sides of two surfaces the points of contacts lie.
@@ -54,6 +72,17 @@ class Sides {
   /// Fills in the contact's sides, at the latest by finish(), until when it stays where it is.
   void add(const SurfacePair& pair, const ContactName& name, Contact& contact);
   void finish(const SurfacePair& pair);
+
+  /// The normal at a vertex, as from the next `finish_normals` until the next `begin_normals`, between which
+  /// no more are asked for than are kept.
+  void begin_normals();
+  const RoughNormal* normal_of_a(const SurfacePair& pair, std::uint32_t vertex) {
+    return normal_of(pair.a, vertex, normals_a_);
+  }
+  const RoughNormal* normal_of_b(const SurfacePair& pair, std::uint32_t vertex) {
+    return normal_of(pair.b, vertex, normals_b_);
+  }
+  void finish_normals() { sums_.finish(); }
 
   template <typename Self>
   static auto parts(Self& self) {
@@ -67,7 +96,12 @@ class Sides {
     const RoughNormal* normal_a;
     const RoughNormal* normal_b;
   };
-  bool take(const SurfacePair& pair, const ContactName& name, Contact& contact);
+
+  const RoughNormal* normal_of(const Surface& surface, std::uint32_t vertex, NormalCache& normals) {
+    const auto [normal, is_new] = normals.find(vertex_piece(vertex));
+    if (is_new) sums_.add_vertex(surface, vertex, *normal);
+    return normal;
+  }
 
   NormalCache normals_a_;
   NormalCache normals_b_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "points.hpp"
 
 /// Kernels that measure several contacts or triangles at once. They are compiled once for each instruction
@@ -28,29 +30,60 @@ struct NormalBatch {
   double error[contact_lanes];  ///< of them at most; infinite where double is not good enough
 };
 
-/// How many edges of a fan are walked at once.
-inline constexpr std::size_t fan_edges = 16;
+/// A weighted normal, of any length, and how far off it is at most: infinite where that is not known.
+struct RoughNormal {
+  double sum[3];
+  double error;
+};
 
-/// Fans of triangles, each about a vertex, as the edges from it to those around it: each triangle is between
-/// an edge and the next. An edge of 0 is none, and no triangle has it.
+/// A fan of triangles about a vertex: each triangle is between two points in a row. Points are three numbers
+/// each; behind the last of the surface nothing may be read.
+template <typename Number>
+struct Fan {
+  const Number* points;
+  std::uint32_t last_point;
+  std::uint32_t vertex;
+  const std::uint32_t* around;
+  std::size_t count;    ///< of these, one at least
+  RoughNormal* normal;  ///< filled in: the triangles' unit normals, each by its angle at the vertex
+};
+
+/// Those behind the last, up to a multiple of 4, are read, too.
+template <typename Number>
 struct FanBatch {
-  float edge[fan_edges][3][contact_lanes];
-  std::size_t edges;  ///< of the longest fan; the others go on with edges of 0
+  Fan<Number> fan[contact_lanes];
+  std::size_t count;
+  std::size_t longest;  ///< of their counts
+};
+
+/// How many contacts of vertices are measured in one call, at most: a multiple of 4.
+inline constexpr std::size_t vertices_at_once = 128;
+
+/// Contacts of vertices, of which there are rows up to a multiple of 4.
+struct VertexBatch {
+  std::size_t count;
+  double a[vertices_at_once][4];  ///< points; the fourth is nothing
+  double b[vertices_at_once][4];
+  const RoughNormal* normal_a[vertices_at_once];
+  const RoughNormal* normal_b[vertices_at_once];
   // What the kernel fills in.
-  float normal[3][contact_lanes];  ///< the unit normals, each by its triangle's angle at the vertex
-  float error[contact_lanes];      ///< of that at most; infinite where float is not good enough
+  double normal[vertices_at_once][4];  ///< from a to b, and the distance
+  /// 0 where double is not good enough for normal and distance, and these mean nothing; otherwise 1, 4 times
+  /// the side of a's normal and 16 times that of b's: 1 is front, 2 back, 0 not certain.
+  double found[vertices_at_once];
 };
 
 /// The kernels of one instruction set. All lanes are worked on, whatever is in them.
 struct Measure {
   using Kernel = void (*)(ContactBatch& batch);
-  Kernel points;
   Kernel point_and_line;
   Kernel point_and_plane;
   Kernel lines;
   Kernel piercing;  ///< the distance is 0, the normal minus the triangle's
   void (*normals)(NormalBatch& batch);
-  void (*fans)(FanBatch& batch);
+  void (*vertices)(VertexBatch& batch);
+  void (*fans_of_floats)(const FanBatch<float>& batch);
+  void (*fans_of_doubles)(const FanBatch<double>& batch);
 };
 
 /// The kernels in use, chosen once; see graze/instruction_set.hpp.
