@@ -30,7 +30,7 @@ bool by_feature_of_a(const ContactName& left, const ContactName& right) {
   return left.of_a() < right.of_a();
 }
 
-/// Sorts those of one feature of a each, as a sweep over its vertices leaves them: mostly a few.
+/// Sorts those of one feature of a each, as they are left where those of a come in order: mostly a few.
 void sort_groups(std::vector<ContactName>& names) {
   for (auto begin = names.begin(); begin != names.end();) {
     auto end = begin;

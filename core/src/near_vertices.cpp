@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "passes_for.hpp"
+#include "validate.hpp"
 
 namespace graze {
 namespace {
@@ -17,6 +18,10 @@ constexpr std::size_t group_size = VertexBlocks::group_size;
 
 /// So many blocks of b are looked at one after the other, beside each block of a; of more by their levels.
 constexpr std::size_t few_blocks = 8 * group_size;
+/// So many boxes of b are gone through for a block of a as quickly as they are sorted out for several before.
+constexpr std::size_t few_at_once = 4 * group_size;
+/// So many blocks of a in one group of sixteen are worth it.
+constexpr std::size_t least_run = 4;
 /// Blocks of b whose points are compared at once.
 constexpr std::size_t blocks_at_once = 128;
 
@@ -58,22 +63,46 @@ kernels::BoxInFrame box_about(const VertexBlocks& blocks, const Box& box, float 
   return moved(about, Eigen::Vector3f::Zero(), grown);
 }
 
+kernels::Block rows_of(const BoxRows& boxes) {
+  return {boxes.rows.data(), boxes.stride, boxes.stride};
+}
+
 std::size_t groups_in(const VertexBlocks::Level& level) {
   return (level.count + group_size - 1) / group_size;
 }
 
-/// The blocks whose boxes meet another one, ascending: level by level, from the last down.
+/// The blocks whose boxes meet another one, ascending: level by level, from the last down. There is room for
+/// all in both lists, whatever is found, so that the same surfaces never take more.
 void find_meeting(const VertexBlocks& blocks, const kernels::BoxInFrame& box, IndexList& groups,
                   IndexList& found) {
   const std::size_t top = blocks.level_count() - 1;
-  const std::size_t all = groups_in(blocks.level(top));
-  found.count = kernels::filter().meeting(rows_of(blocks.level(top)), nullptr, all, box,
-                                          found.room_for(all * group_size));
+  const std::size_t most = blocks.level(0).stride;
+  groups.room_for(most);
+  found.count = kernels::filter().meeting(rows_of(blocks.level(top)), nullptr, groups_in(blocks.level(top)),
+                                          box, found.room_for(most));
   for (std::size_t level = top; level-- > 0;) {
     std::swap(groups, found);
     found.count = kernels::filter().meeting(rows_of(blocks.level(level)), groups.room.data(), groups.count,
-                                            box, found.room_for(groups.count * group_size));
+                                            box, found.room.data());
   }
+}
+
+/// Boxes put side by side, those of some places.
+void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> places, BoxRows& boxes) {
+  boxes.stride = (places.size() + group_size - 1) / group_size * group_size;
+  if (boxes.rows.size() < 6 * boxes.stride) boxes.rows.resize(6 * boxes.stride);
+  for (std::size_t row = 0; row < 6; ++row) {
+    float* const to = boxes.rows.data() + row * boxes.stride;
+    const float* const of_row = from.data + row * from.stride;
+    for (std::size_t i = 0; i < places.size(); ++i) to[i] = of_row[places[i]];
+    std::fill(to + places.size(), to + boxes.stride, std::numeric_limits<float>::quiet_NaN());
+  }
+}
+
+/// Lists which of such boxes meet another one, by their places.
+void find_meeting(const BoxRows& boxes, const kernels::BoxInFrame& box, IndexList& found) {
+  found.count = kernels::filter().meeting(rows_of(boxes), nullptr, boxes.stride / group_size, box,
+                                          found.room_for(boxes.stride));
 }
 
 /// The box of some blocks about their origin.
@@ -172,6 +201,8 @@ void NearVertices::look_within(double limit) {
 }
 
 void NearVertices::find_blocks() {
+  validate_blocks(pair_.a);
+  validate_blocks(pair_.b);
   near_.a.count = near_.b.count = 0;
   if (!(limit_ > 0)) return;
   look_within(limit_);
@@ -194,16 +225,7 @@ void NearVertices::tighten() {
     kept += meet(of_a_.box(block), box) ? 1U : 0U;
   }
   near_.a.count = kept;
-  if (kept == 0) return;
-  near_.stride = (near_.b.count + group_size - 1) / group_size * group_size;
-  if (near_.boxes.size() < 6 * near_.stride) near_.boxes.resize(6 * near_.stride);
-  for (std::size_t row = 0; row < 6; ++row) {
-    float* const to = near_.boxes.data() + row * near_.stride;
-    const float* const from = of_b_.level(0).rows + row * of_b_.level(0).stride;
-    for (std::size_t i = 0; i < near_.b.count; ++i) to[i] = from[near_.b.room[i]];
-    for (std::size_t i = near_.b.count; i < near_.stride; ++i)
-      to[i] = std::numeric_limits<float>::quiet_NaN();
-  }
+  if (kept > 0) gather_boxes(rows_of(of_b_.level(0)), near_.b.listed(), near_.boxes);
 }
 
 void NearVertices::lay_out_blocks_of_b() {
@@ -220,11 +242,10 @@ void NearVertices::lay_out_blocks_of_b() {
 
 template <typename Visit>
 void NearVertices::for_each_near(std::uint32_t block_of_a, const Visit& visit) {
-  find_beside(block_of_a);
-  const auto all = scratch_.beside.listed();
+  const auto beside = scratch_.beside.listed();
   const auto vertices_a = of_a_.vertices(block_of_a);
-  for (std::size_t first = 0; first < all.size(); first += blocks_at_once) {
-    const auto some = all.subspan(first, std::min(blocks_at_once, all.size() - first));
+  for (std::size_t first = 0; first < beside.size(); first += blocks_at_once) {
+    const auto some = beside.subspan(first, std::min(blocks_at_once, beside.size() - first));
     const std::size_t found =
         in_float_ ? compare(block_of_a, some, near_.floats) : compare(block_of_a, some, near_.doubles);
     pair_.count.discarded_in_float += vertices_a.size() * block_size * some.size() - found;
@@ -240,11 +261,20 @@ void NearVertices::for_each_near(std::uint32_t block_of_a, const Visit& visit) {
 
 bool NearVertices::name(std::size_t begin, std::size_t end, WorkMeter& meter,
                         std::vector<ContactName>& names) {
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!meter.spend()) return false;
-    for_each_near(near_.a.room[i], [&](const ContactName& name) {
-      if (is_closer_than(pair_, name, limit_)) names.push_back(name);
-    });
+  const auto listed = near_.a.listed();
+  const bool are_many = !near_.few || near_.boxes.stride > few_at_once;
+  while (begin < end) {
+    std::size_t next = begin + 1;
+    while (next < end && listed[next] / group_size == listed[begin] / group_size) ++next;
+    const bool is_run =
+        are_many && next - begin >= least_run && find_around(listed.subspan(begin, next - begin));
+    for (; begin < next; ++begin) {
+      if (!meter.spend()) return false;
+      is_run ? find_beside_in_around(listed[begin]) : find_beside(listed[begin]);
+      for_each_near(listed[begin], [&](const ContactName& name) {
+        if (is_closer_than(pair_, name, limit_)) names.push_back(name);
+      });
+    }
   }
   return true;
 }
@@ -256,11 +286,13 @@ bool NearVertices::offer(WorkMeter& meter, ClosestRange& nearest) {
   auto& near_first = scratch_.near_first;
   while (!near_first.empty()) {
     std::pop_heap(near_first.begin(), near_first.end(), std::greater<>());
-    const auto [lower, block] = near_first.back();
+    const double lower = near_first.back().first;
+    const std::uint32_t block = near_first.back().second;
     near_first.pop_back();
     if (!nearest.keep(lower)) break;  // and none of the rest
     if (!meter.spend()) return false;
     look_within(std::min(most, above(nearest.limit())));
+    find_beside(block);
     for_each_near(block, [&](const ContactName& name) {
       const SquaredRange squared =
           squared_range(pair_.a.position(name.a().feature.index), pair_.b.position(name.b().feature.index));
@@ -275,19 +307,44 @@ bool NearVertices::offer(WorkMeter& meter, ClosestRange& nearest) {
 void NearVertices::order_near_first() {
   auto& near_first = scratch_.near_first;
   near_first.clear();
+  near_first.reserve(of_a_.level(0).count);
   const kernels::BoxInFrame box = moved(around_all(of_b_, near_.b.listed()), -near_.shift, 0);
   for (const std::uint32_t block : near_.a.listed())
     near_first.emplace_back(lower_distance(of_a_.box(block), box), block);
   std::make_heap(near_first.begin(), near_first.end(), std::greater<>());
 }
 
-/// The blocks of b that have something near a block of a, by their boxes.
+kernels::BoxInFrame NearVertices::box_around(std::uint32_t block_of_a) const {
+  return moved(in_frame(of_a_.box(block_of_a)), near_.shift, near_.reach);
+}
+
+/// The blocks of b whose boxes are near some blocks of a together; false where they are too many to be of
+/// use.
+bool NearVertices::find_around(std::span<const std::uint32_t> blocks_of_a) {
+  const kernels::BoxInFrame box = moved(around_all(of_a_, blocks_of_a), near_.shift, near_.reach);
+  if (near_.few)
+    find_meeting(near_.boxes, box, scratch_.around);
+  else
+    find_meeting(of_b_, box, scratch_.groups, scratch_.around);
+  const auto around = scratch_.around.listed();
+  if (around.size() > few_at_once) return false;
+  gather_boxes(near_.few ? rows_of(near_.boxes) : rows_of(of_b_.level(0)), around, scratch_.boxes);
+  return true;
+}
+
+/// The blocks of b whose boxes are near one of a.
 void NearVertices::find_beside(std::uint32_t block_of_a) {
-  const kernels::BoxInFrame box = moved(in_frame(of_a_.box(block_of_a)), near_.shift, near_.reach);
-  if (!near_.few) return find_meeting(of_b_, box, scratch_.groups, scratch_.beside);
-  scratch_.beside.count =
-      kernels::filter().meeting({near_.boxes.data(), near_.stride, near_.b.count}, nullptr,
-                                near_.stride / group_size, box, scratch_.beside.room_for(near_.stride));
+  if (near_.few)
+    find_meeting(near_.boxes, box_around(block_of_a), scratch_.beside);
+  else
+    find_meeting(of_b_, box_around(block_of_a), scratch_.groups, scratch_.beside);
+}
+
+/// The same of one of those that were asked about together.
+void NearVertices::find_beside_in_around(std::uint32_t block_of_a) {
+  IndexList& found = scratch_.beside;
+  find_meeting(scratch_.boxes, box_around(block_of_a), found);
+  for (std::size_t i = 0; i < found.count; ++i) found.room[i] = scratch_.around.room[found.room[i]];
 }
 
 template <typename Number>
@@ -305,15 +362,15 @@ void NearBlocks::reserve(const PairRoom& room) {
   const std::size_t blocks = room.vertices / block_size + 1;
   a.reserve(blocks + group_size);
   b.reserve(blocks + group_size);
-  boxes.resize(std::max(boxes.size(), 6 * few_blocks));
+  boxes.reserve(few_blocks);
   floats.resize(std::max(floats.size(), blocks * numbers_of_block));
   doubles.resize(std::max(doubles.size(), blocks * numbers_of_block));
 }
 
 void NearVerticesScratch::reserve(const PairRoom& room) {
   const std::size_t found = room.vertices / block_size + 1 + group_size;
-  groups.reserve(found);
-  beside.reserve(found);
+  for (IndexList* const list : {&groups, &around, &beside}) list->reserve(found);
+  boxes.reserve(found);
   near_first.reserve(found);
   for (IndexList* const near : {&near_a, &near_b}) near->reserve(block_size * block_size * blocks_at_once);
 }

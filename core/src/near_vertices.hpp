@@ -34,6 +34,19 @@ struct IndexList {
   void reserve(std::size_t most) { room_for(most); }
 };
 
+/// Boxes in six rows, up to a multiple of sixteen, of which those behind the last are NaN and meet nothing.
+struct BoxRows {
+  std::vector<float> rows;
+  std::size_t stride = 0;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.rows);
+  }
+  void reserve_as(const BoxRows& other) { rows.resize(std::max(rows.size(), other.rows.size())); }
+  void reserve(std::size_t most) { rows.resize(std::max(rows.size(), 6 * most)); }
+};
+
 /// What is left of two surfaces' blocks where either may be near the other, for all slices of a search. Boxes
 /// are seen about the origin of b's.
 struct NearBlocks {
@@ -42,8 +55,7 @@ struct NearBlocks {
   /// Whether those of b are so few that they are looked at one after the other, by their places in the list.
   /// Of more all levels are, and they have their places among all blocks of b.
   bool few = false;
-  std::vector<float> boxes;  ///< of the few, in six rows
-  std::size_t stride = 0;    ///< of these
+  BoxRows boxes;  ///< of the few
   // The points of each block of b in its place, in one of the two.
   std::vector<float> floats;
   std::vector<double> doubles;
@@ -60,14 +72,17 @@ struct NearBlocks {
 /// Working memory of one thread.
 struct NearVerticesScratch {
   IndexList groups;
-  IndexList beside;                                          ///< a block of a, places of blocks of b
+  IndexList around;                                          ///< places of blocks of b near some blocks of a
+  BoxRows boxes;                                             ///< of these, if those are more than one
+  IndexList beside;                                          ///< of these those near one of them
   IndexList near_a;                                          ///< points of a block of a
   IndexList near_b;                                          ///< and of those beside it
   std::vector<std::pair<double, std::uint32_t>> near_first;  ///< how far they are at least, blocks of a
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.groups, self.beside, self.near_a, self.near_b, self.near_first);
+    return std::tie(self.groups, self.around, self.boxes, self.beside, self.near_a, self.near_b,
+                    self.near_first);
   }
   void reserve(const PairRoom& room);
 };
@@ -93,11 +108,15 @@ class NearVertices {
   void tighten();
   void lay_out_blocks_of_b();
   void order_near_first();
+  [[nodiscard]] kernels::BoxInFrame box_around(std::uint32_t block_of_a) const;
+  bool find_around(std::span<const std::uint32_t> blocks_of_a);
   void find_beside(std::uint32_t block_of_a);
+  void find_beside_in_around(std::uint32_t block_of_a);
   template <typename Number>
   std::size_t compare(std::uint32_t block_of_a, std::span<const std::uint32_t> beside,
                       const std::vector<Number>& blocks_of_b);
-  /// Calls `visit(name)` for all pairs of a block of a that are not certainly too far.
+  /// Calls `visit(name)` for all pairs of a block of a and those found beside it that are not certainly too
+  /// far.
   template <typename Visit>
   void for_each_near(std::uint32_t block_of_a, const Visit& visit);
 

@@ -181,6 +181,26 @@ void validate(const Surface& surface) {
   }
 }
 
+void validate_blocks(const Surface& surface) {
+  require(surface.has_blocks(), "blocks are those of other positions", 0);
+  const VertexBlocks& blocks = surface.blocks();
+  std::uint32_t blocks_each = 1;
+  for (std::size_t index = 0; index < blocks.level_count(); ++index) {
+    const VertexBlocks::Level level = blocks.level(index);
+    for (std::uint32_t block = 0; block < blocks.level(0).count; ++block)
+      for (const std::uint32_t vertex : blocks.vertices(block)) {
+        const Eigen::Array3d place = surface.position(vertex) - blocks.origin();
+        const Eigen::Array3d slack = place.abs() * 0x1p-23 + 0x1p-140;
+        for (int axis = 0; axis < 3; ++axis) {
+          const float* const row = level.rows + static_cast<std::size_t>(axis) * level.stride + block / blocks_each;
+          require(row[0] <= place[axis] + slack[axis] && row[3 * level.stride] >= place[axis] - slack[axis],
+                  "a vertex is outside its block's box", vertex);
+        }
+      }
+    blocks_each *= VertexBlocks::group_size;
+  }
+}
+
 /// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,
 /// and neither those nor the boxes of now always give the greater bound.
 void validate(const LeafFront& front, const Surface& a, const Surface& b) {
@@ -207,6 +227,7 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
 namespace graze {
 void validate(const RegionTree& /*tree*/, const Mesh& /*mesh*/) {}
 void validate(const Surface& /*surface*/) {}
+void validate_blocks(const Surface& /*surface*/) {}
 void validate(const LeafFront& /*front*/, const Surface& /*a*/, const Surface& /*b*/) {}
 }  // namespace graze
 #endif

@@ -22,4 +22,7 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b);
 /// Every region's bounds contain its vertices and the corners of the faces and edges it owns.
 void validate(const Surface& surface);
 
+/// A surface's blocks are those of its present positions, and each level's boxes contain their vertices.
+void validate_blocks(const Surface& surface);
+
 }  // namespace graze

@@ -65,7 +65,7 @@ struct Diagnostic {
 struct StepStatistics {
   std::uint64_t objects = 0;
   std::uint64_t objects_unread = 0;    ///< not read, since promises say that they are far from everything
-  std::uint64_t objects_surveyed = 0;  ///< in no pair of the last step, and so looked at for their box first
+  std::uint64_t objects_surveyed = 0;  ///< looked at for their box first, in place of being copied
   std::uint64_t pairs_total = 0;       ///< n(n-1)/2
   /// Objects that moved, but inside their loose boxes (docs/embedding.md): no pair of them can have come.
   std::uint64_t objects_in_slack = 0;
