@@ -85,7 +85,7 @@ std::size_t check(const Surface& a, const Surface& b, double limit) {
 void read_in_float(Surface& surface) {
   std::vector<Eigen::Vector3f> floats;
   for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex)
-    floats.push_back(surface.position(vertex).cast<float>());
+    floats.emplace_back(surface.position(vertex).cast<float>());
   surface.set_positions(floats);
   surface.make_blocks();
 }
@@ -180,7 +180,8 @@ TEST_CASE("near vertices: a vertex that exploded costs the rest no precision") {
       const std::uint64_t before = compared(surface_of(sheet), below, limit);
       CHECK(before > 1000);
       // The block of the vertex that exploded is compared with all others.
-      const std::uint64_t most = before + before / 4 + 2 * VertexBlocks::block_size * sheet.positions.size();
+      const std::uint64_t most =
+          before + before / 4 + std::size_t{2} * VertexBlocks::block_size * sheet.positions.size();
       CHECK(compared(surface_of(exploded), below, limit) < most);
       CHECK(compared(below, surface_of(exploded), limit) < most);
     }

@@ -194,7 +194,7 @@ class BlockAndOthers {
     return pairs;
   }
   [[nodiscard]] Pairs found() const {
-    std::vector<std::uint32_t> row(size * size * listed_.size() + kernels::lanes);
+    std::vector<std::uint32_t> row(std::size_t{size} * size * listed_.size() + kernels::lanes);
     std::vector<std::uint32_t> column(row.size());
     const std::size_t count =
         passes_for<Number>().near_points(block_.data(), count_, blocks_.data(), listed_.data(),
@@ -234,7 +234,7 @@ std::size_t check_near(std::uint64_t seed) {
 std::size_t check_meeting(std::uint64_t seed) {
   Random random(seed);
   const std::uint32_t groups = 1 + random.below(9);
-  const std::size_t stride = groups * VertexBlocks::group_size;
+  const std::size_t stride = std::size_t{groups} * VertexBlocks::group_size;
   std::vector<float> rows(6 * stride);
   const auto coordinate = [&] { return 0.25F * static_cast<float>(random.below(9)); };
   for (std::size_t i = 0; i < stride; ++i)
