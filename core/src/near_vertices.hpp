@@ -73,7 +73,7 @@ struct NearBlocks {
 struct NearVerticesScratch {
   IndexList groups;
   IndexList around;                                          ///< places of blocks of b near some blocks of a
-  BoxRows boxes;                                             ///< of these, if those are more than one
+  BoxRows boxes;                                             ///< of these
   IndexList beside;                                          ///< of these those near one of them
   IndexList near_a;                                          ///< points of a block of a
   IndexList near_b;                                          ///< and of those beside it
