@@ -31,7 +31,7 @@ TEST_CASE("names are sorted as by comparing, however many and however large") {
     for (std::uint32_t i = 0; i < count; ++i)
       names.push_back(ContactName::of(random_piece(random, largest_a), random_piece(random, largest_b),
                                       static_cast<Meeting>(random.below(3))));
-    if (seed % 3 == 0)  // as a sweep over the vertices of a leaves them
+    if (seed % 3 == 0)  // as where those of a come in order
       std::stable_sort(names.begin(), names.end(),
                        [](const auto& left, const auto& right) { return left.of_a() < right.of_a(); });
     std::vector<ContactName> expected = names;
