@@ -25,122 +25,12 @@ constexpr std::size_t least_run = 4;
 /// Blocks of b whose points are compared at once.
 constexpr std::size_t blocks_at_once = 128;
 
-/// How much nearer boxes of blocks may seem in float, relative to the numbers that say where they are: half
-/// of a unit of 2^-23 each for two coordinates about their origins, for where these are to each other, for
-/// what is looked for, and for three sums of them. A coordinate that is far from those it is compared with
-/// may lose more, and is as far on.
-constexpr float margin = 0x1p-20F;
-/// What small numbers lose in float.
-constexpr float lost = 0x1p-140F;
-
 float as_float(double value) {
   constexpr double most = std::numeric_limits<float>::max();
   return value > most ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
 }
 
-kernels::Block rows_of(const VertexBlocks::Level& level) {
-  return {level.rows, level.stride, level.count};
-}
-
-/// What boxes are compared with in place of a box that is elsewhere: it is `by` from there, and grown.
-kernels::BoxInFrame moved(const kernels::BoxInFrame& box, const Eigen::Vector3f& by, float grown) {
-  kernels::BoxInFrame moved{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const float away = std::abs(by[axis]) + grown;
-    moved.min[axis] = box.min[axis] + by[axis] - (grown + (std::abs(box.min[axis]) + away) * margin + lost);
-    moved.max[axis] = box.max[axis] + by[axis] + (grown + (std::abs(box.max[axis]) + away) * margin + lost);
-  }
-  return moved;
-}
-
-/// A surface's box about the origin of another's blocks, grown.
-kernels::BoxInFrame box_about(const VertexBlocks& blocks, const Box& box, float grown) {
-  kernels::BoxInFrame about{};
-  for (int axis = 0; axis < 3; ++axis) {
-    about.min[axis] = static_cast<float>(box.min[axis] - blocks.origin()[axis]);
-    about.max[axis] = static_cast<float>(box.max[axis] - blocks.origin()[axis]);
-  }
-  return moved(about, Eigen::Vector3f::Zero(), grown);
-}
-
-kernels::Block rows_of(const BoxRows& boxes) {
-  return {boxes.rows.data(), boxes.stride, boxes.stride};
-}
-
-std::size_t groups_in(const VertexBlocks::Level& level) {
-  return (level.count + group_size - 1) / group_size;
-}
-
-/// The blocks whose boxes meet another one, ascending: level by level, from the last down. There is room for
-/// all in both lists, whatever is found, so that the same surfaces never take more.
-void find_meeting(const VertexBlocks& blocks, const kernels::BoxInFrame& box, IndexList& groups,
-                  IndexList& found) {
-  const std::size_t top = blocks.level_count() - 1;
-  const std::size_t most = blocks.level(0).stride;
-  groups.room_for(most);
-  found.count = kernels::filter().meeting(rows_of(blocks.level(top)), nullptr, groups_in(blocks.level(top)),
-                                          box, found.room_for(most));
-  for (std::size_t level = top; level-- > 0;) {
-    std::swap(groups, found);
-    found.count = kernels::filter().meeting(rows_of(blocks.level(level)), groups.room.data(), groups.count,
-                                            box, found.room.data());
-  }
-}
-
-/// Boxes put side by side, those of some places.
-void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> places, BoxRows& boxes) {
-  boxes.stride = (places.size() + group_size - 1) / group_size * group_size;
-  if (boxes.rows.size() < 6 * boxes.stride) boxes.rows.resize(6 * boxes.stride);
-  for (std::size_t row = 0; row < 6; ++row) {
-    float* const to = boxes.rows.data() + row * boxes.stride;
-    const float* const of_row = from.data + row * from.stride;
-    for (std::size_t i = 0; i < places.size(); ++i) to[i] = of_row[places[i]];
-    std::fill(to + places.size(), to + boxes.stride, std::numeric_limits<float>::quiet_NaN());
-  }
-}
-
-/// Lists which of such boxes meet another one, by their places.
-void find_meeting(const BoxRows& boxes, const kernels::BoxInFrame& box, IndexList& found) {
-  found.count = kernels::filter().meeting(rows_of(boxes), nullptr, boxes.stride / group_size, box,
-                                          found.room_for(boxes.stride));
-}
-
-/// The box of some blocks about their origin.
-kernels::BoxInFrame around_all(const VertexBlocks& blocks, std::span<const std::uint32_t> listed) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  const VertexBlocks::Level boxes = blocks.level(0);
-  std::array<float, 3> low{infinity, infinity, infinity};
-  std::array<float, 3> high{-infinity, -infinity, -infinity};
-  for (const std::uint32_t block : listed)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], boxes.rows[axis * boxes.stride + block]);
-      high[axis] = std::max(high[axis], boxes.rows[(axis + 3) * boxes.stride + block]);
-    }
-  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-}
-
-kernels::BoxInFrame in_frame(const std::array<float, 6>& box) {
-  return {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
-}
-
-bool meet(const std::array<float, 6>& box, const kernels::BoxInFrame& other) {
-  bool all = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    all = all && box[axis] <= other.max[axis] && box[axis + 3] >= other.min[axis];
-  return all;
-}
-
-/// At most how far a box is from one that was moved to be beside it.
-double lower_distance(const std::array<float, 6>& box, const kernels::BoxInFrame& other) {
-  double squared = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double gap = std::max({0.0F, box[axis] - other.max[axis], other.min[axis] - box[axis + 3]});
-    squared += gap * gap;
-  }
-  return std::sqrt(squared) * (1 - double{margin});
-}
-
-/// At least the square of what two points are apart whose squared distance in Number is not above it.
+/// What the squared distance of two points within a limit comes to in Number at most.
 template <typename Number>
 Number squared_reach(double limit) {
   return static_cast<Number>(limit * limit * (1 + 8 * double{std::numeric_limits<Number>::epsilon()}) +

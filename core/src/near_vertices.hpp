@@ -6,46 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "block_boxes.hpp"
 #include "closest_range.hpp"
 #include "contact_name.hpp"
 #include "dmv.hpp"
-#include "kernels/filter.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
-
-/// Numbers that a kernel lists, in memory that is longer than they are many.
-struct IndexList {
-  std::vector<std::uint32_t> room;
-  std::size_t count = 0;
-
-  /// Room for so many, and what a kernel writes beyond the last.
-  std::uint32_t* room_for(std::size_t most) {
-    if (room.size() < most + kernels::lanes) room.resize(most + kernels::lanes);
-    return room.data();
-  }
-  [[nodiscard]] std::span<const std::uint32_t> listed() const { return std::span(room).first(count); }
-
-  template <typename Self>
-  static auto parts(Self& self) {
-    return std::tie(self.room);
-  }
-  void reserve_as(const IndexList& other) { room.resize(std::max(room.size(), other.room.size())); }
-  void reserve(std::size_t most) { room_for(most); }
-};
-
-/// Boxes in six rows, up to a multiple of sixteen, of which those behind the last are NaN and meet nothing.
-struct BoxRows {
-  std::vector<float> rows;
-  std::size_t stride = 0;
-
-  template <typename Self>
-  static auto parts(Self& self) {
-    return std::tie(self.rows);
-  }
-  void reserve_as(const BoxRows& other) { rows.resize(std::max(rows.size(), other.rows.size())); }
-  void reserve(std::size_t most) { rows.resize(std::max(rows.size(), 6 * most)); }
-};
 
 /// What is left of two surfaces' blocks where either may be near the other, for all slices of a search. Boxes
 /// are seen about the origin of b's.

@@ -75,7 +75,7 @@ void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughN
   __builtin_prefetch(around.data());
   with_points(surface, [&]<typename Number>(const kernels::PointArray<Number>& points) {
     auto& batch = std::get<kernels::FanBatch<Number>>(fans_);
-    batch.fan[batch.count++] = {points.numbers, points.last, vertex, around.data(), around.size(), &normal};
+    batch.fan[batch.count++] = {points, vertex, around.data(), around.size(), &normal};
     batch.longest = std::max(batch.longest, around.size());
     if (batch.count == kernels::contact_lanes) finish_fans(batch);
   });

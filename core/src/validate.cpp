@@ -192,7 +192,8 @@ void validate_blocks(const Surface& surface) {
         const Eigen::Array3d place = surface.position(vertex) - blocks.origin();
         const Eigen::Array3d slack = place.abs() * 0x1p-23 + 0x1p-140;
         for (int axis = 0; axis < 3; ++axis) {
-          const float* const row = level.rows + static_cast<std::size_t>(axis) * level.stride + block / blocks_each;
+          const float* const row =
+              level.rows + static_cast<std::size_t>(axis) * level.stride + block / blocks_each;
           require(row[0] <= place[axis] + slack[axis] && row[3 * level.stride] >= place[axis] - slack[axis],
                   "a vertex is outside its block's box", vertex);
         }

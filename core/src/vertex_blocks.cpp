@@ -13,10 +13,6 @@ static_assert(VertexBlocks::block_size == kernels::block_size);
 /// So many groups are gone through as quickly as another level would be.
 constexpr std::size_t few_groups = 8;
 
-constexpr std::size_t up_to_whole_groups(std::size_t count) {
-  return (count + VertexBlocks::group_size - 1) / VertexBlocks::group_size * VertexBlocks::group_size;
-}
-
 /// Of the first, the middle and the last vertex the middle coordinates, so that one part that exploded takes
 /// no precision from the rest.
 Eigen::Vector3d middle_of_three(const PositionView& positions, std::span<const std::uint32_t> order) {
@@ -52,7 +48,7 @@ void VertexBlocks::lay_out_levels() {
   level_count_ = 0;
   std::size_t first = 0;
   while (true) {
-    const std::size_t stride = up_to_whole_groups(count);
+    const std::size_t stride = in_whole_groups(count);
     places_[level_count_++] = {first, stride, count};
     first += 6 * stride;
     if (stride / group_size <= few_groups) break;

@@ -94,8 +94,8 @@ class GRAZE_API Mesh {
   /// The octree of regions, built with the mesh.
   [[nodiscard]] const RegionTree& regions() const { return regions_; }
 
-  /// The order in which vertices are taken in blocks of sixteen: empty where that is as they are numbered,
-  /// since numbers that follow one another are mostly side by side; otherwise the tree's, of the used ones.
+  /// The used vertices in an order in which each eight of them are near each other at rest: halved along the
+  /// longest side of their box, and the halves again, with whole eights on either side.
   [[nodiscard]] std::span<const std::uint32_t> block_order() const { return block_order_; }
 
   /// Bytes held, the region tree included.

@@ -18,6 +18,10 @@ class VertexBlocks {
  public:
   static constexpr std::uint32_t block_size = 8;   ///< vertices
   static constexpr std::uint32_t group_size = 16;  ///< boxes
+  /// So many boxes with those behind the last, so that they are whole groups.
+  static constexpr std::size_t in_whole_groups(std::size_t count) {
+    return (count + group_size - 1) / group_size * group_size;
+  }
   /// Boxes in six rows, least x, y, z and greatest, about the origin; up to a multiple of sixteen, of which
   /// those behind the last are NaN and meet nothing.
   struct Level {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "points.hpp"
 
 /// Kernels that measure several contacts or triangles at once. They are compiled once for each instruction
@@ -36,12 +34,10 @@ struct RoughNormal {
   double error;
 };
 
-/// A fan of triangles about a vertex: each triangle is between two points in a row. Points are three numbers
-/// each; behind the last of the surface nothing may be read.
+/// A fan of triangles about a vertex: each triangle is between two points in a row.
 template <typename Number>
 struct Fan {
-  const Number* points;
-  std::uint32_t last_point;
+  PointArray<Number> points;
   std::uint32_t vertex;
   const std::uint32_t* around;
   std::size_t count;    ///< of these, one at least

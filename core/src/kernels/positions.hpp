@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "filter.hpp"
+#include "points.hpp"
 
 /// Passes over the positions of a surface, in memory order or as listed. Compiled once for each instruction
 /// set, so this header has no inline function that another translation unit might share with them.
@@ -16,13 +17,6 @@ struct PositionsSeen {
   Number furthest[3];  ///< the largest magnitudes of now - before, each rounded once
   bool changed;        ///< some bit is another than before
   bool bad;            ///< some coordinate is beyond the limit or NaN; then the rest means nothing
-};
-
-/// Points of three numbers each, and the number of the last: behind that nothing may be read.
-template <typename Number>
-struct PointArray {
-  const Number* numbers;
-  std::uint32_t last;
 };
 
 /// Where `(p - origin) * scale` is what kernels see of p, in double and then rounded; the fourth is nothing.
