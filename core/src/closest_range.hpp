@@ -86,6 +86,9 @@ class ClosestRange {
   }
   /// Whether an edge may pierce a face.
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }
+  [[nodiscard]] static double touching() { return 0; }
+  [[nodiscard]] static bool is_listing() { return false; }
+  static void found(const PartOf& /*a*/, const PartOf& /*b*/) {}
   /// Returns a lower bound of the distance of each vertex and face, and of each two edges of the two leaves.
   double offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     seen_ = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <graze/near_list.hpp>
 #include <span>
 #include <vector>
 
@@ -9,17 +10,6 @@
 #include "working_memory.hpp"
 
 namespace graze {
-
-/// What a feature of a block is part of; as wide as an index, so that both are compared at once.
-enum class Part : std::uint32_t { vertex, edge, face, fold };
-
-/// A feature of a surface, by the number of what it is part of.
-struct PartOf {
-  Part part = Part::vertex;
-  std::uint32_t index = 0;
-
-  friend bool operator==(const PartOf&, const PartOf&) = default;
-};
 
 /// The features of a block by their corners as they came and by what they are part of, where these are now.
 template <std::size_t Corners>

@@ -3,14 +3,19 @@
 namespace graze {
 namespace {
 
-/// What a query for contacts wants: what is below the threshold, and piercing at every threshold.
+/// What a query for contacts wants: what is below the threshold, and piercing at every threshold; and to be
+/// listed what comes to be so within a slack.
 struct BelowThreshold {
   double threshold;
+  const NearListing& listing;
 
-  [[nodiscard]] double limit() const { return threshold; }
+  [[nodiscard]] double limit() const { return threshold + listing.slack; }
   [[nodiscard]] double names_below() const { return threshold; }
   [[nodiscard]] static bool may_pierce() { return true; }
-  [[nodiscard]] bool keep(double lower) const { return lower < threshold || lower == 0; }
+  [[nodiscard]] double touching() const { return listing.slack; }
+  [[nodiscard]] bool is_listing() const { return listing.is_wanted(); }
+  void found(const PartOf& a, const PartOf& b) const { listing.add(a, b); }
+  [[nodiscard]] bool keep(double lower) const { return lower < limit() || lower == 0; }
   void left_out(double /*limit*/) const {}
 };
 
@@ -31,12 +36,16 @@ void CloseFeatures::take(const ContactName& name, const SquaredRange& squared) {
 }
 
 void CloseFeatures::add(const LeafOf& leaf_a, const LeafOf& leaf_b) {
-  BelowThreshold range{threshold_};
+  BelowThreshold range{threshold_, listing_};
   if (scratch_.take(pair_, leaf_a, leaf_b, range)) add_taken();
 }
 
 void CloseFeatures::add_taken() {
   with_names([](auto& names) { names.add_taken(); });
+}
+
+void CloseFeatures::add_listed(std::span<const NearParts> listed) {
+  with_names([&](auto& names) { names.add_listed(listed); });
 }
 
 void CloseFeatures::finish() {
@@ -46,7 +55,7 @@ void CloseFeatures::finish() {
 /// Calls `use` with what gives the names to `take`.
 template <typename Use>
 void CloseFeatures::with_names(const Use& use) {
-  BelowThreshold range{threshold_};
+  BelowThreshold range{threshold_, listing_};
   const auto sink = [&](const ContactName& name, const SquaredRange& squared) { take(name, squared); };
   LeafNames names(pair_, scratch_, range, sink);
   use(names);

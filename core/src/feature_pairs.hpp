@@ -1,9 +1,12 @@
 #pragma once
 
+#include <graze/near_list.hpp>
+#include <span>
 #include <vector>
 
 #include "contact_name.hpp"
 #include "leaf_names.hpp"
+#include "near_listing.hpp"
 
 namespace graze {
 
@@ -13,12 +16,14 @@ class CloseFeatures {
  public:
   /// Names are appended to `names`; all are there after `finish`.
   CloseFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
-                std::vector<ContactName>& names)
-      : pair_(pair), threshold_(threshold), scratch_(scratch), names_(names) {}
+                std::vector<ContactName>& names, const NearListing& listing = {})
+      : pair_(pair), threshold_(threshold), scratch_(scratch), names_(names), listing_(listing) {}
 
   void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
   /// The features that the scratch has taken, whatever they are of.
   void add_taken();
+  /// Features that were listed, in the frame of the scratch.
+  void add_listed(std::span<const NearParts> listed);
   void finish();
 
  private:
@@ -31,6 +36,7 @@ class CloseFeatures {
   double threshold_;
   LeafScratch& scratch_;
   std::vector<ContactName>& names_;
+  NearListing listing_;
 };
 
 /// Keeps one of sorted names for each pair of features. Where two features meet in several pieces (a fold and

@@ -120,17 +120,17 @@ inline kernels::BoxInFrame empty_box() {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 }
+/// A box and what is no further from it along an axis than a distance.
+inline kernels::BoxInFrame grown(const kernels::BoxInFrame& box, float by) {
+  kernels::BoxInFrame grown{};
+  for (int axis = 0; axis < 3; ++axis) {
+    grown.min[axis] = box.min[axis] - by;
+    grown.max[axis] = box.max[axis] + by;
+  }
+  return grown;
+}
 inline bool is_empty(const kernels::BoxInFrame& box) {
   return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
-}
-/// Where two boxes overlap; nothing, as least above greatest, where they do not.
-inline kernels::BoxInFrame overlap_of(const kernels::BoxInFrame& a, const kernels::BoxInFrame& b) {
-  kernels::BoxInFrame overlap{};
-  for (int axis = 0; axis < 3; ++axis) {
-    overlap.min[axis] = std::max(a.min[axis], b.min[axis]);
-    overlap.max[axis] = std::min(a.max[axis], b.max[axis]);
-  }
-  return overlap;
 }
 
 }  // namespace graze

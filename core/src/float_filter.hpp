@@ -7,6 +7,7 @@
 #include <graze/box.hpp>
 #include <graze/surface.hpp>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,23 @@ class FloatBatch {
       count_ = first + some;
       done += some;
       if (count_ == kernels::lanes) full();
+    }
+  }
+  /// Adds a pair of features by their corners; whether it is full then.
+  bool add(const PartOf& a, const std::array<kernels::Point, CornersA>& corners_a, const PartOf& b,
+           const std::array<kernels::Point, CornersB>& corners_b) {
+    std::copy(corners_a.begin(), corners_a.end(), pairs_.a[count_]);
+    std::copy(corners_b.begin(), corners_b.end(), pairs_.b[count_]);
+    parts_[count_] = {a, b};
+    return ++count_ == kernels::lanes;
+  }
+  /// Calls `visit(part of a, part of b)` for each pair that `ask(pairs)`, a kernel, has left.
+  template <typename Ask, typename Visit>
+  void ask(const Ask& ask, const Visit& visit) {
+    if (count_ == 0) return;
+    for (std::uint32_t left = ask(pairs_) & ((1U << count_) - 1); left != 0; left &= left - 1) {
+      const auto& [a, b] = parts_[static_cast<std::size_t>(std::countr_zero(left))];
+      visit(a, b);
     }
   }
   /// Empties it: `visit(part of a, part of b, what is known)` for each pair that `ask(pairs)`, a kernel, has

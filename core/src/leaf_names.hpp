@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <graze/near_list.hpp>
 #include <optional>
+#include <span>
 
 #include "contact_name.hpp"
 #include "leaf_scratch.hpp"
@@ -16,7 +19,8 @@ namespace graze {
 ///
 /// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile. Of pairs
 /// nearer than `range.names_below()` only the names are wanted. Whether edges pierce faces is asked where
-/// `range.may_pierce()`.
+/// `range.may_pierce()`, of those that are not further than `range.touching()`.
+/// `range.found(part of a, part of b)` is told of each pair that is not further than these, at times twice.
 /// `range.left_out(limit)` is told when something further than that was discarded, and `range.keep(lower)` is
 /// asked, with a bound from double, about features that are too large for float.
 template <typename Range, typename Sink>
@@ -55,12 +59,78 @@ class LeafNames {
     near_segments(a.folds, b.folds);
   }
 
+  /// Features that an earlier search has listed.
+  void add_listed(std::span<const NearParts> listed) {
+    batches_.frame = scratch_.frame;
+    scratch_.listed_a.begin(pair_.a, scratch_.frame);
+    scratch_.listed_b.begin(pair_.b, scratch_.frame);
+    for (const NearParts& parts : listed) add_listed(parts);
+  }
+
   void finish() {
     finish_batches();
     scratch_.naming.finish(pair_, sink_);
   }
 
  private:
+  // ---- By a list
+
+  void add_listed(const NearParts& parts) {
+    if (parts.b.part == Part::face) {
+      const auto& mesh = pair_.b.mesh();
+      if (parts.a.part == Part::vertex)
+        add_with_face(batches_.vertex_a, parts.a, corners_of_a<1>(parts.a), parts.b, mesh, scratch_.listed_b,
+                      take_vertex_a());
+      else
+        add_with_face(batches_.through_b, parts.a, corners_of_a<2>(parts.a), parts.b, mesh, scratch_.listed_b,
+                      take_through_b());
+    } else if (parts.a.part == Part::face) {
+      const auto& mesh = pair_.a.mesh();
+      if (parts.b.part == Part::vertex)
+        add_with_face(batches_.vertex_b, parts.b, corners_of_b<1>(parts.b), parts.a, mesh, scratch_.listed_a,
+                      take_vertex_b());
+      else
+        add_with_face(batches_.through_a, parts.b, corners_of_b<2>(parts.b), parts.a, mesh, scratch_.listed_a,
+                      take_through_a());
+    } else if (batches_.segments.add(parts.a, corners_of_a<2>(parts.a), parts.b, corners_of_b<2>(parts.b))) {
+      bound(batches_.segments, take_segments());
+    }
+  }
+  /// With each of the face's triangles.
+  template <std::size_t Corners, typename Take>
+  void add_with_face(FloatBatch<Corners, 3>& batch, const PartOf& part,
+                     const std::array<kernels::Point, Corners>& corners, const PartOf& face,
+                     const Mesh& mesh_of_face, VerticesInFrame& points_of_face, const Take& take) {
+    const auto corner = mesh_of_face.face(face.index);
+    for (std::size_t last = 2; last < corner.size(); ++last)
+      if (batch.add(
+              part, corners, face,
+              {points_of_face[corner[0]], points_of_face[corner[last - 1]], points_of_face[corner[last]]}))
+        bound(batch, take);
+  }
+  template <std::size_t Corners>
+  std::array<kernels::Point, Corners> corners_of_a(const PartOf& part) {
+    return corners_of<Corners>(pair_.a.mesh(), part, scratch_.listed_a);
+  }
+  template <std::size_t Corners>
+  std::array<kernels::Point, Corners> corners_of_b(const PartOf& part) {
+    return corners_of<Corners>(pair_.b.mesh(), part, scratch_.listed_b);
+  }
+  template <std::size_t Corners>
+  static std::array<kernels::Point, Corners> corners_of(const Mesh& mesh, const PartOf& part,
+                                                        VerticesInFrame& points) {
+    if constexpr (Corners == 1) {
+      return {points[part.index]};
+    } else {
+      if (part.part == Part::edge) {
+        const auto [first, second] = mesh.edge(part.index);
+        return {points[first], points[second]};
+      }
+      const auto corner = mesh.face(part.index);
+      return {points[corner[0]], points[corner[2]]};
+    }
+  }
+
   // ---- By boxes
 
   template <std::size_t Corners>
@@ -114,7 +184,8 @@ class LeafNames {
                 const kernels::Block& boxes, FloatBatch<2, 3>& batch, const Take& take) {
     if (!range_.may_pierce()) return;
     const kernels::Block touching_boxes{boxes.data, boxes.stride, triangles.touching()};
-    near_boxes(segments, segments.touching(), triangles, touching_boxes, 0,
+    near_boxes(segments, segments.touching(), triangles, touching_boxes,
+               batches_.frame.to_local_limit(range_.touching()),
                [&](const auto* of_segments, const auto* of_faces, auto count) {
                  batch.add(segments.all().view(), of_segments, triangles.all().view(), of_faces, count,
                            [&] { bound(batch, take); });
@@ -154,7 +225,17 @@ class LeafNames {
   }
   template <typename Take>
   void bound(FloatBatch<2, 3>& batch, const Take& take) {
+    if (range_.is_listing()) list_near_planes(batch);
     pair_.count.discarded_in_float += batch.empty(kernels::filter().passing, take);
+  }
+  /// What passes by now may come to pierce.
+  void list_near_planes(FloatBatch<2, 3>& batch) {
+    const float touching = batches_.frame.to_local_limit(range_.touching());
+    const bool is_through_a = &batch == &batches_.through_a;
+    batch.ask([&](auto& pairs) { return kernels::filter().bound_over_planes(pairs, touching); },
+              [&](const PartOf& segment, const PartOf& face) {
+                is_through_a ? range_.found(face, segment) : range_.found(segment, face);
+              });
   }
   template <typename Batch, typename Kernel, typename Take>
   void bound_near(Batch& batch, Kernel kernel, const Take& take) {
@@ -167,6 +248,7 @@ class LeafNames {
 
   auto take_vertex_a() {
     return [this](const PartOf& vertex, const PartOf& face, const KnownInFloat& known) {
+      range_.found(vertex, face);
       if (known.place != kernels::unsure_place && is_triangle(pair_.b, face))
         return name_in_float(vertex_piece(vertex.index), piece_in(pair_.b, face, known));
       if (may_be_near(pair_.a, vertex, pair_.b, face, known))
@@ -175,6 +257,7 @@ class LeafNames {
   }
   auto take_vertex_b() {
     return [this](const PartOf& vertex, const PartOf& face, const KnownInFloat& known) {
+      range_.found(face, vertex);
       if (known.place != kernels::unsure_place && is_triangle(pair_.a, face))
         return name_in_float(piece_in(pair_.a, face, known), vertex_piece(vertex.index));
       if (may_be_near(pair_.b, vertex, pair_.a, face, known))
@@ -183,6 +266,7 @@ class LeafNames {
   }
   auto take_segments() {
     return [this](const PartOf& a, const PartOf& b, const KnownInFloat& known) {
+      range_.found(a, b);
       const bool are_edges = a.part == Part::edge && b.part == Part::edge;
       if (known.place != kernels::unsure_place && are_edges) {
         const auto place = static_cast<std::size_t>(known.place);

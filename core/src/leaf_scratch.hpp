@@ -8,6 +8,7 @@
 #include "leaf_cache.hpp"
 #include "leaf_features.hpp"
 #include "leaf_slab.hpp"
+#include "listed_vertices.hpp"
 #include "made_of_leaves.hpp"
 #include "naming_batch.hpp"
 
@@ -31,6 +32,8 @@ struct LeafScratch {
   MadeOfLeaves<LeafSlab> slabs_a;
   MadeOfLeaves<LeafSlab> slabs_b;
   LeafVertices corners;
+  VerticesInFrame listed_a;
+  VerticesInFrame listed_b;
   TakenLeaf a;
   TakenLeaf b;
   FoldAnswers folds;
@@ -47,22 +50,22 @@ struct LeafScratch {
     filter.begin();
     naming.begin();
   }
-  void begin(const LeafOf& leaf_a, const LeafOf& leaf_b) { frame = FilterFrame(leaf_a.box, leaf_b.box); }
+  void begin(const FilterFrame& first) { frame = first; }
 
   /// Takes what is near of two leaves; false where there is nothing of either.
   template <typename Range>
   bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
-    return take(pair, leaf_a, leaf_b, range, false, &TakenLeaf::take);
+    return take(pair, leaf_a, leaf_b, range, range.touching(), false, &TakenLeaf::take);
   }
   template <typename Range>
   bool take_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
-    return take(pair, leaf_a, leaf_b, range, true, &TakenLeaf::take_vertices);
+    return take(pair, leaf_a, leaf_b, range, 0, true, &TakenLeaf::take_vertices);
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.all_a, self.all_b, self.slabs_a, self.slabs_b, self.corners, self.a, self.b,
-                    self.filter);
+    return std::tie(self.all_a, self.all_b, self.slabs_a, self.slabs_b, self.corners, self.listed_a,
+                    self.listed_b, self.a, self.b, self.filter);
   }
 
  private:
@@ -74,7 +77,7 @@ struct LeafScratch {
 
   template <typename Range, typename Take>
   bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
-            bool vertices_only, const Take& take_near) {
+            double touching_within, bool vertices_only, const Take& take_near) {
     const double limit = range.limit();
     const auto nothing_near = [&] {
       range.left_out(limit);
@@ -92,20 +95,20 @@ struct LeafScratch {
     }
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
     // What of b is near where a can be near b's leaf, and what of a is near that. Two features can only touch
-    // where both sides' boxes overlap.
-    const kernels::BoxInFrame box_b = frame.to_local(leaf_b.box);
+    // where both sides' boxes are.
     const kernels::BoxInFrame near_a = frame.to_local_beside(leaf_a.box, leaf_b.box, limit);
     if (is_empty(near_a)) return nothing_near();
     all_a.begin(pair.a, frame, vertices_only);
     all_b.begin(pair.b, frame, vertices_only);
     const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region, corners);
     const float local_limit = frame.to_local_limit(limit);
+    const float touching = frame.to_local_limit(touching_within);
     kernels::BoxInFrame near_b = empty_box();
-    (b.*take_near)(of_b, {near_a, overlap_of(near_a, box_b), frame.to_local(slab_a, middle_a), local_limit},
+    (b.*take_near)(of_b, {near_a, grown(near_a, touching), frame.to_local(slab_a, middle_a), local_limit},
                    &near_b);
     if (is_empty(near_b)) return nothing_near();
     const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
-    (a.*take_near)(of_a, {near_b, overlap_of(near_a, near_b), frame.to_local(slab_b, middle_b), local_limit},
+    (a.*take_near)(of_a, {near_b, grown(near_b, touching), frame.to_local(slab_b, middle_b), local_limit},
                    nullptr);
     const auto of_all = [&](const auto& features) {
       return vertices_only ? features.vertices.count() : features.count();

@@ -149,8 +149,8 @@ void NearVertices::for_each_near(std::uint32_t block_of_a, const Visit& visit) {
   }
 }
 
-bool NearVertices::name(std::size_t begin, std::size_t end, WorkMeter& meter,
-                        std::vector<ContactName>& names) {
+bool NearVertices::name(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
+                        std::vector<ContactName>& names, const NearListing& listing) {
   const auto listed = near_.a.listed();
   const bool are_many = !near_.few || near_.boxes.stride > few_at_once;
   while (begin < end) {
@@ -162,7 +162,8 @@ bool NearVertices::name(std::size_t begin, std::size_t end, WorkMeter& meter,
       if (!meter.spend()) return false;
       is_run ? find_beside_in_around(listed[begin]) : find_beside(listed[begin]);
       for_each_near(listed[begin], [&](const ContactName& name) {
-        if (is_closer_than(pair_, name, limit_)) names.push_back(name);
+        listing.add({Part::vertex, name.index_a()}, {Part::vertex, name.index_b()});
+        if (is_closer_than(pair_, name, threshold)) names.push_back(name);
       });
     }
   }

@@ -10,6 +10,7 @@
 #include "closest_range.hpp"
 #include "contact_name.hpp"
 #include "dmv.hpp"
+#include "near_listing.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
@@ -54,7 +55,7 @@ struct NearVerticesScratch {
   void reserve(const PairRoom& room);
 };
 
-/// Names all pairs of vertices that are strictly nearer than a limit, from the blocks of both surfaces: those
+/// Finds all pairs of vertices that are nearer than a limit, from the blocks of both surfaces: those
 /// in each other's box, of these those whose boxes are near each other, and of these the points.
 class NearVertices {
  public:
@@ -63,9 +64,11 @@ class NearVertices {
 
   /// Lists the blocks that may have such a pair; none of a where there is none.
   void find_blocks();
-  /// Appends the pairs of some of the listed blocks of a, in their order, by the points of a and then of b;
-  /// false when the budget ran out. Reads the lists alone, so that several threads may at once.
-  bool name(std::size_t begin, std::size_t end, WorkMeter& meter, std::vector<ContactName>& names);
+  /// Appends those pairs of some of the listed blocks of a that are nearer than a threshold, in their order,
+  /// by the points of a and then of b, and lists all that are not certainly further than the limit; false
+  /// when the budget ran out. Reads the lists of blocks alone, so that several threads may at once.
+  bool name(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
+            std::vector<ContactName>& names, const NearListing& listing);
   /// Offers the nearest pairs of all listed blocks, and what comes before them; false when the budget ran
   /// out. What is of no use any more beside the nearest so far is not looked for.
   bool offer(WorkMeter& meter, ClosestRange& nearest);

@@ -14,6 +14,7 @@ void PairCounters::add(const PairCounters& other) {
   decided_in_double += other.decided_in_double;
   exact_decisions += other.exact_decisions;
   fronts_left_out += other.fronts_left_out;
+  pairs_by_list += other.pairs_by_list;
   for (std::size_t level = 0; level < regions_expanded.size(); ++level)
     regions_expanded[level] += other.regions_expanded[level];
 }
@@ -65,7 +66,7 @@ void PairDetector::reserve(const PairRoom& room) {
 
 std::size_t PairDetector::byte_count() const {
   return sizeof(Scratch) + scratch_->search.byte_count() + bytes_of(scratch_->memory) +
-         scratch_->region_distances.byte_count() + bytes_of(scratch_->no_front.leaves);
+         scratch_->region_distances.byte_count() + scratch_->no_front.byte_count();
 }
 
 void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQuery& query,

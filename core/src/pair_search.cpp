@@ -28,6 +28,10 @@ constexpr std::size_t touching_first = 4096;  ///< leaf pairs of a large pair th
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t blocks_each = 64;
 constexpr std::size_t contacts_each = 128;
+constexpr std::size_t listed_each = 1024;
+constexpr std::size_t least_limit = 16;  ///< neither fronts nor lists are kept where all have to be shorter
+/// Of what is listed so many are one unit of the budget, as a look into two leaves is.
+constexpr std::size_t listed_in_one = 64;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -72,7 +76,17 @@ class PairSearch::Worker {
     if (!found.leaves.empty()) begin_leaves(found.leaves.front().pair);
   }
   void begin_leaves(const RegionPair& first) {
-    scratch.features.begin(leaf_pairs.leaf_a(first), leaf_pairs.leaf_b(first));
+    scratch.features.begin({leaf_pairs.leaf_a(first).box, leaf_pairs.leaf_b(first).box});
+  }
+  /// Before features that are wherever the two surfaces are near.
+  void begin_listed() {
+    const auto overlap = [](const Box& of, const Box& by) {
+      const double reach = (by.max - by.min).maxCoeff() / 16;
+      const Box near{of.min.cwiseMax((by.min.array() - reach).matrix()),
+                     of.max.cwiseMin((by.max.array() + reach).matrix())};
+      return (near.min.array() <= near.max.array()).all() ? near : of;
+    };
+    scratch.features.begin({overlap(pair.a.box(), pair.b.box()), overlap(pair.b.box(), pair.a.box())});
   }
   ~Worker() {
     meter.counters().discarded_in_float += decisions_.discarded_in_float;
@@ -135,6 +149,7 @@ void PairSearch::next_stage(Worker& worker) {
       return begin_contact(worker);
     case Stage::reach:
       return begin_contacts(worker);
+    case Stage::listed:
     case Stage::contacts:
     case Stage::vertices:
       return finish_contacts(worker);
@@ -151,13 +166,16 @@ void PairSearch::next_stage(Worker& worker) {
 
 void PairSearch::run(Slice& slice, Worker& worker) {
   switch (stage_) {
+    case Stage::listed:
+      return run_listed(slice, worker);
     case Stage::reach:
       return run_reach(slice, worker);
     case Stage::contacts:
       return run_contacts(slice, worker);
     case Stage::vertices:
-      slice.complete = NearVertices(worker.pair, query_.threshold, near_blocks_, worker.scratch.vertices)
-                           .name(slice.begin, slice.end, worker.meter, slice.names);
+      slice.complete =
+          NearVertices(worker.pair, wanted_, near_blocks_, worker.scratch.vertices)
+              .name(slice.begin, slice.end, query_.threshold, worker.meter, slice.names, listing_in(slice));
       return;
     case Stage::measured:
       return measure(worker.pair, std::span(names_).subspan(slice.begin, slice.end - slice.begin),
@@ -182,6 +200,7 @@ void PairSearch::reserve_as(const PairSearch& other) {
       std::max(other.found_.leaves.capacity(), other.slices_.front().found.leaves.capacity());
   found_.leaves.reserve(leaves);
   slices_.front().found.leaves.reserve(leaves);
+  graze::reserve_as(slices_.front().near, other.slices_.front().near);
   const std::size_t names = std::max(other.names_.capacity(), other.slices_.front().names.capacity());
   names_.reserve(names);
   slices_.front().names.reserve(names);
@@ -194,6 +213,7 @@ void PairSearch::reserve(const PairRoom& room) {
   for (auto* const leaves : {&found_.leaves, &slices_.front().found.leaves}) leaves->reserve(room.leaf_pairs);
   for (auto* const names : {&names_, &slices_.front().names})
     names->reserve(names_of_contact * room.contacts);
+  slices_.front().near.reserve(names_of_contact * room.contacts);
   graze::reserve(near_blocks_, room);
   graze::reserve(closest_.closest, room);
 }
@@ -202,7 +222,8 @@ std::size_t PairSearch::byte_count() const {
   std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
                       bytes_of(near_blocks_) + bytes_of(closest_.closest);
   for (const Slice& slice : slices_)
-    bytes += bytes_of(slice.found.leaves) + bytes_of(slice.names) + bytes_of(slice.closest.closest);
+    bytes += bytes_of(slice.found.leaves) + bytes_of(slice.near) + bytes_of(slice.names) +
+             bytes_of(slice.closest.closest);
   return bytes;
 }
 
@@ -215,6 +236,7 @@ PairSearch::Slice& PairSearch::add_slice() {
   slice.begin = slice.end = 0;
   slice.complete = true;
   slice.found.clear();
+  slice.near.clear();
   slice.names.clear();
   slice.closest.clear();
   return slice;
@@ -266,7 +288,11 @@ void PairSearch::slice_walk(Worker& worker, const Keep& keep, const Meet& meet) 
 /// Puts the leaf pairs of the slices together.
 void PairSearch::gather_found() {
   found_.clear();
-  if (slice_count_ == 1) return std::swap(found_, slices_.front().found);
+  if (slice_count_ == 1) {
+    std::swap(found_, slices_.front().found);
+    // As much room on either side, so that it does not matter how often they are swapped.
+    return slices_.front().found.leaves.reserve(found_.leaves.capacity());
+  }
   for (std::size_t i = 0; i < slice_count_; ++i) {
     const LeafPairList& found = slices_[i].found;
     found_.leaves.insert(found_.leaves.end(), found.leaves.begin(), found.leaves.end());
@@ -277,17 +303,21 @@ void PairSearch::gather_found() {
 /// After a walk: makes its leaf pairs the front, but for those that do not matter before the surfaces have
 /// moved by the slack, where what is looked for is nearer than `wanted`.
 void PairSearch::remember(double wanted, Worker& worker) {
-  front_->forget();
+  front_->forget_leaves();
   if (query_.slack <= 0) return;
+  const auto is_listed = [&](const LeafPair& leaves) { return leaves.lower <= wanted + query_.slack; };
+  const auto count =
+      static_cast<std::size_t>(std::count_if(found_.leaves.begin(), found_.leaves.end(), is_listed));
+  if (count > query_.front_limit || query_.front_limit < least_limit) {
+    ++worker.meter.counters().fronts_left_out;
+    return;
+  }
+  reserve_for_one_of_many(front_->leaves, count, query_.front_limit);
   for (const LeafPair& leaves : found_.leaves) {
-    if (leaves.lower <= wanted + query_.slack)
+    if (is_listed(leaves))
       front_->leaves.push_back({leaves.pair, rounded_down(leaves.lower), leaves.looked});
     else
       found_.beyond = std::min(found_.beyond, leaves.lower);
-  }
-  if (front_->leaves.size() > query_.front_limit) {
-    ++worker.meter.counters().fronts_left_out;
-    return front_->forget();
   }
   front_->beyond = found_.beyond;
   front_->apart = 0;
@@ -317,9 +347,10 @@ void PairSearch::set_distance(Worker& worker, const ContactName& nearest) {
 
 // ---- All contacts of a detail; where there are none, the closest points
 
-/// Whether pairs of leaves this far apart can have a contact; surfaces pierce each other at every threshold.
+/// Whether pairs of leaves this far apart can have a contact, or what is to be listed; surfaces pierce each
+/// other at every threshold.
 bool PairSearch::may_touch(double lower) const {
-  return lower < query_.threshold || (query_.detail == ContactDetail::features && lower == 0);
+  return lower < wanted_ || (query_.detail == ContactDetail::features && lower == 0);
 }
 
 /// The same of what comes nearer by the slack that a walk asks about.
@@ -328,25 +359,88 @@ auto PairSearch::may_touch_within_slack() const {
 }
 
 void PairSearch::begin_contact(Worker& worker) {
+  begin_listing();
+  if (stage_ == Stage::listed) return;
   if (query_.detail == ContactDetail::vertices) return begin_vertices(worker);
   stage_ = Stage::reach;
-  from_front_ = front_->beyond_now(*a_, *b_) > query_.threshold;
+  from_front_ = front_->beyond_now(*a_, *b_) > wanted_;
   if (from_front_) return slice_front();
   slice_walk(worker, may_touch_within_slack(), [](const RegionPair&) {});
+}
+
+/// Goes by the list of an earlier query where that is still all that can be in contact; otherwise, where the
+/// surfaces move little, a new one is made on the way.
+void PairSearch::begin_listing() {
+  wanted_ = query_.threshold;
+  is_listing_ = false;
+  if (query_.detail == ContactDetail::regions) return;
+  if (const NearList* const near = front_->list_for(*a_, *b_, query_.threshold)) {
+    stage_ = Stage::listed;
+    front_->walked = false;
+    slice_count_ = 0;
+    return add_slices_of(0, near->pairs.size(), listed_each);
+  }
+  if (!(query_.list_slack > 0)) return front_->forget_list();
+  is_listing_ = !front_->list_is_too_long && query_.front_limit >= least_limit;
+  if (is_listing_) wanted_ += query_.list_slack;
+}
+
+NearListing PairSearch::listing_in(Slice& slice) const {
+  return is_listing_ ? NearListing{&slice.near, query_.list_slack} : NearListing{};
+}
+
+void PairSearch::run_listed(Slice& slice, Worker& worker) {
+  const auto listed = std::span(front_->near->pairs).subspan(slice.begin, slice.end - slice.begin);
+  for (std::size_t i = 0; i < listed.size() && slice.complete; i += listed_in_one)
+    slice.complete = worker.meter.spend();
+  if (!slice.complete) return;
+  if (query_.detail == ContactDetail::vertices) {
+    for (const NearParts& parts : listed) {
+      const ContactName name = ContactName::of(vertex_piece(parts.a.index), vertex_piece(parts.b.index));
+      if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
+    }
+    return;
+  }
+  worker.begin_listed();
+  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
+  features.add_listed(listed);
+  features.finish();
+  if (slice_count_ > 1) sort_names(slice.names, worker);
+}
+
+/// Puts what the slices have listed together.
+void PairSearch::keep_list(Worker& worker) {
+  front_->forget_list();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < slice_count_; ++i) count += slices_[i].near.size();
+  front_->list_is_too_long = count > query_.front_limit;
+  if (front_->list_is_too_long) {
+    ++worker.meter.counters().fronts_left_out;
+    return;
+  }
+  if (front_->near == nullptr) front_->near = std::make_unique<NearList>();
+  NearList& near = *front_->near;
+  reserve_for_one_of_many(near.pairs, count, query_.front_limit);
+  for (std::size_t i = 0; i < slice_count_; ++i)
+    near.pairs.insert(near.pairs.end(), slices_[i].near.begin(), slices_[i].near.end());
+  near.beyond = wanted_ * round_down;
+  near.slack = query_.list_slack;
+  near.travel_a = a_->travel();
+  near.travel_b = b_->travel();
 }
 
 /// Without a walk: blocks of vertices are found by their boxes alone.
 void PairSearch::begin_vertices(Worker& worker) {
   if (!worker.meter.spend()) return give_up();
   stage_ = Stage::vertices;
-  NearVertices(worker.pair, query_.threshold, near_blocks_, worker.scratch.vertices).find_blocks();
+  NearVertices(worker.pair, wanted_, near_blocks_, worker.scratch.vertices).find_blocks();
   front_->walked = false;
   slice_count_ = 0;
   add_slices_of(0, near_blocks_.a.count, blocks_each);
 }
 
 void PairSearch::run_reach(Slice& slice, Worker& worker) {
-  if (from_front_) return take_front(slice, query_.threshold, worker);
+  if (from_front_) return take_front(slice, wanted_, worker);
   if (slice.start.empty()) return;
   slice.complete = worker.leaf_pairs.walk(
       slice.start, may_touch_within_slack(), [](const RegionPair&) {}, slice.found);
@@ -354,7 +448,7 @@ void PairSearch::run_reach(Slice& slice, Worker& worker) {
 
 void PairSearch::begin_contacts(Worker& worker) {
   gather_found();
-  if (!from_front_) remember(query_.threshold, worker);
+  if (!from_front_) remember(wanted_, worker);
   stage_ = Stage::contacts;
   slice_count_ = 0;
   slice_leaves_in_contact();
@@ -371,7 +465,8 @@ void PairSearch::slice_leaves_in_contact() {
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
   worker.begin_leaves(found_);
-  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
+  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names,
+                         listing_in(slice));
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
     slice.complete = !from_front_ || worker.meter.spend();
@@ -403,6 +498,8 @@ void PairSearch::add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& s
 }
 
 void PairSearch::finish_contacts(Worker& worker) {
+  if (stage_ == Stage::listed) ++worker.meter.counters().pairs_by_list;
+  if (is_listing_) keep_list(worker);
   gather_names(worker);
   begin_measuring(worker);
 }
@@ -425,6 +522,7 @@ void PairSearch::gather_names(Worker& worker) {
   names_.clear();
   if (slice_count_ == 1) {
     names_.swap(slices_.front().names);
+    slices_.front().names.reserve(names_.capacity());
   } else {
     for (std::size_t i = 0; i < slice_count_; ++i)
       names_.insert(names_.end(), slices_[i].names.begin(), slices_[i].names.end());
@@ -489,7 +587,7 @@ void PairSearch::approach_vertices(Worker& worker) {
 void PairSearch::begin_search(Worker& worker) {
   beyond_front_ = front_->beyond_now(*a_, *b_);
   from_front_ = beyond_front_ > 0;
-  certainly_apart_ = from_front_ && front_->apart > front_->motion_now(*a_, *b_);
+  certainly_apart_ = from_front_ && static_cast<double>(front_->apart) > front_->motion_now(*a_, *b_);
   found_.clear();
   closest_.clear();
   if (only_touching_) {
@@ -644,7 +742,7 @@ void PairSearch::finish_closest(Worker& worker) {
 void PairSearch::set_apart() {
   const double apart = std::min(closest_.closest.upper * (1 - 0x1p-38), closest_.lower);
   const bool is_known = apart > 0 && !about_vertices();
-  front_->apart = is_known ? (apart + front_->motion_now(*a_, *b_)) * round_down : 0;
+  front_->apart = is_known ? rounded_down((apart + front_->motion_now(*a_, *b_)) * round_down) : 0;
 }
 
 void PairSearch::report_closest(Worker& worker) {

@@ -10,6 +10,7 @@
 #include "leaf_pairs.hpp"
 #include "measure_batch.hpp"
 #include "name_order.hpp"
+#include "near_listing.hpp"
 #include "near_vertices.hpp"
 #include "paper.hpp"
 #include "parallel.hpp"
@@ -60,6 +61,7 @@ class PairSearch {
   /// What the slices that were made last are for.
   enum class Stage : std::uint8_t {
     start,
+    listed,    ///< the names of all contacts among features that an earlier query listed
     reach,     ///< pairs of leaves that may be in contact
     contacts,  ///< the names of all contacts in them
     vertices,  ///< the names of all pairs of vertices in blocks that may be near
@@ -70,10 +72,11 @@ class PairSearch {
   };
   struct Slice {
     std::span<const RegionPair> start;  ///< where to walk from
-    std::size_t begin = 0;              ///< a range of a front, of leaf pairs, of blocks or of names
+    std::size_t begin = 0;              ///< a range of a front, a list, of leaf pairs, of blocks or of names
     std::size_t end = 0;
     bool complete = true;
     LeafPairList found;
+    std::vector<NearParts> near;
     std::vector<ContactName> names;
     ClosestFound closest;
   };
@@ -85,6 +88,10 @@ class PairSearch {
   void as_in_paper(Worker& worker);
 
   void begin_contact(Worker& worker);
+  void begin_listing();
+  [[nodiscard]] NearListing listing_in(Slice& slice) const;
+  void run_listed(Slice& slice, Worker& worker);
+  void keep_list(Worker& worker);
   void begin_vertices(Worker& worker);
   void run_reach(Slice& slice, Worker& worker);
   void begin_contacts(Worker& worker);
@@ -136,6 +143,8 @@ class PairSearch {
   LeafFront* front_ = nullptr;
   PairAnswer* answer_ = nullptr;
   bool sliced_ = false;
+  double wanted_ = 0;             ///< how near contacts are, or what is listed for the next steps
+  bool is_listing_ = false;       ///< all that is as near
   bool from_front_ = false;       ///< the slices begin at the last query's front
   bool certainly_apart_ = false;  ///< by that front, in a search for the closest points
   double beyond_front_ = -1;

@@ -113,7 +113,8 @@ void validate_listed(const ListedLeaves& listed, const LeafFront& front, const S
   const Region& leaf_b = b.mesh().regions().region(listed.pair.b);
   const double motion = front.motion_now(a, b);
   const double lower = static_cast<double>(listed.lower) - motion;
-  const double looked = front.apart > motion ? static_cast<double>(listed.looked) - motion : 0;
+  const double looked =
+      static_cast<double>(front.apart) > motion ? static_cast<double>(listed.looked) - motion : 0;
   if (lower_now(a, leaf_a, b, leaf_b) >= std::max(lower, looked)) return;
   const CornersOf of_a(a, leaf_a);
   const CornersOf of_b(b, leaf_b);

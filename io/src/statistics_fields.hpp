@@ -9,7 +9,7 @@ namespace graze::io {
 
 /// The counters and times of a step by the names they have in a report, in the order in which they are
 /// written. `regions_expanded` is an array and stands between the two.
-inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 30> counter_fields{{
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 31> counter_fields{{
     {"objects", &StepStatistics::objects},
     {"objects_unread", &StepStatistics::objects_unread},
     {"objects_surveyed", &StepStatistics::objects_surveyed},
@@ -25,6 +25,7 @@ inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatis
     {"pairs_apart", &StepStatistics::pairs_apart},
     {"pairs_unchanged", &StepStatistics::pairs_unchanged},
     {"pairs_tested", &StepStatistics::pairs_tested},
+    {"pairs_by_list", &StepStatistics::pairs_by_list},
     {"pairs_near", &StepStatistics::pairs_near},
     {"pairs_in_contact", &StepStatistics::pairs_in_contact},
     {"contacts", &StepStatistics::contacts},

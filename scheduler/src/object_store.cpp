@@ -5,6 +5,7 @@
 #include <graze/bytes_of.hpp>
 #include <utility>
 
+#include "look_slack.hpp"
 #include "object_name.hpp"
 
 namespace graze {
@@ -58,11 +59,11 @@ void add_promise(Object& object) {
 
 /// Whether an object's box will do, unless that turns out to be near another: it was in no pair of the last
 /// step or can be viewed, and nobody will ask how far it has moved. What stands still is read, which then
-/// writes nothing.
+/// writes nothing, and so is what hardly moves, of which pairs have lists.
 bool can_be_surveyed(const Object& object, bool with_views) {
   return is_read_in_every_step(object) && !object.promises && !object.frozen &&
          (object.surveyed || object.moved) &&
-         (!object.looked_at || (with_views && object.surface().can_view(*object.bound)));
+         (!object.looked_at || (with_views && !object.is_calm && object.surface().can_view(*object.bound)));
 }
 
 /// Looks at some vertices of what an object is to be read from.
@@ -87,6 +88,11 @@ bool is_same(const Box& left, const Box& right) {
   return left.min == right.min && left.max == right.max;
 }
 
+/// At least how far some vertex has moved.
+double motion_between(const Box& left, const Box& right) {
+  return std::max((left.min - right.min).cwiseAbs().maxCoeff(), (left.max - right.max).cwiseAbs().maxCoeff());
+}
+
 /// What came of looking at all vertices.
 struct Looked {
   bool to_write = false;  ///< all vertices, and then the read is to be finished
@@ -94,7 +100,22 @@ struct Looked {
   std::optional<Diagnostic> problem;
 };
 
+/// Whether lists of vertices pay beside another object that moves as much.
+bool hardly_moves(const Object& object, double motion) {
+  return list_slack_of_vertices.of(2 * motion, object.surface().leaf_size()) > 0;
+}
+
+/// For so many steps after a calm box deceived, an object is not taken to be calm.
+constexpr std::uint8_t steps_until_calm = 16;
+
 const char* const stands_still = "it stands still until good positions are read";
+
+/// Of an object that is looked at, by its box.
+bool seems_calm(Object& object, const Box& now) {
+  if (object.restless_steps == 0) return hardly_moves(object, motion_between(object.box, now));
+  --object.restless_steps;
+  return false;
+}
 
 /// Takes what a survey saw, or says why not.
 Looked take_survey(Object& object, const Surface::PartSeen& all) {
@@ -107,6 +128,7 @@ Looked take_survey(Object& object, const Surface::PartSeen& all) {
   } else {
     looked.changed = !is_same(object.box, all.box);
     object.moved = looked.changed;
+    object.is_calm = object.to_block && seems_calm(object, all.box);
     object.box = all.box;
     object.promised = std::numeric_limits<double>::infinity();
   }
@@ -116,8 +138,14 @@ Looked take_survey(Object& object, const Surface::PartSeen& all) {
 /// Takes what was seen of all vertices, or says why not.
 Looked take_seen(Object& object, const Surface::PartSeen& all) {
   if (object.to_survey) return take_survey(object, all);
-  const bool seems_at_rest = object.surface().is_behind() && is_same(object.box, all.box);
+  const bool was_behind = object.surface().is_behind();
+  const bool seems_at_rest = was_behind && is_same(object.box, all.box);
   const Surface::ReadResult result = object.surface_to_write().take(all);
+  if (!was_behind && object.is_calm) {
+    object.is_calm = hardly_moves(object, result.displacement);
+    if (!object.is_calm && hardly_moves(object, motion_between(object.box, all.box)))
+      object.restless_steps = steps_until_calm;
+  }
   Looked looked{result.changed, result.changed, std::nullopt};
   // Where a view came before, it shows in the next step whether the object moves.
   object.moved = result.changed && !seems_at_rest;
@@ -335,7 +363,9 @@ void ObjectStore::take_input(Object& object) {
   if (std::exchange(object.viewed, false)) object.surface_to_write().end_view();
   object.to_survey = can_be_surveyed(object, with_blocks_);
   if (object.to_survey) ++surveyed_count_;
-  object.to_block = std::exchange(object.looked_at, false) && with_blocks_;
+  const bool was_looked_at = std::exchange(object.looked_at, false);
+  object.goes_by_lists = was_looked_at && !std::exchange(object.asked_for_blocks, false);
+  object.to_block = with_blocks_ && was_looked_at && !object.goes_by_lists;
   const bool was_unread = object.unread;
   object.unread = !checks_every_promise && !object.pose && !object.frozen && std::isfinite(object.promised);
   if ((was_unread && !object.to_survey) || object.unread) changed_ = true;
@@ -358,7 +388,7 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
   for (Object* const object : wanted) {
     if (!object->surveyed) --unread_count_;
     object->wanted = object->to_survey = false;
-    object->to_block = with_blocks_;
+    object->to_block = with_blocks_ && !object->goes_by_lists;
     object->to_view = with_blocks_ && object->surveyed && object->surface().can_view(*object->bound);
     if (object->to_view && object->in_parts)
       view_memory(*object);

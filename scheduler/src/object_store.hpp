@@ -49,10 +49,17 @@ struct Object {
   bool surveyed = false;
   bool to_survey = false;  ///< and not read, in the read that is under way
   bool moved = false;      ///< it was elsewhere than before when it was read last
-  bool looked_at = false;  ///< in a pair of the last step
-  bool to_block = false;   ///< blocks are made of its vertices as soon as they are read, and in a cache
-  bool to_view = false;    ///< in place of being read: it was surveyed
-  bool viewed = false;     ///< its surface looks at its bound memory, which after a step may go
+  /// It moved so little, as far as its box tells, that how far it does is worth knowing (SlackOfMotion); not
+  /// for some steps after it turned out to have moved further.
+  bool is_calm = false;
+  std::uint8_t restless_steps = 0;
+  bool looked_at = false;         ///< in a pair of the last step
+  bool asked_for_blocks = false;  ///< by a pair of the last step
+  /// No pair of the last step asked for blocks of its vertices, though some looked at it: they have lists.
+  bool goes_by_lists = false;
+  bool to_block = false;  ///< blocks are made of its vertices as soon as they are read, and in a cache
+  bool to_view = false;   ///< in place of being read: it was surveyed
+  bool viewed = false;    ///< its surface looks at its bound memory, which after a step may go
   /// What the refit under way counted; of another one where the numbers differ.
   struct Asked {
     std::uint64_t refit = 0;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <tuple>
 
+#include "look_slack.hpp"
+
 namespace graze {
 namespace {
 
@@ -28,28 +30,30 @@ constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 /// contacts at the least distance. SceneCapacity says so.
 constexpr std::size_t reserved_of_pair = 1024;
 
+/// How far two surfaces have come in this step, as far as that tells how far they will in the next: one that
+/// has not moved since the last answer may have come far before that, and so may one that had no place
+/// before.
+double motion_of(const PairJob& job) {
+  constexpr std::uint64_t placed_once = 1;
+  const auto of = [](const Surface& surface, std::uint64_t answered) {
+    const bool has_come = surface.version() > placed_once && surface.version() != answered;
+    return has_come ? surface.displacement() : 0;
+  };
+  return of(job.a->surface(), job.memory->version_a) + of(job.b->surface(), job.memory->version_b);
+}
+
+double smaller_leaf_of(const PairJob& job) {
+  return std::min(job.a->surface().leaf_size(), job.b->surface().leaf_size());
+}
+
 /// How loose a front is made: it lasts for some steps of the last motion, but is not so loose that it lists
 /// much that is not near.
-double slack_of(const Surface& a, const Surface& b) {
-  const double leaf = std::min(a.leaf_size(), b.leaf_size());
-  const double motion = a.displacement() + b.displacement();
+double slack_of(double motion, double leaf) {
   constexpr double steps = 6;
   constexpr double least_leaf_sizes = 1.0 / 64;
   constexpr double most_leaf_sizes = 0.5;
   if (motion > most_leaf_sizes * leaf) return 0;
   return std::clamp(steps * motion, least_leaf_sizes * leaf, most_leaf_sizes * leaf);
-}
-
-/// How much further than need be leaves are looked into: as long as that is far less than a leaf, for many
-/// steps of the last motion. For less than a few it does not pay.
-double look_slack_of(const Surface& a, const Surface& b) {
-  const double motion = a.displacement() + b.displacement();
-  constexpr double least_steps = 3;
-  constexpr double most_steps = 64;
-  constexpr double most_leaf_sizes = 1.0 / 64;
-  const double slack =
-      std::min(most_steps * motion, most_leaf_sizes * std::min(a.leaf_size(), b.leaf_size()));
-  return slack >= least_steps * motion ? slack : 0;
 }
 
 std::size_t bytes_of_lists(const PairAnswer& answer) {
@@ -74,8 +78,12 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
                                     ? 0
                                     : std::max<std::size_t>(1, settings_.region_distances / pair_count_);
   if (job.was_in_contact()) query.reach = infinity;
-  query.slack = slack_of(job.a->surface(), job.b->surface());
-  query.look_slack = look_slack_of(job.a->surface(), job.b->surface());
+  const double motion = motion_of(job);
+  const double leaf = smaller_leaf_of(job);
+  query.slack = slack_of(motion, leaf);
+  query.look_slack = look_slack.of(motion, leaf);
+  query.list_slack =
+      (is_about_vertices(query.detail) ? list_slack_of_vertices : list_slack_of_features).of(motion, leaf);
   query.front_limit = front_pairs_of_all / pair_count_;
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
@@ -157,7 +165,7 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
     return answers_.refer_to(large.job, answer);
   }
   LeafFront& front = job.memory_to_write().front;
-  large.front_bytes = bytes_of(front.leaves);
+  large.front_bytes = front.byte_count();
   large.pair.begin(a, b, query, front, answer);
   advance_large(place, worker);
 }
@@ -169,7 +177,7 @@ void PairJobs::advance_large(std::size_t place, unsigned worker) {
   large.answered = large.pair.advance(own.detector, own.counters);
   if (!large.answered) return;
   const PairAnswer& answer = answer_of_large(place);
-  own.front_bytes += bytes_of(job.memory_to_write().front.leaves) - large.front_bytes;
+  own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
   was_detected(job, answer);
   answers_.refer_to(large.job, answer);
 }
@@ -212,9 +220,9 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
     PairDetector::outer_bounds(a, b, query, own.answer);
   } else {
     LeafFront& front = job.memory_to_write().front;
-    own.front_bytes -= bytes_of(front.leaves);
+    own.front_bytes -= front.byte_count();
     own.detector.detect(a, b, query, front, own.answer, own.counters);
-    own.front_bytes += bytes_of(front.leaves);
+    own.front_bytes += front.byte_count();
     if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, own.answer);
     was_detected(job, own.answer);
   }

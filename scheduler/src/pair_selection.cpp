@@ -264,8 +264,8 @@ void PairSelection::forget(const SelectedPair& selected) {
   if (selected.memory != SelectedPair::none) memories_.release(selected.memory);
 }
 
-void PairSelection::reserve(std::size_t pairs, std::size_t leaf_pairs) {
-  memories_.reserve(pairs, leaf_pairs);
+void PairSelection::reserve(std::size_t pairs, const PairMemoryRoom& room) {
+  memories_.reserve(pairs, room);
   known_.reserve(pairs);
   last_.reserve(pairs);
   leaving_.reserve(pairs);

@@ -64,8 +64,8 @@ class PairSelection {
     if (selected.memory != SelectedPair::none) __builtin_prefetch(&memories_[selected.memory].version_a);
   }
 
-  /// Makes room for so many pairs that the broad phase keeps, with fronts of up to `leaf_pairs`.
-  void reserve(std::size_t pairs, std::size_t leaf_pairs);
+  /// Makes room for so many pairs that the broad phase keeps.
+  void reserve(std::size_t pairs, const PairMemoryRoom& room);
   /// Of the fronts only what was reserved.
   [[nodiscard]] std::size_t byte_count() const;
 

@@ -167,10 +167,10 @@ void PairTable::count_jobs(StepStatistics& statistics) const {
   }
 }
 
-void PairTable::reserve(std::size_t objects, std::size_t pairs, std::size_t leaf_pairs) {
+void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemoryRoom& room) {
   summaries_.reserve(objects);
   broad_phase_.reserve(objects, pairs);
-  selection_.reserve(pairs, leaf_pairs);
+  selection_.reserve(pairs, room);
   jobs_.reserve(pairs);
   resting_.reserve(pairs);
   listed_.reserve(pairs);

@@ -32,9 +32,9 @@ class PairTable {
   void add_row(const PairJob& job) { add_row(job.places); }
   void add_rows(const RestingRows& rows);
 
-  /// Makes room for so many objects, and pairs whose loose boxes meet, with fronts of up to `leaf_pairs`.
+  /// Makes room for so many objects, and pairs whose loose boxes meet.
   /// Before a step's `list` only.
-  void reserve(std::size_t objects, std::size_t pairs, std::size_t leaf_pairs);
+  void reserve(std::size_t objects, std::size_t pairs, const PairMemoryRoom& room);
   /// Of the fronts only what was reserved.
   [[nodiscard]] std::size_t byte_count() const;
 

@@ -20,6 +20,20 @@ constexpr std::size_t jobs_worth_a_refit = 3;
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
 constexpr std::size_t work_each = 8192;
 
+/// Whether a pair is answered by a list that an earlier step has made, without boxes or blocks. Where there
+/// is nothing in contact any more, the closest points are looked for among the leaves of a front, or of
+/// bounds that are at most as loose as the list allows; vertices are then looked for in blocks.
+bool is_by_list(const PairJob& job, bool with_blocks) {
+  const Surface& a = job.a->surface();
+  const Surface& b = job.b->surface();
+  const double threshold = job.thresholds.threshold;
+  if (job.task != PairJob::Task::detect) return false;
+  const NearList* const near = job.memory->front.list_for(a, b, threshold);
+  if (near == nullptr || !with_blocks) return near != nullptr;
+  const bool asks_contacts_alone = !job.was_in_contact() && job.thresholds.reach <= threshold;
+  return asks_contacts_alone || near->has_vertices_within(a, b, threshold);
+}
+
 /// How many vertices a region's bounds are made from; boxes but for leaves come from the children.
 std::uint32_t work_of(const Region& region, RefitOf what) {
   if (what != RefitOf::radii && !region.is_leaf()) return 0;
@@ -81,6 +95,7 @@ void RegionRefit::make_ready(Surface& surface) const {
 void RegionRefit::count_job(Object& object, bool walked) {
   if (object.asked.refit != refits_) {
     object.asked = {refits_, 0, false};
+    object.asked_for_blocks = with_blocks_;
     objects_.push_back(&object);
   }
   ++object.asked.jobs;
@@ -91,7 +106,7 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   ++refits_;
   objects_.clear();
   for (const PairJob& job : jobs)
-    if (job.is_looked_at())
+    if (job.is_looked_at() && !is_by_list(job, with_blocks_))
       for (Object* const object : {job.a, job.b}) count_job(*object, job.memory->front.walked);
   small_.clear();
   large_.clear();

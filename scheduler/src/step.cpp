@@ -15,8 +15,15 @@ struct Overloaded : Visitors... {
 template <typename... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
-/// How many pairs of leaves a reserved pair's front has room for; Scene::reserve says so.
-constexpr std::size_t leaf_pairs_of_front = 64;
+/// How many pairs of features a reserved pair's list has room for, for each of its part of the contacts;
+/// SceneCapacity says so.
+constexpr std::size_t features_of_contact = 4;
+
+PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
+  const bool has_lists = detail == ContactDetail::features || detail == ContactDetail::vertices;
+  const std::size_t contacts = capacity.contacts / capacity.near_pairs + 1;
+  return {leaf_pairs_of_front, has_lists ? features_of_contact * contacts : 0};
+}
 
 /// Milliseconds since the last call, or since it was made.
 class Lap {
@@ -112,7 +119,7 @@ void Step::reserve(const SceneCapacity& capacity) {
   if (capacity.near_pairs == 0) return;
   is_reserved_ = true;
   pairs_.reserve(std::max(capacity.objects, store_.objects().size()), capacity.near_pairs,
-                 leaf_pairs_of_front);
+                 room_for(capacity, settings_.detail));
   refit_.reserve(capacity.near_pairs);
   jobs_.reserve(capacity.near_pairs, capacity.contacts);
   contacts_.reserve(capacity.near_pairs);
@@ -214,6 +221,7 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.decided_in_double = sum.decided_in_double;
   statistics.exact_decisions = sum.exact_decisions;
   statistics.fronts_left_out = sum.fronts_left_out;
+  statistics.pairs_by_list = sum.pairs_by_list;
   statistics.regions_expanded = sum.regions_expanded;
 }
 

@@ -148,6 +148,21 @@ Bounds passing(const SegmentBlock& rows, std::size_t row, const TriangleBlock& c
   return bounds_by(kernels::filter().passing, rows, row, columns);
 }
 
+Bounds over_planes(const SegmentBlock& rows, std::size_t row, const TriangleBlock& columns, float limit) {
+  const auto kernel = kernels::filter().bound_over_planes;
+  return bounds_by([&](auto& pairs) { return kernel(pairs, limit); }, rows, row, columns);
+}
+
+/// How far a segment is from a triangle.
+Real distance(const Corner<2>& segment, const Corner<3>& triangle) {
+  if (passes(exact_corners(segment), exact_corners(triangle))) return 0;
+  Real nearest =
+      std::min(distance(Corner<1>{segment[0]}, triangle), distance(Corner<1>{segment[1]}, triangle));
+  for (std::size_t i = 0; i < 3; ++i)
+    nearest = std::min(nearest, distance(segment, Corner<2>{triangle[i], triangle[(i + 1) % 3]}));
+  return nearest;
+}
+
 /// Compares the bounds of all pairs with the truth.
 template <typename Row, typename Column>
 void check_bounds(const FilterFrame& frame, const std::vector<Row>& rows, const std::vector<Column>& columns,
@@ -199,6 +214,7 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
       take(bounds_of(segments, i, other_segments, limits));
     }
     take(passing(segments, i, triangles));
+    for (const float limit : {infinity, 0.5F, 0.0F}) take(over_planes(segments, i, triangles, limit));
   }
   for (const float limit : {infinity, 0.5F, 0.0F}) {
     take_pairs(near_boxes(points, triangles, limit));
@@ -300,6 +316,35 @@ TEST_CASE("filter: what a segment crosses survives, and little else") {
   CHECK(discarded > 20 * kept);
   std::cout << "compared " << crossed + discarded + kept << " segments and triangles: " << crossed
             << " cross, all kept; " << discarded << " discarded, " << kept << " kept without need\n";
+}
+
+TEST_CASE("filter: segments are at least as far from triangles as from their planes") {
+  std::size_t compared = 0;
+  std::size_t tight = 0;
+  for (std::size_t family = 0; family < family_count; ++family)
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      Generator generator(static_cast<Family>(family), seed);
+      const Batch a = generator.batch(Vector3d::Zero(), 20);
+      const Batch b = generator.batch(beside_of(seed), 20);
+      const FilterFrame frame(a.box, b.box);
+      const SegmentBlock segments = block_of(a.segments, frame);
+      const TriangleBlock triangles = block_of(b.triangles, frame);
+      for (std::size_t i = 0; i < a.segments.size(); ++i) {
+        const Bounds bounds = over_planes(segments, i, triangles, 0.1F);
+        for (std::size_t j = 0; j < b.triangles.size(); ++j) {
+          REQUIRE(bounds.is_left[j] == (bounds.bound[j] < 0.1F));
+          if (bounds.bound[j] < 0) continue;
+          const Real truth = distance(a.segments[i], b.triangles[j]) * Real(frame.scale());
+          REQUIRE(Real(bounds.bound[j]) <= truth);
+          ++compared;
+          tight += Real(bounds.bound[j]) > truth / 2 ? 1U : 0U;
+        }
+      }
+    }
+  CHECK(compared > 20'000);
+  CHECK(tight * 4 > compared);
+  std::cout << "compared " << compared << " segments beside planes; " << tight
+            << " bounds above half of the truth\n";
 }
 
 TEST_CASE("filter: every instruction set gives the bits of plain code") {

@@ -109,6 +109,24 @@ TEST_CASE("bench: caches are evicted") {
                       [](const auto& row) { return !is_graze(row); }) == 3);
 }
 
+TEST_CASE("bench: scenes are played in slow motion, through the same places") {
+  const TemporaryFolder folder;
+  const auto found_at = [&](const char* slow, const char* frames) {
+    const std::string json = (folder / "figures.json").string();
+    const ProgramResult result = run_graze({"bench", "--scenes", "S1", "--tasks", "A", "--frames", frames,
+                                            "--peers", "clipping", "--slow", slow, "--json", json});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const nlohmann::json figures = nlohmann::json::parse(read_file(json));
+    const nlohmann::json& run = figures.at("runs").at(0);
+    CHECK(std::to_string(run.at("slow").get<int>()) == slow);
+    CHECK(contender(run, "clipping").at("found") == contender(run, "graze").at("found"));
+    return contender(run, "graze").at("found").get<int>();
+  };
+  // The last frame is the third after 3 that are not timed, 4 times slower the same place.
+  CHECK(found_at("1", "4") == found_at("4", "22"));
+}
+
 TEST_CASE("bench: graze takes part with each instruction set asked for") {
   const TemporaryFolder folder;
   const std::string json = (folder / "figures.json").string();

@@ -3,8 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <graze/bytes_of.hpp>
+#include <graze/near_list.hpp>
 #include <graze/surface.hpp>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace graze {
@@ -41,30 +44,50 @@ struct LastWitness {
 
 /// Where DMV stopped for one pair of surfaces: every pair of leaves that may have been near, so that the next
 /// query, of a detail that is about surfaces or vertices as this one's was, can start there. It stays good
-/// while the surfaces move less than it was made loose.
+/// while the surfaces move less than it was made loose. And what is known of features, of which the same
+/// holds.
 struct LeafFront {
   std::vector<ListedLeaves> leaves;  ///< in the order of their numbers where `touched`
   /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
   /// nothing is known.
   double beyond = -1;
-  /// At least how far apart the surfaces were at the two marks. While they have not moved as much since, no
-  /// edge pierces a face, and what looks into leaves said of the rest is all that counts.
-  double apart = 0;
   Travel travel_a;
   Travel travel_b;
   /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
   LastWitness witness;
+  /// What a query for contacts asks in place of leaves, by marks of its own; null before the first.
+  std::unique_ptr<NearList> near;
+  /// At least how far apart the surfaces were at the two marks. While they have not moved as much since, no
+  /// edge pierces a face, and what looks into leaves said of the rest is all that counts.
+  float apart = 0;
   /// Whether the surfaces were at distance 0 when a query looked for the closest points last.
   bool touched = false;
   /// Whether the last query went from region to region: if not, their bounds may grow looser than others'.
   bool walked = true;
+  /// There were too many features for a list the last time.
+  bool list_is_too_long = false;
 
   void forget() {
+    forget_leaves();
+    forget_list();
+  }
+  void forget_list() {
+    if (near != nullptr) near->forget();
+    list_is_too_long = false;
+  }
+  void forget_leaves() {
     leaves.clear();
     beyond = -1;
     apart = 0;
     witness = {};
     touched = false;
+  }
+  /// The list, where it says all that can be in contact below a threshold now; otherwise null.
+  [[nodiscard]] const NearList* list_for(const Surface& a, const Surface& b, double threshold) const {
+    return near != nullptr && near->serves(a, b, threshold) ? near.get() : nullptr;
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return bytes_of(leaves) + (near == nullptr ? 0 : sizeof(NearList) + bytes_of(near->pairs));
   }
   /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
   [[nodiscard]] double beyond_now(const Surface& a, const Surface& b) const {

@@ -28,7 +28,10 @@ struct PairQuery {
   /// Where the closest points are looked for, leaves are looked into for what is this much further than need
   /// be, so that it is known for some steps which of them have nothing as near as that.
   double look_slack = 0;
-  /// A front of more pairs of leaves than this is not kept.
+  /// Where all contacts are looked for, features that are this much further than the threshold are listed, so
+  /// that for some steps no others need be asked; 0: none are.
+  double list_slack = 0;
+  /// A front of more pairs of leaves than this is not kept, nor a list of more pairs of features.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
   /// How many distances of regions are listed at most; 0: none are looked for.
   std::size_t region_distance_limit = 0;
@@ -53,6 +56,7 @@ struct GRAZE_API PairCounters {
   std::uint64_t decided_in_double = 0;   ///< questions
   std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
   std::uint64_t fronts_left_out = 0;     ///< fronts that were not kept because of PairQuery::front_limit
+  std::uint64_t pairs_by_list = 0;       ///< pairs of objects of which a list of features was asked alone
   /// Pairs of regions expanded, by level.
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
 

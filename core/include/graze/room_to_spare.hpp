@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -19,6 +20,15 @@ void reserve_to_overwrite(std::vector<Element>& elements, std::size_t room) {
   if (elements.capacity() >= room) return;
   std::vector<Element>().swap(elements);  // first, so that both are never there at once
   elements.reserve(room);
+}
+
+/// The same for a list that one object has of many that have others, about as long: room enough for most of
+/// them from the first time on, but no more than it may ever need.
+template <typename Element>
+void reserve_for_one_of_many(std::vector<Element>& elements, std::size_t count, std::size_t most) {
+  constexpr std::size_t least = 64;
+  if (elements.capacity() < count)
+    reserve_to_overwrite(elements, std::min(std::max(with_room_to_spare(count), least), most));
 }
 
 /// Makes them so many, all to be written over: those that there were stay what they are, so that in most

@@ -154,6 +154,9 @@ struct Filter {
   /// those of pairs with a bit. Of lanes that hold nothing in particular they say nothing in particular.
   std::uint32_t (*bound_segments)(SegmentPairs& pairs, const NearLimits& limits);
   std::uint32_t (*bound_points_and_triangles)(PointTrianglePairs& pairs, const NearLimits& limits);
+  /// Bounds how far segments are to one side of their triangles' planes, and gives one bit for each that is
+  /// not certainly further than the limit.
+  std::uint32_t (*bound_over_planes)(SegmentTrianglePairs& pairs, float limit);
   /// Gives one bit for each segment that does not certainly pass by its triangle. The bound is 0 or less, and
   /// the place is `passes_through` where it certainly goes through the triangle's inside from one side to the
   /// other.

@@ -78,8 +78,9 @@ struct StepStatistics {
   std::uint64_t pairs_ignored = 0;    ///< otherwise: ignored one by one
   std::uint64_t pairs_apart = 0;      ///< not filtered out, but the objects' boxes are not within reach
   std::uint64_t pairs_unchanged = 0;  ///< neither object has moved since the last answer, which is repeated
-  std::uint64_t pairs_tested = 0;     ///< given to DMV
-  std::uint64_t pairs_near = 0;       ///< listed in the report
+  std::uint64_t pairs_tested = 0;     ///< given to DMV, but for
+  std::uint64_t pairs_by_list = 0;  ///< those of which the features near in an earlier step were asked alone
+  std::uint64_t pairs_near = 0;     ///< listed in the report
   std::uint64_t pairs_in_contact = 0;
   std::uint64_t contacts = 0;
   std::uint64_t region_distances = 0;

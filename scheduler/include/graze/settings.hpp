@@ -65,7 +65,8 @@ struct SceneCapacity {
   std::size_t objects = 0;
   std::size_t calls_per_step = 0;  ///< made between two steps; each object of a batch is one
   /// Pairs near enough that StepStatistics::pairs_close counts them, or that the last report listed. Each has
-  /// its job, its answer, its memory between steps with room for 64 pairs of leaves, and its row in a report.
+  /// its job, its answer, its memory between steps with room for 64 pairs of leaves and for four pairs of
+  /// features for each contact that is its part of `contacts`, and its row in a report.
   /// Where this is not 0 objects, those that come later too, have room for the bounds of their regions, and
   /// each thread for a pair of 1,024 contacts, leaf pairs, and contacts at the least distance.
   std::size_t near_pairs = 0;

@@ -12,8 +12,9 @@ namespace {
 using tools::format;
 
 std::string where(const Run& run) {
-  return format("%s, %u thread%s%s", run.scene.c_str(), run.threads, run.threads == 1 ? "" : "s",
-                run.evict ? ", evicted" : "");
+  const std::string slow = run.slow == 1 ? "" : format(", %zu times slower", run.slow);
+  return format("%s, %u thread%s%s%s", run.scene.c_str(), run.threads, run.threads == 1 ? "" : "s",
+                run.evict ? ", evicted" : "", slow.c_str());
 }
 
 bool is_one_of(const std::string& scene, std::initializer_list<std::string_view> names) {

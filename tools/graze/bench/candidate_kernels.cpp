@@ -178,9 +178,9 @@ class CandidateKernels final : public Contender {
     scratch_.a.take(one_.features, {box_b, box_b, no_slab, limit}, &near_a);
     if (is_empty(near_a)) return;
     kernels::BoxInFrame near_b = empty_box();
-    scratch_.b.take(others_.features, {near_a, overlap_of(near_a, box_b), no_slab, limit}, &near_b);
+    scratch_.b.take(others_.features, {near_a, near_a, no_slab, limit}, &near_b);
     if (is_empty(near_b)) return;
-    scratch_.a.take(one_.features, {near_b, overlap_of(near_a, near_b), no_slab, limit}, nullptr);
+    scratch_.a.take(one_.features, {near_b, near_b, no_slab, limit}, nullptr);
     features.add_taken();
   }
 

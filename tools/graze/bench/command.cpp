@@ -14,6 +14,7 @@
 #include "bench/aims.hpp"
 #include "bench/growth_figures.hpp"
 #include "bench/run.hpp"
+#include "bench/slow_motion.hpp"
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
 
@@ -27,6 +28,7 @@ struct BenchOptions {
   std::size_t frames = 0;
   std::vector<std::string> peers = {"all"};
   bool evict = false;
+  std::size_t slow = 1;
   std::vector<std::string> instruction_sets;
   std::string data = GRAZE_SHARED_DATA;
   std::filesystem::path csv, json, figures;
@@ -104,7 +106,8 @@ std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<I
   std::vector<bench::Run> runs;
   for (const std::string_view name : bench::scene_names()) {
     if (!is_asked_for(name, options.scenes)) continue;
-    const bench::BenchScene scene = bench::make_scene(name, options.data);
+    const bench::BenchScene scene =
+        bench::in_slow_motion(bench::make_scene(name, options.data), options.slow);
     if (!scene.missing.empty()) {
       print("\nskipped: " + scene.name + ", " + scene.missing + "\n");
       continue;
@@ -116,6 +119,7 @@ std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<I
         run.threads = threads;
         run.frames = options.frames;
         run.evict = options.evict;
+        run.slow = options.slow;
         run.peers = peers_of(options, module);
         run.instruction_sets = sets;
         runs.push_back(bench::run_scene(scene, run, module));
@@ -177,6 +181,9 @@ void add_bench_command(CLI::App& app) {
       ->delimiter(',')
       ->capture_default_str();
   command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
+  command->add_option("--slow", options->slow, "Play scenes so many times slower")
+      ->check(CLI::Range(1U, 4096U))
+      ->capture_default_str();
   command
       ->add_option(
           "--instruction-set", options->instruction_sets,

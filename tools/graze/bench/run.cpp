@@ -217,6 +217,7 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
   run.task = options.task;
   run.threads = options.threads;
   run.evict = options.evict;
+  run.slow = options.slow;
   run.frames = options.frames > 0 ? options.frames : scene.frames;
   run.objects = world.objects.size();
   run.vertices = world.positions.size() / 3;

@@ -22,6 +22,7 @@ struct RunOptions {
   unsigned threads = 1;
   std::size_t frames = 0;               ///< that are timed; 0: as many as the scene says
   bool evict = false;                   ///< 64 MB of other memory are touched before each contender's turn
+  std::size_t slow = 1;                 ///< how many times slower than its own motion the scene is
   std::vector<std::string_view> peers;  ///< those that cannot do the task are left out
   /// Graze takes part with each; the name alone stands for the first, which is what the aims are about.
   std::vector<InstructionSet> instruction_sets;  ///< at least one
@@ -49,6 +50,7 @@ struct Run {
   Task task = Task::A;
   unsigned threads = 1;
   bool evict = false;
+  std::size_t slow = 1;
   std::size_t frames = 0, objects = 0, vertices = 0, frames_verified = 0;
   double distance = 0;
   std::vector<Timing> timings;

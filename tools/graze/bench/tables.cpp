@@ -76,6 +76,7 @@ nlohmann::ordered_json figures_of(const Run& run) {
                                     {"task", std::string(1, static_cast<char>(run.task))},
                                     {"threads", run.threads},
                                     {"evict", run.evict},
+                                    {"slow", run.slow},
                                     {"frames", run.frames},
                                     {"frames_verified", run.frames_verified},
                                     {"objects", run.objects},
@@ -101,11 +102,12 @@ nlohmann::ordered_json figures_of(const Run& run) {
 }
 
 std::string csv_of(const std::vector<Run>& runs) {
-  std::string text = "scene,task,threads,evict,contender,median_ms,p99_ms,worst_ms,first_ms,found,is_right\n";
+  std::string text =
+      "scene,task,threads,evict,slow,contender,median_ms,p99_ms,worst_ms,first_ms,found,is_right\n";
   for (const Run& run : runs)
     for (const Timing& timing : run.timings) {
-      text += format("%s,%c,%u,%d,\"%s\",", run.scene.c_str(), static_cast<char>(run.task), run.threads,
-                     run.evict ? 1 : 0, timing.name.c_str());
+      text += format("%s,%c,%u,%d,%zu,\"%s\",", run.scene.c_str(), static_cast<char>(run.task), run.threads,
+                     run.evict ? 1 : 0, run.slow, timing.name.c_str());
       text += timing.complaint.empty() ? format("%.6g,%.6g,%.6g,%.6g,%zu,1\n", timing.median, timing.p99,
                                                 timing.worst, timing.first, timing.found)
                                        : ",,,,,0\n";
