@@ -7,8 +7,8 @@ namespace graze {
 namespace {
 
 /// Which pair gets which memory is a matter of chance, and so is when one first needs room. Of so many each
-/// has it from the start, which is 4 MiB; where there are more, reserving makes room.
-constexpr std::size_t with_room_at_once = 4096;
+/// has it from the start, which is half a MiB; where there are more, reserving makes room.
+constexpr std::size_t with_room_at_once = 512;
 
 }  // namespace
 
