@@ -106,7 +106,7 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   ++refits_;
   objects_.clear();
   for (const PairJob& job : jobs)
-    if (job.is_looked_at() && !is_by_list(job, with_blocks_))
+    if (job.is_looked_at() && (to_the_letter_ || !is_by_list(job, with_blocks_)))
       for (Object* const object : {job.a, job.b}) count_job(*object, job.memory->front.walked);
   small_.clear();
   large_.clear();

@@ -146,6 +146,35 @@ TEST_CASE("calm: in a heap that trembles lists spare searches, and show in no re
     }
 }
 
+TEST_CASE("calm: distances of regions are those of now, whatever pairs are answered from") {
+  Heap heap(mesh_of(models::sphere(20, 12)));
+  SceneSettings settings = settings_of(0.04, 0.1);
+  settings.region_distances = 100'000;
+  Told told(settings, heap);
+  std::uint64_t by_list = 0;
+  for (std::size_t frame = 0; frame < 12; ++frame) {
+    INFO("frame " << frame);
+    for (std::size_t i = 0; i < count; ++i) heap.place(i, 1e-4, Eigen::Vector3d::Zero());
+    told.tell(heap, frame == 0 ? 1 : 4e-4);
+    Told fresh(settings, heap);
+    fresh.tell(heap, 1);
+    const ReportHandle report = told.scene().step();
+    const ReportHandle afresh = fresh.scene().step();
+    const auto found = report->region_distances();
+    const auto expected = afresh->region_distances();
+    REQUIRE(found.size() == expected.size());
+    REQUIRE(found.size() > 1000);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      REQUIRE(found[i].level == expected[i].level);
+      REQUIRE(found[i].distance == expected[i].distance);
+      REQUIRE(found[i].point_a == expected[i].point_a);
+      REQUIRE(found[i].point_b == expected[i].point_b);
+    }
+    by_list += report->statistics().pairs_by_list;
+  }
+  CHECK(by_list > 500);
+}
+
 TEST_CASE("calm: where a box keeps still about vertices that move far, no motion is asked for in vain") {
   Heap heap(mesh_of(models::sphere(20, 12)));
   const std::size_t vertices = heap.at(0).size();
