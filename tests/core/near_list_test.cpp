@@ -77,7 +77,7 @@ void play(const Rest& rest, const PairQuery& query, double tremor, bool sliced, 
   Surface b = surface_of(rest.b);
   Asking asking(sliced);
   std::vector<Contact> last;
-  for (int step = 0; step < 20; ++step) {
+  for (int step = 0; step < 14; ++step) {
     const auto seed = static_cast<std::uint64_t>(step);
     const Eigen::Vector3d way(rest.apart + step * rest.drift, 0.03, 0.02);
     REQUIRE(a.set_positions(wobbled(rest.a, tremor, seed).positions).taken());
@@ -99,8 +99,8 @@ void play(const Rest& rest, const PairQuery& query, double tremor, bool sliced, 
 }
 
 std::vector<Rest> rests() {
-  const Shape ball = shape_of(models::sphere(24, 18));
-  const Shape ring = shape_of(models::torus(24, 12, 0.7, 0.3));
+  const Shape ball = shape_of(models::sphere(18, 12));
+  const Shape ring = shape_of(models::torus(18, 10, 0.7, 0.3));
   const Shape block = shape_of(models::box({1, 1, 1}));
   const Shape of_quads = shape_of(models::sphere(16, 12, models::Faces::quads));
   const Shape sheet = shape_of(models::sheet(12, 12, 1.5, 1.5, models::Faces::quads));
@@ -122,7 +122,7 @@ TEST_CASE("near list: what is listed spares searches, and shows in no answer") {
   for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices}) {
     Tally tally;
     for (const Rest& rest : rests())
-      for (const double threshold : {0.0, 0.02, 0.3})
+      for (const double threshold : {0.0, 0.02, 0.25})
         for (const double tremor : {0.0, 1e-6, 3e-4}) {
           if (detail == ContactDetail::vertices && threshold == 0) continue;
           PairQuery query = query_of(detail, threshold);
@@ -133,7 +133,7 @@ TEST_CASE("near list: what is listed spares searches, and shows in no answer") {
         }
     CHECK(tally.contacts > 10'000);
     CHECK(tally.by_list * 3 > tally.answers * 2);
-    CHECK(tally.changes > 100);
+    CHECK(tally.changes > 40);
     if (detail == ContactDetail::features) CHECK(tally.piercings > 1000);
     std::cout << tally.by_list << " of " << tally.answers << " answers by lists, " << tally.contacts
               << " contacts, " << tally.piercings << " piercings, " << tally.changes << " changes\n";

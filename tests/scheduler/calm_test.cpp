@@ -16,7 +16,7 @@ namespace graze::tests {
 namespace {
 
 constexpr std::size_t side = 3;
-constexpr std::size_t count = side * side * side;
+constexpr std::size_t count = side * side * 2;
 
 /// The bodies of a heap and where they are.
 class Heap {
@@ -86,7 +86,7 @@ class Told {
 void change(std::size_t frame, Told& told) {
   if (frame % 16 == 9) told.scene().ignore(told.id(4), told.id(13));
   if (frame % 16 == 12) told.scene().watch(told.id(4), told.id(13));
-  if (frame == 22) {
+  if (frame == 20) {
     PairRule rule;
     rule.contact_distance = 0.05;
     rule.range = 0.05;
@@ -102,9 +102,9 @@ struct Tally {
 };
 
 void play(const SceneSettings& settings, double tremor, Tally& tally) {
-  Heap heap(mesh_of(models::sphere(20, 12)));
+  Heap heap(mesh_of(models::sphere(16, 10)));
   Told told(settings, heap);
-  for (std::size_t frame = 0; frame < 40; ++frame) {
+  for (std::size_t frame = 0; frame < 30; ++frame) {
     INFO("frame " << frame << ", " << settings.threads << " threads, tremor " << tremor);
     const bool jumps = frame % 11 == 7;
     for (std::size_t i = 0; i < count; ++i)
@@ -139,7 +139,7 @@ TEST_CASE("calm: in a heap that trembles lists spare searches, and show in no re
         settings.threads = threads;
         play(settings, tremor, tally);
       }
-      CHECK(tally.rows > 3000);
+      CHECK(tally.rows > 1000);
       CHECK(tally.by_list * 2 > tally.tested);
       CHECK(tally.surveyed_when_calm == 0);
       std::cout << tally.by_list << " of " << tally.tested << " pairs by lists, " << tally.rows << " rows\n";
@@ -147,7 +147,7 @@ TEST_CASE("calm: in a heap that trembles lists spare searches, and show in no re
 }
 
 TEST_CASE("calm: distances of regions are those of now, whatever pairs are answered from") {
-  Heap heap(mesh_of(models::sphere(20, 12)));
+  Heap heap(mesh_of(models::sphere(16, 10)));
   SceneSettings settings = settings_of(0.04, 0.1);
   settings.region_distances = 100'000;
   Told told(settings, heap);
@@ -163,7 +163,7 @@ TEST_CASE("calm: distances of regions are those of now, whatever pairs are answe
     const auto found = report->region_distances();
     const auto expected = afresh->region_distances();
     REQUIRE(found.size() == expected.size());
-    REQUIRE(found.size() > 1000);
+    REQUIRE(found.size() > 300);
     for (std::size_t i = 0; i < found.size(); ++i) {
       REQUIRE(found[i].level == expected[i].level);
       REQUIRE(found[i].distance == expected[i].distance);
@@ -172,11 +172,11 @@ TEST_CASE("calm: distances of regions are those of now, whatever pairs are answe
     }
     by_list += report->statistics().pairs_by_list;
   }
-  CHECK(by_list > 500);
+  CHECK(by_list > 200);
 }
 
 TEST_CASE("calm: where a box keeps still about vertices that move far, no motion is asked for in vain") {
-  Heap heap(mesh_of(models::sphere(20, 12)));
+  Heap heap(mesh_of(models::sphere(16, 10)));
   const std::size_t vertices = heap.at(0).size();
   Scene scene(settings_of(0.04, 0.04, ContactDetail::vertices));
   std::array<std::vector<float>, 2> memory;
