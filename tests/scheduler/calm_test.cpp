@@ -26,8 +26,10 @@ class Heap {
   }
   /// At its place but for a way off and a tremor, in numbers that floats hold.
   void place(std::size_t body, double tremor, const Eigen::Vector3d& off) {
-    const Eigen::Vector3d cell(static_cast<double>(body % side), static_cast<double>(body / side % side),
-                               static_cast<double>(body / side / side));
+    const std::size_t row = body / side;
+    const std::size_t layer = row / side;
+    const Eigen::Vector3d cell(static_cast<double>(body % side), static_cast<double>(row % side),
+                               static_cast<double>(layer));
     now_[body].clear();
     for (const Eigen::Vector3d& rest : mesh_->rest()) {
       const Eigen::Vector3d by(random_.between(-tremor, tremor), random_.between(-tremor, tremor),
