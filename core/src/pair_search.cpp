@@ -11,6 +11,7 @@
 #include "last_witness.hpp"
 #include "measure.hpp"
 #include "measure_batch.hpp"
+#include "pair_search_worker.hpp"
 #include "parallel.hpp"
 #include "validate.hpp"
 
@@ -28,10 +29,6 @@ constexpr std::size_t touching_first = 4096;  ///< leaf pairs of a large pair th
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t blocks_each = 64;
 constexpr std::size_t contacts_each = 128;
-constexpr std::size_t listed_each = 1024;
-constexpr std::size_t least_limit = 16;  ///< neither fronts nor lists are kept where all have to be shorter
-/// Of what is listed so many are one unit of the budget, as a look into two leaves is.
-constexpr std::size_t listed_in_one = 64;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -60,52 +57,6 @@ std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance) {
 }
 
 }  // namespace
-
-/// One thread's view of the search.
-class PairSearch::Worker {
- public:
-  Worker(const PairSearch& search, SearchScratch& given, PairCounters& counters)
-      : scratch(given),
-        pair{*search.a_, *search.b_, decisions_},
-        meter(search.query_, counters),
-        leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {
-    scratch.features.begin();
-  }
-  /// Before looking into some of the leaf pairs found: all slices see them in one frame.
-  void begin_leaves(const LeafPairList& found) {
-    if (!found.leaves.empty()) begin_leaves(found.leaves.front().pair);
-  }
-  void begin_leaves(const RegionPair& first) {
-    scratch.features.begin({leaf_pairs.leaf_a(first).box, leaf_pairs.leaf_b(first).box});
-  }
-  /// Before features that are wherever the two surfaces are near.
-  void begin_listed() {
-    const auto overlap = [](const Box& of, const Box& by) {
-      const double reach = (by.max - by.min).maxCoeff() / 16;
-      const Box near{of.min.cwiseMax((by.min.array() - reach).matrix()),
-                     of.max.cwiseMin((by.max.array() + reach).matrix())};
-      return (near.min.array() <= near.max.array()).all() ? near : of;
-    };
-    scratch.features.begin({overlap(pair.a.box(), pair.b.box()), overlap(pair.b.box(), pair.a.box())});
-  }
-  ~Worker() {
-    meter.counters().discarded_in_float += decisions_.discarded_in_float;
-    meter.counters().named_in_float += decisions_.named_in_float;
-    meter.counters().decided_in_double += decisions_.in_double;
-    meter.counters().exact_decisions += decisions_.exact;
-  }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
-
- private:
-  DecisionCount decisions_;
-
- public:
-  SearchScratch& scratch;
-  const SurfacePair pair;
-  WorkMeter meter;
-  LeafPairs leaf_pairs;
-};
 
 void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
                        PairAnswer& answer, bool sliced) {
@@ -366,67 +317,6 @@ void PairSearch::begin_contact(Worker& worker) {
   from_front_ = front_->beyond_now(*a_, *b_) > wanted_;
   if (from_front_) return slice_front();
   slice_walk(worker, may_touch_within_slack(), [](const RegionPair&) {});
-}
-
-/// Goes by the list of an earlier query where that is still all that can be in contact; otherwise, where the
-/// surfaces move little, a new one is made on the way.
-void PairSearch::begin_listing() {
-  wanted_ = query_.threshold;
-  is_listing_ = false;
-  if (query_.detail == ContactDetail::regions) return;
-  if (const NearList* const near = front_->list_for(*a_, *b_, query_.threshold)) {
-    stage_ = Stage::listed;
-    front_->walked = false;
-    slice_count_ = 0;
-    return add_slices_of(0, near->pairs.size(), listed_each);
-  }
-  if (!(query_.list_slack > 0)) return front_->forget_list();
-  is_listing_ = !front_->list_is_too_long && query_.front_limit >= least_limit;
-  if (is_listing_) wanted_ += query_.list_slack;
-}
-
-NearListing PairSearch::listing_in(Slice& slice) const {
-  return is_listing_ ? NearListing{&slice.near, query_.list_slack} : NearListing{};
-}
-
-void PairSearch::run_listed(Slice& slice, Worker& worker) {
-  const auto listed = std::span(front_->near->pairs).subspan(slice.begin, slice.end - slice.begin);
-  for (std::size_t i = 0; i < listed.size() && slice.complete; i += listed_in_one)
-    slice.complete = worker.meter.spend();
-  if (!slice.complete) return;
-  if (query_.detail == ContactDetail::vertices) {
-    for (const NearParts& parts : listed) {
-      const ContactName name = ContactName::of(vertex_piece(parts.a.index), vertex_piece(parts.b.index));
-      if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
-    }
-    return;
-  }
-  worker.begin_listed();
-  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
-  features.add_listed(listed);
-  features.finish();
-  if (slice_count_ > 1) sort_names(slice.names, worker);
-}
-
-/// Puts what the slices have listed together.
-void PairSearch::keep_list(Worker& worker) {
-  front_->forget_list();
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < slice_count_; ++i) count += slices_[i].near.size();
-  front_->list_is_too_long = count > query_.front_limit;
-  if (front_->list_is_too_long) {
-    ++worker.meter.counters().fronts_left_out;
-    return;
-  }
-  if (front_->near == nullptr) front_->near = std::make_unique<NearList>();
-  NearList& near = *front_->near;
-  reserve_for_one_of_many(near.pairs, count, query_.front_limit);
-  for (std::size_t i = 0; i < slice_count_; ++i)
-    near.pairs.insert(near.pairs.end(), slices_[i].near.begin(), slices_[i].near.end());
-  near.beyond = wanted_ * round_down;
-  near.slack = query_.list_slack;
-  near.travel_a = a_->travel();
-  near.travel_b = b_->travel();
 }
 
 /// Without a walk: blocks of vertices are found by their boxes alone.
