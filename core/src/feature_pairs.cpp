@@ -61,7 +61,7 @@ void CloseFeatures::with_names(const Use& use) {
   use(names);
 }
 
-void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names) {
+std::size_t keep_nearest_of_each(const SurfacePair& pair, std::span<ContactName> names) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (kept == 0 || !names[kept - 1].same_features(names[i]))
@@ -69,7 +69,7 @@ void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& nam
     else if (names[i] != names[i - 1] && compare_distances(pair, names[i], names[kept - 1]) < 0)
       names[kept - 1] = names[i];
   }
-  names.resize(kept);
+  return kept;
 }
 
 }  // namespace graze

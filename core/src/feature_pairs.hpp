@@ -41,7 +41,7 @@ class CloseFeatures {
 
 /// Keeps one of sorted names for each pair of features. Where two features meet in several pieces (a fold and
 /// a triangle, two crossings), the nearest stands for them; a piercing sorts first, and of equally near ones
-/// the first.
-void keep_nearest_of_each(const SurfacePair& pair, std::vector<ContactName>& names);
+/// the first. Returns how many there are then, the first of the names.
+std::size_t keep_nearest_of_each(const SurfacePair& pair, std::span<ContactName> names);
 
 }  // namespace graze

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <utility>
 
 namespace graze {
@@ -13,9 +14,9 @@ constexpr std::size_t short_list = 64;
 
 constexpr int digit_bits = 8;
 constexpr std::size_t digit_count = std::size_t{1} << digit_bits;
-constexpr int most_digits = 64 / digit_bits;
+constexpr int key_bits = std::numeric_limits<std::uint64_t>::digits;
 
-ContactName::Widths widths_of(const std::vector<ContactName>& names) {
+ContactName::Widths widths_of(std::span<const ContactName> names) {
   std::uint32_t of_a = 0;
   std::uint32_t of_b = 0;
   for (const ContactName& name : names) {
@@ -31,7 +32,7 @@ bool by_feature_of_a(const ContactName& left, const ContactName& right) {
 }
 
 /// Sorts those of one feature of a each, as they are left where those of a come in order: mostly a few.
-void sort_groups(std::vector<ContactName>& names) {
+void sort_groups(std::span<ContactName> names) {
   for (auto begin = names.begin(); begin != names.end();) {
     auto end = begin;
     while (++end != names.end() && end->of_a() == begin->of_a()) {
@@ -41,33 +42,33 @@ void sort_groups(std::vector<ContactName>& names) {
   }
 }
 
-std::size_t digit(std::uint64_t key, int place) {
-  return key >> (place * digit_bits) & (digit_count - 1);
+std::size_t digit(std::uint64_t key, int shift) {
+  return key >> shift & (digit_count - 1);
 }
 
 }  // namespace
 
-/// From the lowest digit up; digits that all keys share are passed over.
+/// From the lowest digit up. Each begins at a bit that is not the same in all keys.
 void NameOrder::sort_keys() {
   std::uint64_t varying = 0;
   for (const std::uint64_t key : keys_) varying |= key ^ keys_.front();
-  for (int place = 0; place < most_digits; ++place) {
-    if (digit(varying, place) == 0) continue;
+  for (int shift = 0; shift < key_bits && varying >> shift != 0; shift += digit_bits) {
+    shift += std::countr_zero(varying >> shift);
     std::array<std::uint32_t, digit_count> begin{};
-    for (const std::uint64_t key : keys_) ++begin[digit(key, place)];
+    for (const std::uint64_t key : keys_) ++begin[digit(key, shift)];
     std::uint32_t sum = 0;
     for (std::uint32_t& entry : begin) sum += std::exchange(entry, sum);
     spare_.resize(keys_.size());
-    for (const std::uint64_t key : keys_) spare_[begin[digit(key, place)]++] = key;
+    for (const std::uint64_t key : keys_) spare_[begin[digit(key, shift)]++] = key;
     keys_.swap(spare_);
   }
 }
 
-void NameOrder::sort(std::vector<ContactName>& names) {
+void NameOrder::sort(std::span<ContactName> names) {
   if (std::is_sorted(names.begin(), names.end(), by_feature_of_a)) return sort_groups(names);
   if (names.size() < short_list) return std::sort(names.begin(), names.end());
   const ContactName::Widths widths = widths_of(names);
-  if (widths.all() > 64) return std::sort(names.begin(), names.end());
+  if (widths.all() > key_bits) return std::sort(names.begin(), names.end());
   keys_.resize(names.size());
   std::transform(names.begin(), names.end(), keys_.begin(),
                  [&](const ContactName& name) { return name.packed(widths); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact_name.hpp"
@@ -12,7 +13,7 @@ namespace graze {
 /// few steps for each whatever their order.
 class NameOrder {
  public:
-  void sort(std::vector<ContactName>& names);
+  void sort(std::span<ContactName> names);
 
   template <typename Self>
   static auto parts(Self& self) {

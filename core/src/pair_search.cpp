@@ -28,7 +28,6 @@ constexpr std::size_t closest_each = 64;
 constexpr std::size_t touching_first = 4096;  ///< leaf pairs of a large pair that one thread asks alone
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t blocks_each = 64;
-constexpr std::size_t contacts_each = 128;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -78,15 +77,19 @@ bool PairSearch::advance(SearchScratch& scratch, PairCounters& counters) {
   Worker worker(*this, scratch, counters);
   while (stage_ != Stage::done) {
     next_stage(worker);
-    if (slice_count_ > 1) return false;
-    if (slice_count_ == 1) run(slices_.front(), worker);
+    if (slice_count() > 1) return false;
+    if (slice_count() == 1) run(0, worker);
   }
   return true;
 }
 
 void PairSearch::run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters) {
   Worker worker(*this, scratch, counters);
-  run(slices_[index], worker);
+  run(index, worker);
+}
+
+void PairSearch::run(std::size_t index, Worker& worker) {
+  stage_ == Stage::ordered ? order(stretches_[index], worker) : run(slices_[index], worker);
 }
 
 void PairSearch::next_stage(Worker& worker) {
@@ -104,6 +107,8 @@ void PairSearch::next_stage(Worker& worker) {
     case Stage::contacts:
     case Stage::vertices:
       return finish_contacts(worker);
+    case Stage::ordered:
+      return begin_measuring(worker);
     case Stage::measured:
       return finish_measuring(worker);
     case Stage::approach:
@@ -118,20 +123,20 @@ void PairSearch::next_stage(Worker& worker) {
 void PairSearch::run(Slice& slice, Worker& worker) {
   switch (stage_) {
     case Stage::listed:
-      return run_listed(slice, worker);
+      run_listed(slice, worker);
+      return bin_names(slice, worker);
     case Stage::reach:
       return run_reach(slice, worker);
     case Stage::contacts:
-      return run_contacts(slice, worker);
+      run_contacts(slice, worker);
+      return bin_names(slice, worker);
     case Stage::vertices:
       slice.complete =
           NearVertices(worker.pair, wanted_, near_blocks_, worker.scratch.vertices)
               .name(slice.begin, slice.end, query_.threshold, worker.meter, slice.names, listing_in(slice));
-      return;
+      return bin_names(slice, worker);
     case Stage::measured:
-      return measure(worker.pair, std::span(names_).subspan(slice.begin, slice.end - slice.begin),
-                     std::span(answer_->contacts).subspan(slice.begin, slice.end - slice.begin),
-                     worker.scratch.measure);
+      return run_measured(slice, worker);
     case Stage::approach:
       return run_approach(slice, worker);
     case Stage::closest:
@@ -155,6 +160,7 @@ void PairSearch::reserve_as(const PairSearch& other) {
   const std::size_t names = std::max(other.names_.capacity(), other.slices_.front().names.capacity());
   names_.reserve(names);
   slices_.front().names.reserve(names);
+  stretches_.reserve(1);
   graze::reserve_as(near_blocks_, other.near_blocks_);
   graze::reserve_as(closest_.closest, other.closest_.closest);
 }
@@ -165,16 +171,18 @@ void PairSearch::reserve(const PairRoom& room) {
   for (auto* const names : {&names_, &slices_.front().names})
     names->reserve(names_of_contact * room.contacts);
   slices_.front().near.reserve(names_of_contact * room.contacts);
+  stretches_.reserve(1);
   graze::reserve(near_blocks_, room);
   graze::reserve(closest_.closest, room);
 }
 
 std::size_t PairSearch::byte_count() const {
   std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
-                      bytes_of(near_blocks_) + bytes_of(closest_.closest);
+                      bytes_of(stretches_) + bytes_of(runs_) + bytes_of(near_blocks_) +
+                      bytes_of(closest_.closest);
   for (const Slice& slice : slices_)
     bytes += bytes_of(slice.found.leaves) + bytes_of(slice.near) + bytes_of(slice.names) +
-             bytes_of(slice.closest.closest);
+             bytes_of(slice.runs) + bytes_of(slice.closest.closest);
   return bytes;
 }
 
@@ -371,76 +379,12 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
       add_closest_vertices(a, b, slice, worker);
   }
   features.finish();
-  // So that less is left for the thread that puts the slices together, where an edge between two slices'
-  // faces is met once more.
-  if (slice_count_ > 1 && query_.detail == ContactDetail::features) sort_names(slice.names, worker);
-}
-
-void PairSearch::sort_names(std::vector<ContactName>& names, Worker& worker) const {
-  worker.scratch.order.sort(names);
-  if (query_.detail == ContactDetail::features) keep_nearest_of_each(worker.pair, names);
 }
 
 void PairSearch::add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const {
   SearchScratch& scratch = worker.scratch;
   const ContactName name = closest_vertices(worker.pair, a, b, scratch.features, scratch.nearest_of_leaves);
   if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
-}
-
-void PairSearch::finish_contacts(Worker& worker) {
-  if (stage_ == Stage::listed) ++worker.meter.counters().pairs_by_list;
-  if (is_listing_) keep_list(worker);
-  gather_names(worker);
-  begin_measuring(worker);
-}
-
-void PairSearch::begin_measuring(Worker& worker) {
-  slice_count_ = 0;
-  if (names_.empty() && query_.reach <= query_.threshold) {
-    answer_->contacts.clear();
-    stage_ = Stage::done;
-  } else if (names_.empty()) {
-    begin_approach(worker);
-  } else {
-    stage_ = Stage::measured;
-    resize_to_overwrite(answer_->contacts, names_.size());
-    add_slices_of(0, names_.size(), contacts_each);
-  }
-}
-
-void PairSearch::gather_names(Worker& worker) {
-  names_.clear();
-  if (slice_count_ == 1) {
-    names_.swap(slices_.front().names);
-    slices_.front().names.reserve(names_.capacity());
-  } else {
-    for (std::size_t i = 0; i < slice_count_; ++i)
-      names_.insert(names_.end(), slices_[i].names.begin(), slices_[i].names.end());
-  }
-  sort_names(names_, worker);
-}
-
-void PairSearch::finish_measuring(Worker& worker) {
-  set_distance(worker, lowest_measured(worker));
-  answer_->in_contact = answer_->listed = true;
-  slice_count_ = 0;
-  stage_ = Stage::done;
-}
-
-/// The lowest name at the least distance, among contacts that have been measured.
-ContactName PairSearch::lowest_measured(Worker& worker) const {
-  worker.scratch.lowest.clear();
-  ClosestSet closest(worker.pair, Ties::lowest, worker.scratch.lowest);
-  double nearest = infinity;
-  for (const Contact& contact : answer_->contacts) nearest = std::min(nearest, contact.distance);
-  // More than the rounding of a contact's distance, which is relative to the size of its features and their
-  // gap; those are inside the objects' boxes.
-  const double size = (a_->box().max - a_->box().min).maxCoeff() + (b_->box().max - b_->box().min).maxCoeff();
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    const double distance = answer_->contacts[i].distance;
-    if (distance <= nearest + (size + distance) * 0x1p-44) closest.offer(names_[i]);
-  }
-  return closest.front();
 }
 
 // ---- The closest points

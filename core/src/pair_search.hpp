@@ -9,6 +9,7 @@
 #include "leaf_names.hpp"
 #include "leaf_pairs.hpp"
 #include "measure_batch.hpp"
+#include "name_bins.hpp"
 #include "name_order.hpp"
 #include "near_listing.hpp"
 #include "near_vertices.hpp"
@@ -26,13 +27,14 @@ struct SearchScratch {
   PaperScratch paper;
   Closest lowest;
   ParallelScratch parallel;
+  NameBinning binning;
   NameOrder order;
   MeasureScratch measure;
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_leaves, self.paper,
-                    self.lowest, self.parallel, self.order, self.measure);
+                    self.lowest, self.parallel, self.binning, self.order, self.measure);
   }
 };
 
@@ -49,7 +51,9 @@ class PairSearch {
   /// Goes on to the next stage of several slices; true when the answer is there instead. Otherwise each of
   /// the slices below `slice_count` is to be run once, and then this called again.
   bool advance(SearchScratch& scratch, PairCounters& counters);
-  [[nodiscard]] std::size_t slice_count() const { return slice_count_; }
+  [[nodiscard]] std::size_t slice_count() const {
+    return stage_ == Stage::ordered ? stretches_.size() : slice_count_;
+  }
   void run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters);
 
   /// Of searches that are not cut.
@@ -65,6 +69,7 @@ class PairSearch {
     reach,     ///< pairs of leaves that may be in contact
     contacts,  ///< the names of all contacts in them
     vertices,  ///< the names of all pairs of vertices in blocks that may be near
+    ordered,   ///< all names sorted, each once: one of the stretches that bins were cut into
     measured,  ///< the contacts themselves
     approach,  ///< pairs of leaves where the closest points may be
     closest,   ///< the closest points in them
@@ -74,15 +79,28 @@ class PairSearch {
     std::span<const RegionPair> start;  ///< where to walk from
     std::size_t begin = 0;              ///< a range of a front, a list, of leaf pairs, of blocks or of names
     std::size_t end = 0;
+    std::size_t first_contact = 0;  ///< where those of a range of names begin
     bool complete = true;
     LeafPairList found;
     std::vector<NearParts> near;
     std::vector<ContactName> names;
+    std::vector<BinRun> runs;  ///< of `names`, where there are many slices
+    double nearest = 0;        ///< of the contacts that were measured
     ClosestFound closest;
+  };
+  /// A range of all names, and from where they come; sorted those that are contacts.
+  struct Stretch {
+    std::size_t begin;
+    std::size_t end;
+    struct {
+      std::size_t begin = 0;
+      std::size_t end = 0;
+    } runs;
   };
   class Worker;
 
   void next_stage(Worker& worker);
+  void run(std::size_t index, Worker& worker);
   void run(Slice& slice, Worker& worker);
   void give_up();
   void as_in_paper(Worker& worker);
@@ -98,10 +116,15 @@ class PairSearch {
   void run_contacts(Slice& slice, Worker& worker);
   void add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const;
   void finish_contacts(Worker& worker);
+  void bin_names(Slice& slice, Worker& worker) const;
+  void begin_ordering();
+  void order(Stretch& stretch, Worker& worker);
+  std::size_t sort_names(std::span<ContactName> names, Worker& worker) const;
   void begin_measuring(Worker& worker);
-  void gather_names(Worker& worker);
-  void sort_names(std::vector<ContactName>& names, Worker& worker) const;
+  void run_measured(Slice& slice, Worker& worker);
   void finish_measuring(Worker& worker);
+  [[nodiscard]] std::span<const ContactName> names_of(const Slice& slice) const;
+  [[nodiscard]] std::span<Contact> contacts_of(const Slice& slice) const;
   [[nodiscard]] ContactName lowest_measured(Worker& worker) const;
   [[nodiscard]] bool may_touch(double lower) const;
   [[nodiscard]] auto may_touch_within_slack() const;
@@ -158,6 +181,8 @@ class PairSearch {
   LeafPairList found_;
   NearBlocks near_blocks_;
   std::vector<ContactName> names_;
+  std::vector<Stretch> stretches_;                  ///< of these
+  std::vector<std::span<const ContactName>> runs_;  ///< of the slices' names, by bins
   ClosestFound closest_;
 };
 

@@ -54,7 +54,6 @@ void PairSearch::run_listed(Slice& slice, Worker& worker) {
   CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
   features.add_listed(listed);
   features.finish();
-  if (slice_count_ > 1) sort_names(slice.names, worker);
 }
 
 /// Puts what the slices have listed together.
