@@ -42,6 +42,6 @@ class CloseFeatures {
 /// Keeps one of sorted names for each pair of features. Where two features meet in several pieces (a fold and
 /// a triangle, two crossings), the nearest stands for them; a piercing sorts first, and of equally near ones
 /// the first. Returns how many there are then, the first of the names.
-std::size_t keep_nearest_of_each(const SurfacePair& pair, std::span<ContactName> names);
+[[nodiscard]] std::size_t keep_nearest_of_each(const SurfacePair& pair, std::span<ContactName> names);
 
 }  // namespace graze

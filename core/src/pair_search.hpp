@@ -119,7 +119,7 @@ class PairSearch {
   void bin_names(Slice& slice, Worker& worker) const;
   void begin_ordering();
   void order(Stretch& stretch, Worker& worker);
-  std::size_t sort_names(std::span<ContactName> names, Worker& worker) const;
+  [[nodiscard]] std::size_t sort_names(std::span<ContactName> names, Worker& worker) const;
   void begin_measuring(Worker& worker);
   void run_measured(Slice& slice, Worker& worker);
   void finish_measuring(Worker& worker);

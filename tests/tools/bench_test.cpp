@@ -89,7 +89,7 @@ TEST_CASE("bench: every contender answers right, and all have times") {
     const double wanted = aim.at("wanted");
     CHECK(aim.at("is_reached") == (aim.at("is_at_least") == true ? measured >= wanted : measured <= wanted));
   }
-  for (const char* what : {"A: worst / median", "B: ns a contact", "memory, bytes a vertex"})
+  for (const char* what : {"A: worst / median", "B: ns a near pair", "memory, bytes a vertex"})
     CHECK(aims.count(what) == 1);
 }
 

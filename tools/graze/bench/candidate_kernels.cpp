@@ -159,7 +159,7 @@ class CandidateKernels final : public Contender {
     }
     features.finish();
     order_.sort(names_);
-    keep_nearest_of_each(pair, names_);
+    names_.resize(keep_nearest_of_each(pair, names_));
     const std::size_t first = contacts_.size();
     contacts_.resize(first + names_.size());
     measure(pair, names_, std::span(contacts_).subspan(first), measuring_);

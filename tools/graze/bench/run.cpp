@@ -13,6 +13,7 @@
 
 #include "bench/candidate_kernels.hpp"
 #include "bench/graze_contender.hpp"
+#include "bench/near_pairs.hpp"
 #include "bench/verification.hpp"
 #include "check_failed.hpp"
 #include "progress.hpp"
@@ -179,6 +180,23 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
   return entrants;
 }
 
+/// Those of all pairs of objects.
+std::size_t count_all_near_pairs(const BenchScene& scene, const World& world,
+                                 std::span<const TrianglePair> near) {
+  std::size_t count = 0;
+  for (auto begin = near.begin(); begin != near.end();) {
+    const std::uint32_t a = begin->object_a;
+    const std::uint32_t b = begin->object_b;
+    const auto end = std::find_if(begin, near.end(), [&](const TrianglePair& pair) {
+      return pair.object_a != a || pair.object_b != b;
+    });
+    count += count_near_pairs({*scene.bodies[a].mesh, world.positions_of(a)},
+                              {*scene.bodies[b].mesh, world.positions_of(b)}, {begin, end}, world.distance);
+    begin = end;
+  }
+  return count;
+}
+
 /// Every instruction set gives the same bits; those of the others come right after the first.
 void compare_reports(std::span<Entrant> of_sets) {
   const std::uint64_t hash = of_sets.front().figures().hash;
@@ -251,6 +269,8 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
     if (frame == 0) require_threads(options.threads);
   }
   compare_reports(std::span(entrants).first(options.instruction_sets.size()));
+  if (run.task == Task::B && run.threads == 1)
+    run.near_pairs = count_all_near_pairs(scene, world, verification.triangle_pairs());
   for (const Entrant& entrant : entrants) run.timings.push_back(entrant.timing());
   run.graze = entrants.front().figures();
   return run;

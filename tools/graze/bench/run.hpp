@@ -53,6 +53,7 @@ struct Run {
   std::size_t slow = 1;
   std::size_t frames = 0, objects = 0, vertices = 0, frames_verified = 0;
   double distance = 0;
+  std::size_t near_pairs = 0;  ///< of task B with one thread: count_near_pairs in the last frame
   std::vector<Timing> timings;
   GrazeFigures graze;
 

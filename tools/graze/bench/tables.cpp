@@ -82,6 +82,7 @@ nlohmann::ordered_json figures_of(const Run& run) {
                                     {"objects", run.objects},
                                     {"vertices", run.vertices},
                                     {"distance", run.distance},
+                                    {"near_pairs", run.near_pairs},
                                     {"hash", format("%016" PRIx64, run.graze.hash)},
                                     {"contacts_per_frame", run.graze.contacts_per_frame},
                                     {"object_bytes", run.graze.object_bytes},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "bench/contender.hpp"
@@ -19,6 +20,8 @@ class Verification {
   /// What is wrong with an answer for this frame, in one sentence; empty where nothing is. `precision` is how
   /// closely distances must agree beyond what double itself loses.
   [[nodiscard]] std::string complaint(Found& found, double precision) const;
+  /// Of tasks B and D the near pairs of triangles of that frame, those of two objects side by side.
+  [[nodiscard]] std::span<const TrianglePair> triangle_pairs() const { return truth_.triangle_pairs; }
 
  private:
   [[nodiscard]] std::string about_vertices(Found& found) const;
