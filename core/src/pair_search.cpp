@@ -44,13 +44,23 @@ void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
       std::max(listed.looked, rounded_down((static_cast<double>(now.looked) + motion) * round_down));
 }
 
+/// The order in which leaf pairs are asked whether they touch: one leaf of b after the other, where those
+/// that follow one another are far apart, and with each those of a by their numbers. Leaves that follow one
+/// another by number are neighbours, and where boxes overlap but surfaces do not touch they would all be in
+/// the way.
+std::uint64_t touching_order(const RegionPair& pair) {
+  constexpr std::uint32_t odd = 0x9e3779b9;  // 2^32 / the golden ratio
+  return std::uint64_t{pair.b * odd} << 32U | pair.a;
+}
+
 /// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
 /// many they are; the others are not looked into, and stay in no order.
 std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance) {
   const auto rest = std::partition(leaves.begin(), leaves.end(),
                                    [&](const LeafPair& each) { return each.lower <= distance; });
   std::sort(leaves.begin(), rest, [](const LeafPair& left, const LeafPair& right) {
-    return std::tie(left.lower, left.pair.a, left.pair.b) < std::tie(right.lower, right.pair.a, right.pair.b);
+    return left.lower != right.lower ? left.lower < right.lower
+                                     : touching_order(left.pair) < touching_order(right.pair);
   });
   return static_cast<std::size_t>(rest - leaves.begin());
 }
@@ -284,13 +294,11 @@ void PairSearch::remember(double wanted, Worker& worker) {
   front_->travel_b = b_->travel();
 }
 
-/// Puts the front in the order of the leaves' numbers.
+/// Puts the front in the order in which it is looked for a place that touches.
 void PairSearch::sort_front() {
-  const auto number = [](const ListedLeaves& leaves) {
-    return std::uint64_t{leaves.pair.a} << 32U | leaves.pair.b;
-  };
-  std::sort(front_->leaves.begin(), front_->leaves.end(),
-            [&](const auto& left, const auto& right) { return number(left) < number(right); });
+  std::sort(front_->leaves.begin(), front_->leaves.end(), [&](const auto& left, const auto& right) {
+    return touching_order(left.pair) < touching_order(right.pair);
+  });
 }
 
 void PairSearch::give_up() {

@@ -47,7 +47,7 @@ struct LastWitness {
 /// while the surfaces move less than it was made loose. And what is known of features, of which the same
 /// holds.
 struct LeafFront {
-  std::vector<ListedLeaves> leaves;  ///< in the order of their numbers where `touched`
+  std::vector<ListedLeaves> leaves;  ///< in the order in which they are asked, where `touched`
   /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
   /// nothing is known.
   double beyond = -1;
