@@ -28,9 +28,9 @@ std::uint64_t next_serial() {
 
 Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), serial_(next_serial()) {
   if (mesh_ == nullptr) throw Error("surface: there is no mesh");
-  const std::uint32_t count = mesh_->vertex_count();
-  in_double_.assign(count, Eigen::Vector3d::Zero());
-  set_positions(mesh_->rest());
+  viewed_ = mesh_->rest();
+  box_ = survey(*mesh_, viewed_, 0, mesh_->vertex_count()).box;
+  version_ = 1;
 }
 
 bool Surface::is_within_limits(const Eigen::Vector3d& position) {
@@ -98,13 +98,9 @@ Surface::ReadResult Surface::take(const PartSeen& all) {
   result.bad_vertex = all.bad_vertex;
   result.bad_position = all.bad_position;
   if (!result.taken()) return result;
-  result.changed = all.changed || is_behind_ || version_ == 0;
+  result.changed = all.changed || is_behind_;
   if (result.changed) {
-    const std::uint32_t count = mesh_->vertex_count();
-    if (all.in_double != in_float_.empty()) {
-      in_double_ = std::vector<Eigen::Vector3d>(all.in_double ? count : 0, Eigen::Vector3d::Zero());
-      in_float_ = std::vector<Eigen::Vector3f>(all.in_double ? 0 : count, Eigen::Vector3f::Zero());
-    }
+    own_positions(all.in_double);
     const bool is_jump = std::exchange(is_behind_, false);
     result.displacement = is_jump ? std::numeric_limits<double>::infinity()
                                   : std::sqrt(std::max(all.furthest_squared, all.furthest.squaredNorm()));
@@ -112,6 +108,19 @@ Surface::ReadResult Surface::take(const PartSeen& all) {
   }
   displacement_ = result.displacement;
   return result;
+}
+
+/// Has memory for all positions in a precision.
+void Surface::own_positions(bool in_double) {
+  const std::size_t count = mesh_->vertex_count();
+  viewed_ = {};
+  if ((in_double ? in_double_.size() : in_float_.size()) == count) return;
+  in_double_ = std::vector<Eigen::Vector3d>(in_double ? count : 0, Eigen::Vector3d::Zero());
+  in_float_ = std::vector<Eigen::Vector3f>(in_double ? 0 : count, Eigen::Vector3f::Zero());
+}
+
+void Surface::end_view() {
+  viewed_ = has_own_positions() ? PositionView() : PositionView(mesh_->rest());
 }
 
 void Surface::view(const PositionView& view, const Box& box) {
@@ -263,7 +272,7 @@ Eigen::Vector3d posed(const std::array<double, 12>& rows, const Eigen::Vector3d&
 
 /// Whether positions lie in memory as the surface's own do.
 bool Surface::is_laid_out_like(const PositionView& view) const {
-  return is_packed(*mesh_, view) && view.is_double() == in_float_.empty();
+  return is_packed(*mesh_, view) && view.is_double() == positions().is_double();
 }
 
 bool Surface::can_view(const PositionView& view) const {
@@ -273,9 +282,10 @@ bool Surface::can_view(const PositionView& view) const {
 Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
                                              Displacement displacement) const {
   std::optional<PartSeen> part;
+  const void* const before = positions().data();
   if (begin < end && is_laid_out_like(view))
-    part = view.is_double() ? seen_in_passes<double>(view.data(), in_double_.data(), begin, end, displacement)
-                            : seen_in_passes<float>(view.data(), in_float_.data(), begin, end, displacement);
+    part = view.is_double() ? seen_in_passes<double>(view.data(), before, begin, end, displacement)
+                            : seen_in_passes<float>(view.data(), before, begin, end, displacement);
   else if (begin < end && displacement == Displacement::bound && is_packed(*mesh_, view))
     part = seen_as_jump(view, begin, end);
   if (!part) part = look(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
@@ -335,9 +345,8 @@ class PointExtent {
 };
 
 template <typename Number>
-Box box_of(const std::vector<Eigen::Matrix<Number, 3, 1>>& points, const RegionTree& tree,
-           const Region& region, RefitOf what) {
-  PointExtent<Number> extent(points.front().data(), points.size());
+Box box_of(const PositionView& positions, const RegionTree& tree, const Region& region, RefitOf what) {
+  PointExtent<Number> extent(static_cast<const Number*>(positions.data()), positions.size());
   extent.add(tree.vertices(region));
   if (what == RefitOf::faces) extent.add(tree.border(region));
   return extent.box();
@@ -347,7 +356,8 @@ Box box_of(const std::vector<Eigen::Matrix<Number, 3, 1>>& points, const RegionT
 
 Box Surface::box_now(const Region& region, RefitOf what) const {
   const RegionTree& tree = mesh_->regions();
-  return in_double_.empty() ? box_of(in_float_, tree, region, what) : box_of(in_double_, tree, region, what);
+  return positions().is_double() ? box_of<double>(positions(), tree, region, what)
+                                 : box_of<float>(positions(), tree, region, what);
 }
 
 void Surface::refit(RefitOf what) {

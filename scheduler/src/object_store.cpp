@@ -31,13 +31,14 @@ Diagnostic bad_vertex(const Object& object, const Surface::ReadResult& result, c
               coordinates(result.bad_position) + (finite ? ", beyond 2^120" : "") + "; " + consequence};
 }
 
-std::optional<Diagnostic> check_promise(const Object& object, const Surface::ReadResult& result) {
+/// Says so where a vertex that moved so far, or further, broke a promise.
+std::optional<Diagnostic> check_promise(const Object& object, double displacement) {
   // The displacement is rounded; a promise kept to the last bit is not called broken.
-  if (!(result.displacement > object.promised * round_up)) return std::nullopt;
+  if (!(displacement > object.promised * round_up)) return std::nullopt;
   return Diagnostic{object.id, DiagnosticKind::broken_promise,
-                    name_of(object.id, object) + ": a vertex moved by " +
-                        std::to_string(result.displacement) + ", further than the " +
-                        std::to_string(object.promised) + " promised; all positions were read"};
+                    name_of(object.id, object) + ": a vertex moved by " + std::to_string(displacement) +
+                        ", further than the " + std::to_string(object.promised) +
+                        " promised; all positions were read"};
 }
 
 bool is_read_in_every_step(const Object& object) {
@@ -72,8 +73,8 @@ Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::u
   const Surface& surface = object.surface();
   if (object.pose) return surface.look_at_pose(*object.pose, begin, end);
   // A promise is held against what moved furthest, not against a bound of it.
-  const auto displacement =
-      std::isfinite(object.promised) ? Surface::Displacement::exact : Surface::Displacement::bound;
+  const bool is_held = object.has_surface && std::isfinite(object.promised);
+  const auto displacement = is_held ? Surface::Displacement::exact : Surface::Displacement::bound;
   const PositionView view = object.positions ? PositionView(*object.positions) : *object.bound;
   return surface.look_at_positions(view, begin, end, displacement);
 }
@@ -129,8 +130,9 @@ Looked take_survey(Object& object, const Surface::PartSeen& all) {
     looked.changed = !is_same(object.box, all.box);
     object.moved = looked.changed;
     object.is_calm = object.to_block && seems_calm(object, all.box);
-    object.box = all.box;
-    object.promised = std::numeric_limits<double>::infinity();
+    object.box = object.seen = all.box;
+    object.has_surface = false;
+    object.promised = 0;
   }
   return looked;
 }
@@ -154,7 +156,10 @@ Looked take_seen(Object& object, const Surface::PartSeen& all) {
   } else {
     looked.changed = looked.changed || object.frozen == result.taken();
     object.frozen = !result.taken();
-    looked.problem = object.frozen ? bad_vertex(object, result, stands_still) : check_promise(object, result);
+    looked.problem = object.frozen
+                         ? bad_vertex(object, result, stands_still)
+                         : check_promise(object, object.has_surface ? result.displacement
+                                                                    : motion_between(object.seen, all.box));
   }
   return looked;
 }
@@ -171,7 +176,8 @@ void finish_read(Object& object) {
   }
   object.unread = object.surveyed = false;
   object.promised = 0;
-  object.box = object.surface().box();
+  object.box = object.seen = object.surface().box();
+  object.has_surface = true;
   object.version = object.surface().version();
 }
 
@@ -221,7 +227,7 @@ void ObjectStore::apply(AddObject& call) {
   object->serial = next_serial_++;
   object->settings = std::move(call.settings);
   object->owned_surface = std::move(call.surface);
-  object->box = object->surface().box();
+  object->box = object->seen = object->surface().box();
   object->version = object->surface().version();
   object->mesh = &object->surface().mesh();
   object->in_parts = object->mesh->vertex_count() > vertices_each;
@@ -266,6 +272,7 @@ void ObjectStore::apply(const BindPositions& call) {
   if (object == nullptr) return;
   object->positions.reset();
   object->bound = call.view;
+  object->moved = true;  // it may be anywhere
   object->policy = call.policy;
   object->told = true;
   object->is_new = true;
@@ -289,7 +296,8 @@ void ObjectStore::apply(UnbindPositions& call) {
   will_have_changed_ = true;
   if (object->frozen) return;
   object->promised = 0;
-  object->box = object->surface().box();
+  object->box = object->seen = object->surface().box();
+  object->has_surface = true;
 }
 
 void ObjectStore::apply(const PositionsChanged& call) {
@@ -370,7 +378,8 @@ void ObjectStore::take_input(Object& object) {
   object.unread = !checks_every_promise && !object.pose && !object.frozen && std::isfinite(object.promised);
   if ((was_unread && !object.to_survey) || object.unread) changed_ = true;
   if (!object.unread) return list_to_read(object);
-  object.box = grown(object.surface().box(), object.promised);
+  object.box = grown(object.seen, object.promised);
+  object.surveyed = false;
   ++unread_count_;
 }
 

@@ -23,9 +23,9 @@ struct Object {
   ObjectSettings settings;
   std::unique_ptr<Surface> owned_surface;  ///< through the accessors below
   const Mesh* mesh = nullptr;              ///< the surface's
-  /// Where it certainly is: the surface's box, grown by what was promised since that was read; or that of a
-  /// survey.
-  Box box;
+  Box box;                    ///< where it certainly is: what was seen, grown by what was promised since
+  Box seen;                   ///< its box when it was looked at last, read or surveyed
+  bool has_surface = true;    ///< the surface's positions are those of that look
   std::uint64_t version = 0;  ///< the surface's, after a read
 
   // What the next read takes up, and what is promised of it.
@@ -37,8 +37,8 @@ struct Object {
   bool is_new = false;          ///< given since the last step
   bool may_have_input = false;  ///< it is among those that the store looks at in the next read
   double promise = std::numeric_limits<double>::infinity();
-  /// No vertex is further from where the surface has it, by the promises since that was read. At first
-  /// without a bound: promises speak of where a step saw the object, and none has.
+  /// No vertex is further from where it was when the object was looked at last, by the promises since. At
+  /// first without a bound: promises speak of where a step saw the object, and none has.
   double promised = std::numeric_limits<double>::infinity();
   bool promises = false;  ///< bound memory of which motion has been promised
   /// There are positions that have not been read, since promises say that they are far from everything, or a
@@ -48,7 +48,7 @@ struct Object {
   /// Its unread memory was surveyed: `box` is where that is, and the surface stands where it was read last.
   bool surveyed = false;
   bool to_survey = false;  ///< and not read, in the read that is under way
-  bool moved = false;      ///< it was elsewhere than before when it was read last
+  bool moved = false;      ///< it was elsewhere than before when it was read last, or was bound since
   /// It moved so little, as far as its box tells, that how far it does is worth knowing (SlackOfMotion); not
   /// for some steps after it turned out to have moved further.
   bool is_calm = false;

@@ -268,14 +268,18 @@ TEST_CASE("a surface in parts: positions are kept in the precision in which they
   std::vector<Eigen::Vector3f> floats;
   for (const Eigen::Vector3d& point : rest.positions) floats.push_back(point.cast<float>() * 1.1F);
   Surface surface(mesh_of(rest));
-  const std::size_t in_double = surface.byte_count();
+  const std::size_t at_rest = surface.byte_count();
   const auto check = [&](const auto& positions) {
     for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex)
       CHECK(surface.position(vertex) == positions[vertex].template cast<double>());
   };
+  // Those of the mesh take none of its own.
+  check(rest.positions);
+  CHECK_FALSE(surface.set_positions(rest.positions).changed);
+  CHECK(surface.byte_count() == at_rest);
   surface.set_positions(floats);
   check(floats);
-  CHECK(surface.byte_count() == in_double - 12 * floats.size());
+  CHECK(surface.byte_count() == at_rest + 12 * floats.size());
   // The same numbers in double are no motion.
   std::vector<Eigen::Vector3d> doubles;
   for (const Eigen::Vector3f& point : floats) doubles.push_back(point.cast<double>());
@@ -285,7 +289,7 @@ TEST_CASE("a surface in parts: positions are kept in the precision in which they
   doubles[7].x() += 0x1p-40;
   CHECK(surface.set_positions(doubles).changed);
   check(doubles);
-  CHECK(surface.byte_count() == in_double);
+  CHECK(surface.byte_count() == at_rest + 24 * doubles.size());
 }
 
 }  // namespace graze::tests

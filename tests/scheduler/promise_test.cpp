@@ -98,7 +98,8 @@ TEST_CASE("promises add up until what they allow may be near") {
 }
 
 TEST_CASE("a promise that is broken is told when it is seen, whatever lay in between") {
-  Row row(BindPolicy::when_told);
+  const auto policy = GENERATE(BindPolicy::every_step, BindPolicy::when_told);
+  Row row(policy);
   row.lift(5, 3.5F);  // next to its neighbour
   row.scene.positions_changed(row.ids[5], 0.5);
   std::size_t broken = row.scene.step()->diagnostics().size();

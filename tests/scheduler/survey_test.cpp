@@ -59,13 +59,11 @@ struct Field {
 
 }  // namespace
 
-TEST_CASE("survey: what was far is surveyed once it has moved, and read when it comes near") {
+TEST_CASE("survey: what is far is surveyed, and read when it comes near") {
   Field field;
   const auto surveyed_in_next = [&] { return field.scene.step()->statistics().objects_surveyed; };
-  CHECK(surveyed_in_next() == 0);
-  CHECK(surveyed_in_next() == Field::count - 1);  // the first stands where its mesh rests
-  field.drift();
-  CHECK(surveyed_in_next() == Field::count - 1);
+  CHECK(surveyed_in_next() == Field::count);
+  CHECK(surveyed_in_next() == Field::count);
   field.drift();
   CHECK(surveyed_in_next() == Field::count);
   for (const double gap : {0.75, 0.25, 0.5, 0.125}) {
@@ -201,14 +199,15 @@ TEST_CASE("survey: large surfaces are surveyed and read in parts") {
   CHECK(find_pair(*scene.latest_report(), low, high)->distance.upper == 0.5);
 }
 
-TEST_CASE("survey: promises are held against what was read") {
+TEST_CASE("survey: promises are held against what was seen") {
   Field field;
   field.surveyed();
-  // Nobody knows any more where a step saw it, so the first promise has it read.
+  // A survey saw where its box is, so that a promise about it is enough; with validators on all is read.
   field.put(4, {0, 0, 2});
   field.scene.positions_changed(field.ids[4], 3);
   ReportHandle report = field.scene.step();
   CHECK(report->diagnostics().empty());
+  CHECK(report->statistics().objects_unread <= 1);
   CHECK(report->statistics().objects_surveyed == Field::count - 1);
   field.put(4, {0, 0, 4});
   field.scene.positions_changed(field.ids[4], 3);
@@ -222,6 +221,26 @@ TEST_CASE("survey: promises are held against what was read") {
   report = field.scene.step();
   CHECK(kinds_of(*report) == std::vector{DiagnosticKind::broken_promise});
   CHECK(report->pairs().empty());
+}
+
+TEST_CASE("survey: the first promise is held against the box that the first step saw") {
+  const auto step_with = [](const Eigen::Vector3d& to, double promise) {
+    Field field;
+    field.scene.step();
+    field.put(1, to);
+    field.scene.positions_changed(field.ids[1], promise);
+    // Beside where it should be, so that it is read.
+    field.put(0, {10, 0, 1.25});
+    return field.scene.step();
+  };
+  const ReportHandle kept = step_with({0, 0, 0.5}, 0.5);
+  CHECK(kept->diagnostics().empty());
+  REQUIRE(kept->pairs().size() == 1);
+  CHECK(kept->pairs()[0].distance.upper == 0.75);
+  CHECK(kinds_of(*step_with({0, 0, 0.5}, 0.49)) == std::vector{DiagnosticKind::broken_promise});
+  const ReportHandle gone = step_with({0, 40, 0}, 1);
+  CHECK(kinds_of(*gone) == std::vector{DiagnosticKind::broken_promise});
+  CHECK(gone->pairs().empty());
 }
 
 TEST_CASE("survey: any way of moving gives the reports of a scene built afresh, on any number of threads") {

@@ -264,7 +264,7 @@ TEST_CASE("view: large surfaces too, which are surveyed in parts") {
   }
 }
 
-TEST_CASE("view: of an object in a pair as of one that is far, once it has moved") {
+TEST_CASE("view: of an object in a pair as of one that is far, while it moves") {
   const auto mesh = mesh_of(models::sphere(10, 7));
   const auto surveyed = [&](ContactDetail detail) {
     Scene scene(settings_of(0.1, 0.2, detail));
@@ -280,10 +280,9 @@ TEST_CASE("view: of an object in a pair as of one that is far, once it has moved
     }
     return counts;
   };
-  // The first rests. In the first step and in the second nothing has moved before; what seems at rest is read
-  // once more, and rests.
-  CHECK(surveyed(ContactDetail::vertices) == std::vector<std::size_t>{0, 1, 1, 1, 1, 0, 0, 0});
-  CHECK(surveyed(ContactDetail::features) == std::vector<std::size_t>(8, 0));
+  // What is bound may be anywhere. The first rests; what seems at rest is read once more, and rests.
+  CHECK(surveyed(ContactDetail::vertices) == std::vector<std::size_t>{2, 1, 1, 1, 1, 0, 0, 0});
+  CHECK(surveyed(ContactDetail::features) == std::vector<std::size_t>{2, 0, 0, 0, 0, 0, 0, 0});
 }
 
 }  // namespace graze::tests

@@ -28,7 +28,8 @@ enum class RefitOf : std::uint8_t {
   radii,  ///< about the middle vertex (eq. 2), and of levels (eq. 3); AccuracyMode::paper alone asks for them
 };
 
-/// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago.
+/// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago. While
+/// it stands at rest its positions are the mesh's, and take no memory.
 /// One thread changes it at a time; while none does, any number may read.
 class GRAZE_API Surface {
  public:
@@ -110,7 +111,7 @@ class GRAZE_API Surface {
   /// they are this surface's until `end_view`, and how far they moved is not known. After that its positions
   /// are of no use before it is read again or has another view.
   void view(const PositionView& view, const Box& box);
-  void end_view() { viewed_ = {}; }
+  void end_view();
   /// Whether it has had a view since it was read.
   [[nodiscard]] bool is_behind() const { return is_behind_; }
 
@@ -178,6 +179,8 @@ class GRAZE_API Surface {
   template <typename PositionOf>
   void write(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
   [[nodiscard]] bool is_laid_out_like(const PositionView& view) const;
+  [[nodiscard]] bool has_own_positions() const { return !in_float_.empty() || !in_double_.empty(); }
+  void own_positions(bool in_double);
   [[nodiscard]] std::vector<Box>& boxes_to_write(RefitOf what) {
     return what == RefitOf::vertices ? vertex_boxes_ : face_boxes_;
   }
@@ -188,10 +191,10 @@ class GRAZE_API Surface {
   [[nodiscard]] double motion_since(const Refit& refit) const;
 
   std::shared_ptr<const Mesh> mesh_;
-  // Positions in the precision in which they came; the other is empty.
+  // Positions in the precision in which they came; the other is empty, and both are before any came.
   std::vector<Eigen::Vector3f> in_float_;
   std::vector<Eigen::Vector3d> in_double_;
-  PositionView viewed_;     ///< in place of these, where there is one
+  PositionView viewed_;     ///< in place of these, where there is one; as long as both are empty always
   bool is_behind_ = false;  ///< there has been one since they were written
   Box box_;
   std::vector<double> radii_;
