@@ -50,7 +50,8 @@ void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
 /// the way.
 std::uint64_t touching_order(const RegionPair& pair) {
   constexpr std::uint32_t odd = 0x9e3779b9;  // 2^32 / the golden ratio
-  return std::uint64_t{pair.b * odd} << 32U | pair.a;
+  const std::uint32_t scattered = pair.b * odd;
+  return std::uint64_t{scattered} << 32U | pair.a;
 }
 
 /// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how

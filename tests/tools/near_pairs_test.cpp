@@ -54,7 +54,7 @@ std::size_t edges_near_edges(const oracle::ExactShape& a, const oracle::ExactSha
   for (const oracle::Segment& of_a : a.edges())
     for (const oracle::Segment& of_b : b.edges()) {
       const auto inner = oracle::inner_contact(a, of_a, b, of_b);
-      const auto& least = inner ? inner->a : oracle::end_contacts(a, of_a, b, of_b).front().a;
+      const oracle::Foot least = inner ? inner->a : oracle::end_contacts(a, of_a, b, of_b).front().a;
       if (least.distance_squared < limit) ++count;
     }
   return count;

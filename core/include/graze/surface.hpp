@@ -28,9 +28,9 @@ enum class RefitOf : std::uint8_t {
   radii,  ///< about the middle vertex (eq. 2), and of levels (eq. 3); AccuracyMode::paper alone asks for them
 };
 
-/// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago. While
-/// it stands at rest its positions are the mesh's, and take no memory.
-/// One thread changes it at a time; while none does, any number may read.
+/// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago.
+/// While it stands at rest its positions are the mesh's, and take no memory. One thread changes it at a time;
+/// while none does, any number may read.
 class GRAZE_API Surface {
  public:
   /// At the mesh's rest shape, not yet refitted. Throws Error for a null mesh.
