@@ -81,13 +81,6 @@ kernels::BoxInFrame box_about(const VertexBlocks& blocks, const Box& box, float 
 /// The box of some blocks about their origin.
 kernels::BoxInFrame around_all(const VertexBlocks& blocks, std::span<const std::uint32_t> listed);
 
-inline bool meet(const std::array<float, 6>& box, const kernels::BoxInFrame& other) {
-  bool all = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    all = all && box[axis] <= other.max[axis] && box[axis + 3] >= other.min[axis];
-  return all;
-}
-
 /// At most how far a box is from one that was moved to be beside it.
 inline double lower_distance(const std::array<float, 6>& box, const kernels::BoxInFrame& other) {
   double squared = 0;

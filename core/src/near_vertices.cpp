@@ -106,16 +106,11 @@ void NearVertices::find_blocks() {
   if (near_.a.count > 0) lay_out_blocks_of_b();
 }
 
-/// Those of a that are not near all of b's few together go, and the boxes of these are put side by side.
+/// Of a those that are near the few of b together, whose boxes are put side by side.
 void NearVertices::tighten() {
-  const kernels::BoxInFrame box = moved(around_all(of_b_, near_.b.listed()), -near_.shift, near_.reach);
-  std::size_t kept = 0;
-  for (const std::uint32_t block : near_.a.listed()) {
-    near_.a.room[kept] = block;
-    kept += meet(of_a_.box(block), box) ? 1U : 0U;
-  }
-  near_.a.count = kept;
-  if (kept > 0) gather_boxes(rows_of(of_b_.level(0)), near_.b.listed(), near_.boxes);
+  find_meeting(of_a_, moved(around_all(of_b_, near_.b.listed()), -near_.shift, near_.reach), scratch_.groups,
+               near_.a);
+  if (near_.a.count > 0) gather_boxes(rows_of(of_b_.level(0)), near_.b.listed(), near_.boxes);
 }
 
 void NearVertices::lay_out_blocks_of_b() {
