@@ -75,59 +75,49 @@ class LeafNames {
  private:
   // ---- By a list
 
+  /// A surface's mesh, and where its vertices are in the frame.
+  struct ListedSide {
+    const Mesh& mesh;
+    VerticesInFrame& points;
+  };
+
   void add_listed(const NearParts& parts) {
+    const ListedSide a{pair_.a.mesh(), scratch_.listed_a};
+    const ListedSide b{pair_.b.mesh(), scratch_.listed_b};
     if (parts.b.part == Part::face) {
-      const auto& mesh = pair_.b.mesh();
-      if (parts.a.part == Part::vertex)
-        add_with_face(batches_.vertex_a, parts.a, corners_of_a<1>(parts.a), parts.b, mesh, scratch_.listed_b,
-                      take_vertex_a());
-      else
-        add_with_face(batches_.through_b, parts.a, corners_of_a<2>(parts.a), parts.b, mesh, scratch_.listed_b,
-                      take_through_b());
+      parts.a.part == Part::vertex
+          ? add_with_face(batches_.vertex_a, parts.a, a, parts.b, b, take_vertex_a())
+          : add_with_face(batches_.through_b, parts.a, a, parts.b, b, take_through_b());
     } else if (parts.a.part == Part::face) {
-      const auto& mesh = pair_.a.mesh();
-      if (parts.b.part == Part::vertex)
-        add_with_face(batches_.vertex_b, parts.b, corners_of_b<1>(parts.b), parts.a, mesh, scratch_.listed_a,
-                      take_vertex_b());
-      else
-        add_with_face(batches_.through_a, parts.b, corners_of_b<2>(parts.b), parts.a, mesh, scratch_.listed_a,
-                      take_through_a());
-    } else if (batches_.segments.add(parts.a, corners_of_a<2>(parts.a), parts.b, corners_of_b<2>(parts.b))) {
+      parts.b.part == Part::vertex
+          ? add_with_face(batches_.vertex_b, parts.b, b, parts.a, a, take_vertex_b())
+          : add_with_face(batches_.through_a, parts.b, b, parts.a, a, take_through_a());
+    } else if (batches_.segments.add(parts.a, corners_of<2>(parts.a, a), parts.b,
+                                     corners_of<2>(parts.b, b))) {
       bound(batches_.segments, take_segments());
     }
   }
   /// With each of the face's triangles.
   template <std::size_t Corners, typename Take>
-  void add_with_face(FloatBatch<Corners, 3>& batch, const PartOf& part,
-                     const std::array<kernels::Point, Corners>& corners, const PartOf& face,
-                     const Mesh& mesh_of_face, VerticesInFrame& points_of_face, const Take& take) {
-    const auto corner = mesh_of_face.face(face.index);
+  void add_with_face(FloatBatch<Corners, 3>& batch, const PartOf& part, const ListedSide& of_part,
+                     const PartOf& face, const ListedSide& of_face, const Take& take) {
+    const std::array<kernels::Point, Corners> corners = corners_of<Corners>(part, of_part);
+    const auto corner = of_face.mesh.face(face.index);
+    const auto point = [&](std::size_t i) { return of_face.points[corner[i]]; };
     for (std::size_t last = 2; last < corner.size(); ++last)
-      if (batch.add(
-              part, corners, face,
-              {points_of_face[corner[0]], points_of_face[corner[last - 1]], points_of_face[corner[last]]}))
-        bound(batch, take);
+      if (batch.add(part, corners, face, {point(0), point(last - 1), point(last)})) bound(batch, take);
   }
   template <std::size_t Corners>
-  std::array<kernels::Point, Corners> corners_of_a(const PartOf& part) {
-    return corners_of<Corners>(pair_.a.mesh(), part, scratch_.listed_a);
-  }
-  template <std::size_t Corners>
-  std::array<kernels::Point, Corners> corners_of_b(const PartOf& part) {
-    return corners_of<Corners>(pair_.b.mesh(), part, scratch_.listed_b);
-  }
-  template <std::size_t Corners>
-  static std::array<kernels::Point, Corners> corners_of(const Mesh& mesh, const PartOf& part,
-                                                        VerticesInFrame& points) {
+  static std::array<kernels::Point, Corners> corners_of(const PartOf& part, const ListedSide& side) {
     if constexpr (Corners == 1) {
-      return {points[part.index]};
+      return {side.points[part.index]};
     } else {
       if (part.part == Part::edge) {
-        const auto [first, second] = mesh.edge(part.index);
-        return {points[first], points[second]};
+        const auto [first, second] = side.mesh.edge(part.index);
+        return {side.points[first], side.points[second]};
       }
-      const auto corner = mesh.face(part.index);
-      return {points[corner[0]], points[corner[2]]};
+      const auto corner = side.mesh.face(part.index);
+      return {side.points[corner[0]], side.points[corner[2]]};
     }
   }
 

@@ -16,14 +16,6 @@ namespace {
 
 using oracle::Shape;
 
-struct Rest {
-  const char* name;
-  Shape a;
-  Shape b;
-  double apart;  ///< their middles, along x
-  double drift;  ///< further apart in each step
-};
-
 /// Leaf pairs looked into after the first step.
 struct Looks {
   std::uint64_t with_slack = 0;
@@ -44,7 +36,7 @@ struct Asking {
   }
 };
 
-Looks tremble(const Rest& rest, const PairQuery& query, double tremor) {
+Looks tremble(const DriftingPair& rest, const PairQuery& query, double tremor) {
   Surface a = surface_of(rest.a);
   Surface b = surface_of(rest.b);
   Asking patient{query, {}, {}, {}};
@@ -81,17 +73,17 @@ TEST_CASE("look slack: what is known of leaves from a look into them spares look
   // So few regions that the validators look at all pairs of them.
   const Shape pebble = shape_of(models::sphere(9, 6, models::Faces::quads));
   const Shape band = shape_of(models::torus(12, 8, 0.5, 0.2));
-  const std::array all{Rest{"balls apart", ball, turned(ball, 3), 2.02, 0},
-                       Rest{"balls through each other", ball, turned(ball, 3), 1.9, 0},
-                       Rest{"rings within each other", ring, turned(ring, 5), 0.05, 0},
-                       Rest{"blocks", block, block, 1.001, 0},
-                       Rest{"balls that part", ball, turned(ball, 4), 1.985, 2e-3},
-                       Rest{"balls that meet", ball, turned(ball, 4), 2.03, -2e-3},
-                       Rest{"pebbles apart", pebble, turned(pebble, 6), 2.05, 1e-4},
-                       Rest{"bands apart", band, turned(band, 7), 1.5, -1e-4},
-                       Rest{"a band about a pebble", band, turned(pebble, 8), 1.7, 1e-4}};
+  const std::array all{DriftingPair{"balls apart", ball, turned(ball, 3), 2.02, 0},
+                       DriftingPair{"balls through each other", ball, turned(ball, 3), 1.9, 0},
+                       DriftingPair{"rings within each other", ring, turned(ring, 5), 0.05, 0},
+                       DriftingPair{"blocks", block, block, 1.001, 0},
+                       DriftingPair{"balls that part", ball, turned(ball, 4), 1.985, 2e-3},
+                       DriftingPair{"balls that meet", ball, turned(ball, 4), 2.03, -2e-3},
+                       DriftingPair{"pebbles apart", pebble, turned(pebble, 6), 2.05, 1e-4},
+                       DriftingPair{"bands apart", band, turned(band, 7), 1.5, -1e-4},
+                       DriftingPair{"a band about a pebble", band, turned(pebble, 8), 1.7, 1e-4}};
   Looks sum;
-  for (const Rest& rest : all)
+  for (const DriftingPair& rest : all)
     for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest})
       for (const double threshold : {0.0, 0.01})
         for (const double tremor : {0.0, 1e-6, 1e-4}) {

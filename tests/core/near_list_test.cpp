@@ -17,15 +17,6 @@ namespace {
 
 using oracle::Shape;
 
-/// Two surfaces of which one drifts.
-struct Rest {
-  const char* name;
-  Shape a;
-  Shape b;
-  double apart;  ///< their middles, along x
-  double drift;  ///< further apart in each step
-};
-
 struct Tally {
   std::size_t answers = 0;
   std::size_t by_list = 0;
@@ -72,7 +63,7 @@ class Asking {
   PairAnswer answer_;
 };
 
-void play(const Rest& rest, const PairQuery& query, double tremor, bool sliced, Tally& tally) {
+void play(const DriftingPair& rest, const PairQuery& query, double tremor, bool sliced, Tally& tally) {
   Surface a = surface_of(rest.a);
   Surface b = surface_of(rest.b);
   Asking asking(sliced);
@@ -98,7 +89,7 @@ void play(const Rest& rest, const PairQuery& query, double tremor, bool sliced, 
   }
 }
 
-std::vector<Rest> rests() {
+std::vector<DriftingPair> rests() {
   const Shape ball = shape_of(models::sphere(18, 12));
   const Shape ring = shape_of(models::torus(18, 10, 0.7, 0.3));
   const Shape block = shape_of(models::box({1, 1, 1}));
@@ -121,7 +112,7 @@ TEST_CASE("near list: what is listed spares searches, and shows in no answer") {
   const FloatingPointScope scope;
   for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices}) {
     Tally tally;
-    for (const Rest& rest : rests())
+    for (const DriftingPair& rest : rests())
       for (const double threshold : {0.0, 0.02, 0.25})
         for (const double tremor : {0.0, 1e-6, 3e-4}) {
           if (detail == ContactDetail::vertices && threshold == 0) continue;
@@ -143,11 +134,12 @@ TEST_CASE("near list: what is listed spares searches, and shows in no answer") {
 TEST_CASE("near list: large pairs' slices list what one search does") {
   const FloatingPointScope scope;
   const Shape ball = shape_of(models::sphere(80, 60));
-  const std::array all{Rest{"through each other", ball, turned(ball, 3), 1.97, 1e-5},
-                       Rest{"about each other", ball, mapped(turned(ball, 4), 0.99, {0, 0, 0}), 0, 1e-5}};
+  const std::array all{
+      DriftingPair{"through each other", ball, turned(ball, 3), 1.97, 1e-5},
+      DriftingPair{"about each other", ball, mapped(turned(ball, 4), 0.99, {0, 0, 0}), 0, 1e-5}};
   for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices}) {
     Tally tally;
-    for (const Rest& rest : all) {
+    for (const DriftingPair& rest : all) {
       PairQuery query = query_of(detail, 0.02);
       query.slack = 0.01;
       query.list_slack = 1e-3;

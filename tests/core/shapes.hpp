@@ -47,6 +47,15 @@ struct NamedShape {
   std::string name;
   oracle::Shape shape;
 };
+/// Two surfaces of which one drifts.
+struct DriftingPair {
+  const char* name;
+  oracle::Shape a;
+  oracle::Shape b;
+  double apart;  ///< their middles, along x
+  double drift;  ///< further apart in each step
+};
+
 /// The five models of the paper as triangles.
 const std::vector<NamedShape>& paper_models();
 /// Those of them that there are as quads.
