@@ -1,6 +1,7 @@
 #include "pair_search.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <graze/cut_by_work.hpp>
 #include <graze/room_to_spare.hpp>
 #include <tuple>
@@ -25,7 +26,6 @@ constexpr std::size_t roots_each = 64;
 constexpr std::size_t front_pairs_each = 256;
 constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound tight before others are cut
 constexpr std::size_t closest_each = 64;
-constexpr std::size_t touching_first = 4096;  ///< leaf pairs of a large pair that one thread asks alone
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t blocks_each = 64;
 
@@ -44,24 +44,13 @@ void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
       std::max(listed.looked, rounded_down((static_cast<double>(now.looked) + motion) * round_down));
 }
 
-/// The order in which leaf pairs are asked whether they touch: one leaf of b after the other, where those
-/// that follow one another are far apart, and with each those of a by their numbers. Leaves that follow one
-/// another by number are neighbours, and where boxes overlap but surfaces do not touch they would all be in
-/// the way.
-std::uint64_t touching_order(const RegionPair& pair) {
-  constexpr std::uint32_t odd = 0x9e3779b9;  // 2^32 / the golden ratio
-  const std::uint32_t scattered = pair.b * odd;
-  return std::uint64_t{scattered} << 32U | pair.a;
-}
-
 /// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
 /// many they are; the others are not looked into, and stay in no order.
-std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance) {
+std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance, const TouchingOrder& order) {
   const auto rest = std::partition(leaves.begin(), leaves.end(),
                                    [&](const LeafPair& each) { return each.lower <= distance; });
-  std::sort(leaves.begin(), rest, [](const LeafPair& left, const LeafPair& right) {
-    return left.lower != right.lower ? left.lower < right.lower
-                                     : touching_order(left.pair) < touching_order(right.pair);
+  std::sort(leaves.begin(), rest, [&](const LeafPair& left, const LeafPair& right) {
+    return left.lower != right.lower ? left.lower < right.lower : order.of(left.pair) < order.of(right.pair);
   });
   return static_cast<std::size_t>(rest - leaves.begin());
 }
@@ -274,6 +263,7 @@ void PairSearch::gather_found() {
 /// moved by the slack, where what is looked for is nearer than `wanted`.
 void PairSearch::remember(double wanted, Worker& worker) {
   front_->forget_leaves();
+  front_->reached_bits = static_cast<std::uint8_t>(std::bit_width(found_.leaves.size()));
   if (query_.slack <= 0) return;
   const auto is_listed = [&](const LeafPair& leaves) { return leaves.lower <= wanted + query_.slack; };
   const auto count =
@@ -293,13 +283,6 @@ void PairSearch::remember(double wanted, Worker& worker) {
   front_->apart = 0;
   front_->travel_a = a_->travel();
   front_->travel_b = b_->travel();
-}
-
-/// Puts the front in the order in which it is looked for a place that touches.
-void PairSearch::sort_front() {
-  std::sort(front_->leaves.begin(), front_->leaves.end(), [&](const auto& left, const auto& right) {
-    return touching_order(left.pair) < touching_order(right.pair);
-  });
 }
 
 void PairSearch::give_up() {
@@ -433,40 +416,13 @@ void PairSearch::begin_search(Worker& worker) {
   certainly_apart_ = from_front_ && static_cast<double>(front_->apart) > front_->motion_now(*a_, *b_);
   found_.clear();
   closest_.clear();
-  if (only_touching_) {
-    closest_.closest.upper = 0;
-    is_bounded_ = true;
-    if (from_front_) return look_for_touching(worker);
-  } else {
-    ClosestRange range(worker.pair, query_, ties(), closest_);
-    range.offer_middles({});
-    const double of_roots = closest_.closest.upper;
-    range.at_most(upper_distance(worker.pair, front_->witness, about_vertices()));
-    is_bounded_ = closest_.closest.upper < of_roots;
-  }
-  approach(worker);
-}
-
-/// One leaf pair of the front after the other, until one touches; nothing is to be sorted for it. Of a large
-/// pair not all by one thread, if they touch no more.
-void PairSearch::look_for_touching(Worker& worker) {
+  if (only_touching_) return look_for_touching(worker);
   ClosestRange range(worker.pair, query_, ties(), closest_);
-  validate(*front_, *a_, *b_);
-  const double motion = front_->motion_now(*a_, *b_);
-  if (!front_->leaves.empty()) worker.begin_leaves(front_->leaves.front().pair);
-  std::size_t asked = 0;
-  for (const ListedLeaves& listed : front_->leaves) {
-    if (range.is_settled()) break;
-    LeafPair leaves{0, listed.pair};
-    if (static_cast<double>(listed.lower) > motion || worker.leaf_pairs.lower_of_leaves(leaves.pair) > 0)
-      continue;
-    if (sliced_ && ++asked > touching_first) {
-      closest_.clear();  // a name at 0 might not be the first of them
-      break;
-    }
-    if (!look_into(leaves, range, worker)) return give_up();
-  }
-  finish_closest(worker);
+  range.offer_middles({});
+  const double of_roots = closest_.closest.upper;
+  range.at_most(upper_distance(worker.pair, front_->witness, about_vertices()));
+  is_bounded_ = closest_.closest.upper < of_roots;
+  approach(worker);
 }
 
 /// Middle vertices are also points of the surfaces, and bound their distance where nothing better does.
@@ -519,7 +475,7 @@ void PairSearch::begin_closest(Worker& worker) {
   slice_count_ = 0;
   stage_ = Stage::closest;
   auto& leaves = found_.leaves;
-  const std::size_t near = sort_near_first(leaves, closest_.closest.upper);
+  const std::size_t near = sort_near_first(leaves, closest_.closest.upper, touching_order());
   const std::size_t first = sliced_ ? std::min(near, closest_first) : near;
   if (!look_into(0, first, closest_, worker)) return give_up();
   // Leaf pairs are kept or not by their lower bounds alone, which ascend.

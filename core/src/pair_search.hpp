@@ -15,6 +15,7 @@
 #include "near_vertices.hpp"
 #include "paper.hpp"
 #include "parallel.hpp"
+#include "touching_order.hpp"
 
 namespace graze {
 
@@ -133,6 +134,11 @@ class PairSearch {
   void approach_vertices(Worker& worker);
   void begin_search(Worker& worker);
   void look_for_touching(Worker& worker);
+  void look_in_front(Worker& worker);
+  void look_in_turn(Worker& worker);
+  [[nodiscard]] bool look_into_overlapping(const RegionPair& start, const TouchingOrder& order,
+                                           ClosestRange& range, Worker& worker);
+  [[nodiscard]] TouchingOrder touching_order() const;
   [[nodiscard]] auto offering_middles(ClosestRange& range) const;
   void approach(Worker& worker);
   void run_approach(Slice& slice, Worker& worker);

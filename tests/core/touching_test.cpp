@@ -7,6 +7,7 @@
 #include <graze/pair_query.hpp>
 #include <iostream>
 #include <limits>
+#include <utility>
 
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
@@ -37,6 +38,7 @@ struct Tally {
   std::size_t touched = 0;   ///< answers at distance 0
   std::size_t parted = 0;    ///< answers apart after one at distance 0
   std::size_t unwalked = 0;  ///< answers at distance 0 after one, from the listed leaves alone
+  std::size_t in_turn = 0;   ///< answers at distance 0 after one, without a front or a walk that makes one
 };
 
 Tally compare_steps(const Meeting& meeting, PairQuery query) {
@@ -56,11 +58,12 @@ Tally compare_steps(const Meeting& meeting, PairQuery query) {
     if (step % 7 == 0) b.refit_faces();
     INFO(meeting.name << ", step " << step << ", threshold " << query.threshold);
     const bool touched = front.touched;
+    const Travel travel = front.travel_a;
+    const bool is_served = front.beyond_now(a, b) > 0;
     PairAnswer answer;
     PairAnswer afresh;
     PairCounters counters;
     LeafFront no_front;
-    query.slack = 0.25;
     detector.detect(a, b, query, front, answer, counters);
     PairCounters counters_afresh;
     of_nothing.detect(a, b, query, no_front, afresh, counters_afresh);
@@ -72,6 +75,9 @@ Tally compare_steps(const Meeting& meeting, PairQuery query) {
     const bool unwalked = counters.region_pairs_tested == counters.leaf_pairs_tested &&
                           counters_afresh.region_pairs_tested > counters_afresh.leaf_pairs_tested;
     tally.unwalked += touched && front.touched && unwalked ? 1U : 0U;
+    const bool is_front_left =
+        front.travel_a.epoch == travel.epoch && front.travel_a.distance == travel.distance;
+    tally.in_turn += touched && front.touched && !is_served && is_front_left ? 1U : 0U;
   }
   return tally;
 }
@@ -85,25 +91,29 @@ TEST_CASE(
   const Shape block = shape_of(models::box({1, 1, 1}));
   const std::array all{Meeting{"balls", ball, turned(ball, 3), 0.01}, Meeting{"blocks", block, block, 0},
                        Meeting{"soups", random_soup(1, 60, 90), random_soup(4, 60, 90), 0.01},
-                       Meeting{"ball and soup", ball, mapped(random_soup(7, 60, 80), 0.5, {0, 0, 0}), 0}};
+                       Meeting{"ball and soup", ball, mapped(random_soup(7, 60, 80), 0.5, {0, 0, 0}), 0},
+                       Meeting{"soup and ball", random_soup(7, 60, 80), ball, 0.01}};
   Tally sum;
   for (const Meeting& meeting : all)
     for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features})
       for (const double threshold : {0.0, 0.02})
-        for (const double reach : {infinity, 0.3}) {
+        for (const auto& [reach, slack] : {std::pair(infinity, 0.25), {0.3, 0.25}, {infinity, 1e-3}}) {
           PairQuery query = query_of(detail, threshold);
           query.reach = reach;
+          query.slack = slack;
           const Tally tally = compare_steps(meeting, query);
           if (detail != ContactDetail::none) continue;
           sum.touched += tally.touched;
           sum.parted += tally.parted;
           sum.unwalked += tally.unwalked;
+          sum.in_turn += tally.in_turn;
         }
   CHECK(sum.touched > 300);
   CHECK(sum.parted >= 8);
   CHECK(sum.unwalked > 200);
-  std::cout << sum.touched << " answers at distance 0, " << sum.unwalked << " of them from listed leaves, "
-            << sum.parted << " partings\n";
+  CHECK(sum.in_turn > 100);
+  std::cout << sum.touched << " answers at distance 0, " << sum.unwalked << " of them from listed leaves and "
+            << sum.in_turn << " in turn, " << sum.parted << " partings\n";
 }
 
 }  // namespace graze::tests

@@ -62,6 +62,8 @@ struct LeafFront {
   float apart = 0;
   /// Whether the surfaces were at distance 0 when a query looked for the closest points last.
   bool touched = false;
+  /// How many pairs of leaves the last walk reached, as the number of its bits.
+  std::uint8_t reached_bits = 0;
   /// Whether the last query went from region to region: if not, their bounds may grow looser than others'.
   bool walked = true;
   /// There were too many features for a list the last time.
@@ -77,6 +79,7 @@ struct LeafFront {
   }
   void forget_leaves() {
     leaves.clear();
+    reached_bits = 0;
     beyond = -1;
     apart = 0;
     witness = {};
