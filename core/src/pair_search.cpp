@@ -50,7 +50,7 @@ std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance, cons
   const auto rest = std::partition(leaves.begin(), leaves.end(),
                                    [&](const LeafPair& each) { return each.lower <= distance; });
   std::sort(leaves.begin(), rest, [&](const LeafPair& left, const LeafPair& right) {
-    return left.lower != right.lower ? left.lower < right.lower : order.of(left.pair) < order.of(right.pair);
+    return left.lower != right.lower ? left.lower < right.lower : order(left, right);
   });
   return static_cast<std::size_t>(rest - leaves.begin());
 }

@@ -28,12 +28,10 @@ TouchingOrder PairSearch::touching_order() const {
 
 /// Puts the front in the order in which it is looked for a place that touches.
 void PairSearch::sort_front() {
-  std::sort(front_->leaves.begin(), front_->leaves.end(),
-            [order = touching_order()](const ListedLeaves& left, const ListedLeaves& right) {
-              return order.of(left.pair) < order.of(right.pair);
-            });
+  std::sort(front_->leaves.begin(), front_->leaves.end(), touching_order());
 }
 
+/// Looks for distance 0 and nothing else, in the cheapest way that there is.
 void PairSearch::look_for_touching(Worker& worker) {
   closest_.closest.upper = 0;
   is_bounded_ = true;
@@ -71,9 +69,10 @@ void PairSearch::look_in_turn(Worker& worker) {
   const RegionTree& scattered = (order.scatters_a() ? a_ : b_)->mesh().regions();
   const std::uint64_t end = worker.meter.counters().region_pairs_tested + tests_in_turn(*front_);
   ClosestRange range(worker.pair, query_, ties(), closest_);
-  for (std::uint32_t place = 0; place < order.place_count() && !range.is_settled() &&
-                                worker.meter.counters().region_pairs_tested < end;
-       ++place) {
+  const auto goes_on = [&] {
+    return !range.is_settled() && worker.meter.counters().region_pairs_tested < end;
+  };
+  for (std::uint32_t place = 0; place < order.place_count() && goes_on(); ++place) {
     const std::uint32_t region = order.region_at(place);
     if (region >= order.region_count() || !scattered.region(region).is_leaf()) continue;
     if (!look_into_overlapping(order.with_all(region), order, range, worker)) return give_up();
@@ -99,9 +98,7 @@ bool PairSearch::look_into_overlapping(const RegionPair& start, const TouchingOr
           {&start, 1}, overlaps, [](const RegionPair&) {}, found_))
     return false;
   std::erase_if(leaves, [](const LeafPair& each) { return each.lower > 0; });
-  std::sort(leaves.begin(), leaves.end(), [&](const LeafPair& left, const LeafPair& right) {
-    return order.of(left.pair) < order.of(right.pair);
-  });
+  std::sort(leaves.begin(), leaves.end(), order);
   worker.begin_leaves(found_);
   for (LeafPair& each : leaves) {
     if (range.is_settled()) break;

@@ -30,6 +30,11 @@ class TouchingOrder {
     const std::uint32_t place = scattered * place_step_ & (places_ - 1);
     return std::uint64_t{place} << 32U | (scatters_a_ ? pair.b : pair.a);
   }
+  /// Whether one of two that name a pair of leaves comes before the other.
+  template <typename Named>
+  bool operator()(const Named& left, const Named& right) const {
+    return of(left.pair) < of(right.pair);
+  }
   /// How many places regions are scattered over.
   [[nodiscard]] std::uint32_t place_count() const { return places_; }
   /// The number of the region at a place; none has it where it is not below `region_count`.
