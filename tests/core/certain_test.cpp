@@ -33,7 +33,7 @@ class Generator {
   Generator(Family family, std::uint64_t seed) : family_(family), random_(seed) {}
 
   Vector3d point() {
-    Vector3d point(random_.between(-1, 1), random_.between(-1, 1), random_.between(-1, 1));
+    Vector3d point = random_.vector(-1, 1);
     if (family_ == grid || family_ == nearly_grid)
       for (int axis = 0; axis < 3; ++axis) point[axis] = static_cast<double>(random_.below(4));
     if (family_ == nearly_grid)

@@ -5,6 +5,7 @@
 
 #include <gmpxx.h>
 
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -133,7 +134,10 @@ TEST_CASE("exact: sums, differences and products are those of rationals") {
   int expressions = 0;
   for (int round = 0; round < 400; ++round) {
     std::vector<Expression> pool;
-    for (int i = 0; i < 4; ++i) pool.push_back({Number(wild(random)) - Number(wild(random)), 1});
+    for (int i = 0; i < 4; ++i) {
+      const std::array terms{Number(wild(random)), Number(wild(random))};
+      pool.push_back({terms[0] - terms[1], 1});
+    }
     for (int i = 0; i < 12; ++i) {
       const Expression& left = pool[random.below(static_cast<std::uint32_t>(pool.size()))];
       const Expression& right = pool[random.below(static_cast<std::uint32_t>(pool.size()))];
@@ -173,8 +177,10 @@ TEST_CASE("exact: quotients are rounded to nearest") {
   Random random(3);
   int compared = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Number left = Number(wild(random)) * Number(wild(random)) - Number(wild(random));
-    const Number right = Number(wild(random)) - Number(wild(random)) * Number(wild(random));
+    const auto number = [&] { return Number(wild(random)); };
+    const std::array terms{number(), number(), number(), number(), number(), number()};
+    const Number left = terms[0] * terms[1] - terms[2];
+    const Number right = terms[3] - terms[4] * terms[5];
     if (right.truth == 0) continue;
     const mpq_class truth = left.truth / right.truth;
     const mpq_class size = abs(truth);

@@ -187,10 +187,7 @@ TEST_CASE("filter: what can be beside another box is what is within the distance
   std::size_t empty = 0;
   for (int i = 0; i < 4000; ++i) {
     const double scale = std::ldexp(1.0, static_cast<int>(random.below(60)) - 30);
-    const auto point = [&](double spread) -> Vector3d {
-      return scale * Vector3d(random.between(-spread, spread), random.between(-spread, spread),
-                              random.between(-spread, spread));
-    };
+    const auto point = [&](double spread) -> Vector3d { return scale * random.vector(-spread, spread); };
     Box a;
     Box b;
     const Vector3d away = point(2);

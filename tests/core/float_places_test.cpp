@@ -299,7 +299,8 @@ class Borders {
     const Vector3d v = random_.chance(0.3) ? u * number() : vector();
     const Vector3d way = random_.chance(0.5) ? u.cross(v) * number() : v.cross(vector());
     const Vector3d first = vector();
-    const Vector3d other = first + u * (0.5 * random_.below(3)) + way - v * (0.5 * random_.below(3));
+    const std::array along{0.5 * random_.below(3), 0.5 * random_.below(3)};
+    const Vector3d other = first + u * along[0] + way - v * along[1];
     return {{first, first + u}, {other, other + v}};
   }
 

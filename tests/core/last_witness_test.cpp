@@ -41,18 +41,25 @@ FeaturePiece random_piece(const Mesh& mesh, Random& random) {
   }
 }
 
-/// Where a point is now, exactly but for long double; shares that are more than 1 in all are brought to 1.
-Vector place_of(const Surface& surface, const SurfacePoint& on) {
+/// The way from a point's first corner to it, exactly but for long double; shares that are more than 1 in all
+/// are brought to 1.
+Vector way_to(const Surface& surface, const SurfacePoint& on) {
   std::array<Real, 2> share{static_cast<Real>(on.share[0]), static_cast<Real>(on.share[1])};
   const Real sum = share[0] + share[1];
   REQUIRE(share[0] >= 0);
   REQUIRE(share[1] >= 0);
   REQUIRE(sum <= 1 + 0x1p-22L);
   const Vector first = surface.position(on.corner[0]).cast<Real>();
-  Vector place = first;
+  Vector way = Vector::Zero();
   for (std::uint32_t i = 1; i < on.size; ++i)
-    place += (surface.position(on.corner[i]).cast<Real>() - first) * (share[i - 1] / std::max<Real>(sum, 1));
-  return place;
+    way += (surface.position(on.corner[i]).cast<Real>() - first) * (share[i - 1] / std::max<Real>(sum, 1));
+  return way;
+}
+
+/// Of two points now. From differences, since what is far from the origin has no digits left beside it.
+Real distance_of(const Surface& a, const SurfacePoint& on_a, const Surface& b, const SurfacePoint& on_b) {
+  const Vector between = b.position(on_b.corner[0]).cast<Real>() - a.position(on_a.corner[0]).cast<Real>();
+  return (between + way_to(b, on_b) - way_to(a, on_a)).norm();
 }
 
 Shape random_shape(std::uint64_t seed) {
@@ -86,15 +93,16 @@ TEST_CASE("last witness: it is never nearer than its points are, and hardly furt
     DecisionCount count;
     const SurfacePair pair{a, b, count};
     for (int i = 0; i < 20; ++i) {
-      const auto name = ContactName::of(random_piece(a.mesh(), random), random_piece(b.mesh(), random));
+      const FeaturePiece piece = random_piece(a.mesh(), random);
+      const auto name = ContactName::of(piece, random_piece(b.mesh(), random));
       // Any points will do: near the features or not.
       const auto point_of = [&](const Surface& surface) -> Vector3d {
         const Vector3d size = surface.box().max - surface.box().min;
-        return surface.box().min +
-               size.cwiseProduct(Vector3d(random.between(0, 1), random.between(0, 1), random.between(0, 1)));
+        return surface.box().min + size.cwiseProduct(random.vector(0, 1));
       };
-      const LastWitness witness = last_witness_of(pair, name, point_of(a), point_of(b));
-      const Real truth = (place_of(b, witness.on_b) - place_of(a, witness.on_a)).norm();
+      const Vector3d point = point_of(a);
+      const LastWitness witness = last_witness_of(pair, name, point, point_of(b));
+      const Real truth = distance_of(a, witness.on_a, b, witness.on_b);
       const auto upper = static_cast<Real>(upper_distance(pair, witness, false));
       const Real size = (a.box().max - a.box().min).norm() + (b.box().max - b.box().min).norm();
       REQUIRE(upper >= truth);

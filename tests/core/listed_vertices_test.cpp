@@ -77,7 +77,7 @@ template <typename Number>
 std::size_t check_all(std::uint64_t seed) {
   Scattered<Number> scattered(seed);
   const double unit = std::ldexp(1.0, static_cast<int>(seed % 9) - 4);
-  const Vector3d corner(scattered.random.between(-1, 1), scattered.random.between(-1, 1), 0);
+  const Vector3d corner{scattered.random.between(-1, 1), scattered.random.between(-1, 1), 0};
   const Box of_frame{corner, corner + Vector3d::Constant(unit)};
   const FilterFrame frame(of_frame, of_frame);
   check_brought(scattered, frame);

@@ -25,9 +25,11 @@ FeaturePiece random_piece(oracle::Random& random, const Mesh& mesh) {
 
 std::vector<ContactName> random_names(oracle::Random& random, const Mesh& mesh, std::uint32_t count) {
   std::vector<ContactName> names;
-  for (std::uint32_t i = 0; i < count; ++i)
-    names.push_back(ContactName::of(random_piece(random, mesh), random_piece(random, mesh),
-                                    static_cast<Meeting>(random.below(3))));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const FeaturePiece a = random_piece(random, mesh);
+    const FeaturePiece b = random_piece(random, mesh);
+    names.push_back(ContactName::of(a, b, static_cast<Meeting>(random.below(3))));
+  }
   return names;
 }
 

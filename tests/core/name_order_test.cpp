@@ -28,9 +28,11 @@ TEST_CASE("names are sorted as by comparing, however many and however large") {
     const std::uint32_t largest_b = 1U << random.below(32);
     std::vector<ContactName> names;
     const std::uint32_t count = random.below(seed % 2 == 0 ? 100 : 2000);
-    for (std::uint32_t i = 0; i < count; ++i)
-      names.push_back(ContactName::of(random_piece(random, largest_a), random_piece(random, largest_b),
-                                      static_cast<Meeting>(random.below(3))));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const FeaturePiece a = random_piece(random, largest_a);
+      const FeaturePiece b = random_piece(random, largest_b);
+      names.push_back(ContactName::of(a, b, static_cast<Meeting>(random.below(3))));
+    }
     if (seed % 3 == 0)  // as where those of a come in order
       std::stable_sort(names.begin(), names.end(),
                        [](const auto& left, const auto& right) { return left.of_a() < right.of_a(); });

@@ -3,6 +3,7 @@
 #include "name_set.hpp"
 
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -24,8 +25,9 @@ TEST_CASE("names at one distance are each kept once, and in order when they are 
     NameSet names;
     std::set<ContactName> expected;
     for (std::uint32_t i = 0; i < 3000; ++i) {
-      const ContactName name =
-          seed % 3 == 0 ? name_of(i / range, i % range) : name_of(random.below(range), random.below(range));
+      const auto [a, b] = seed % 3 == 0 ? std::pair{i / range, i % range}
+                                        : std::pair{random.below(range), random.below(range)};
+      const ContactName name = name_of(a, b);
       REQUIRE(names.contains(name) == (expected.count(name) != 0));
       if (!expected.insert(name).second) continue;
       names.add(name);

@@ -103,8 +103,8 @@ TEST_CASE("near vertices: small surfaces of all kinds, in either precision") {
     oracle::Random random(seed);
     // Some of a soup's vertices are unused.
     Surface a = surface_of(random_soup(seed, 40 + random.below(100), 80));
-    Surface b = surface_of(mapped(random_soup(seed + 1, 40 + random.below(100), 80), 1,
-                                  {random.between(-1.2, 1.2), random.between(-0.2, 0.2), 0}));
+    const Eigen::Vector3d away{random.between(-1.2, 1.2), random.between(-0.2, 0.2), 0};
+    Surface b = surface_of(mapped(random_soup(seed + 1, 40 + random.below(100), 80), 1, away));
     if (seed % 2 == 0) read_in_float(b);
     if (seed % 3 == 0) read_in_float(a);
     const double limits[] = {0, 0.07, 0.31, 5, infinity};

@@ -253,7 +253,7 @@ TEST_CASE("normals: a closed surface's closest feature tells inside from outside
   for (std::size_t i = 0; i < solids.size(); ++i) {
     oracle::Random random(i);
     for (int sample = 0; sample < 400; ++sample) {
-      const Vector3d p(random.between(-1.3, 1.3), random.between(-1.3, 1.3), random.between(-1.3, 1.3));
+      const Vector3d p = random.vector(-1.3, 1.3);
       const double winding = winding_number(solids[i], p);
       REQUIRE((std::abs(winding) < 1e-6 || std::abs(winding - 1) < 1e-6));
       const bool is_inside = winding > 0.5;

@@ -28,7 +28,7 @@ enum Family : std::uint64_t { plain, needles, nearly_straight, minute, huge, far
 Shape fan(Family family, Random& random) {
   Shape shape;
   const auto add_point = [&] {
-    Eigen::Vector3d point(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    Eigen::Vector3d point = random.vector(-1, 1);
     if (family == needles) point = point.cwiseProduct(Eigen::Vector3d(1, 0x1p-10, 0x1p-16));
     // A half turn seen from vertex 0, to a millionth.
     if (family == nearly_straight)
@@ -181,7 +181,7 @@ TEST_CASE("rough normals: several at once as alone, the last vertex among them, 
   Shape shape{{}, {}};
   std::vector<Eigen::Vector3f> floats;
   for (std::uint32_t i = 0; i < 9; ++i) {
-    const Eigen::Vector3d point(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    const Eigen::Vector3d point = random.vector(-1, 1);
     floats.push_back(point.cast<float>());
     shape.positions.push_back(floats.back().cast<double>());
   }

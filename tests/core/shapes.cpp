@@ -41,7 +41,7 @@ oracle::Shape snapped(oracle::Shape shape, double step) {
 oracle::Shape wobbled(oracle::Shape shape, double size, std::uint64_t seed) {
   oracle::Random random(seed);
   for (int wave = 0; wave < 3; ++wave) {
-    const Eigen::Vector3d direction(random.between(-4, 4), random.between(-4, 4), random.between(-4, 4));
+    const Eigen::Vector3d direction = random.vector(-4, 4);
     const double phase = random.between(0, 6);
     for (Eigen::Vector3d& position : shape.positions)
       position[wave] += size * std::sin(direction.dot(position) + phase);
@@ -51,9 +51,10 @@ oracle::Shape wobbled(oracle::Shape shape, double size, std::uint64_t seed) {
 
 oracle::Shape turned(oracle::Shape shape, std::uint64_t seed) {
   oracle::Random random(seed);
-  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(random.between(0, 6), Eigen::Vector3d::UnitX()) *
-                                Eigen::AngleAxisd(random.between(0, 6), Eigen::Vector3d::UnitY()) *
-                                Eigen::AngleAxisd(random.between(0, 6), Eigen::Vector3d::UnitZ()))
+  const Eigen::Vector3d angles = random.vector(0, 6);
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()) *
+                                Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+                                Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()))
                                    .toRotationMatrix();
   for (Eigen::Vector3d& position : shape.positions) position = turn * Eigen::Vector3d(position);
   return shape;

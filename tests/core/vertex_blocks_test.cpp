@@ -118,7 +118,8 @@ TEST_CASE("vertex blocks: each used vertex is in one block, whose vertices are n
                                     shape_of(models::sphere(5, 3))};
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Random random(seed);
-    shapes.push_back(random_soup(seed, 3 + random.below(300), 1 + random.below(200)));
+    const std::uint32_t vertices = 3 + random.below(300);
+    shapes.push_back(random_soup(seed, vertices, 1 + random.below(200)));
   }
   for (const oracle::Shape& shape : shapes) {
     const auto mesh = mesh_of(shape);
@@ -145,7 +146,8 @@ TEST_CASE("vertex blocks: boxes of every level are those of their vertices") {
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Random random(seed);
-    oracle::Shape shape = random_soup(seed, 3 + random.below(200), 1 + random.below(300));
+    const std::uint32_t vertices = 3 + random.below(200);
+    oracle::Shape shape = random_soup(seed, vertices, 1 + random.below(300));
     const double size = std::ldexp(1.0, static_cast<int>(random.below(240)) - 120);
     for (Eigen::Vector3d& position : shape.positions) position *= size;
     compared += check_surface<float>(mapped(shape, 1, {0, 0, 0})) + check_surface<double>(shape);

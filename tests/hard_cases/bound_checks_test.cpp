@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <graze/pair_query.hpp>
 #include <iostream>
+#include <utility>
 
 #include "bounds.hpp"
 #include "core/comparison.hpp"
@@ -141,8 +142,8 @@ void check_pair(std::uint64_t seed, Checks& checks) {
 
 /// Settings of a scene in any mode, with any budget.
 SceneSettings any_settings(Random& random, double threshold) {
-  SceneSettings settings =
-      settings_of(threshold, random.between(0, 2), all_details[random.below(all_details.size())]);
+  const double range = random.between(0, 2);
+  SceneSettings settings = settings_of(threshold, range, all_details[random.below(all_details.size())]);
   const std::uint32_t mode = random.below(3);
   if (mode == 1) settings.accuracy = Accuracy::within(any_tolerance(random));
   if (mode == 2 && is_about_vertices(settings.detail))
@@ -207,17 +208,18 @@ void check_scenes(std::uint64_t seed, Checks& checks) {
       }
     Body& moved = bodies[random.below(4)];
     const double size = random.chance(0.5) ? 0.01 : 1;
-    moved.now = mapped(moved.now, 1, Vector3d(random.between(-size, size), random.between(-size, size), 0));
+    moved.now = mapped(moved.now, 1, Vector3d{random.between(-size, size), random.between(-size, size), 0});
   }
 }
 
 /// A few hundred vertices with two or three levels of regions.
 Shape any_large_shape(Random& random) {
   const std::uint32_t form = random.below(4);
-  if (form == 0) return shape_of(models::sphere(12 + random.below(28), 8 + random.below(16)));
-  if (form == 1) return shape_of(models::torus(16 + random.below(24), 8 + random.below(12), 0.8, 0.3));
-  if (form == 2) return shape_of(models::sheet(10 + random.below(15), 10 + random.below(15), 2, 2));
-  return shape_of(models::sphere(12 + random.below(20), 8 + random.below(10), models::Faces::quads));
+  const auto [u, v] = std::pair{random.below(16), random.below(10)};
+  if (form == 0) return shape_of(models::sphere(12 + 2 * u, 8 + v));
+  if (form == 1) return shape_of(models::torus(16 + u, 8 + v, 0.8, 0.3));
+  if (form == 2) return shape_of(models::sheet(10 + u, 10 + v, 2, 2));
+  return shape_of(models::sphere(12 + u, 8 + v, models::Faces::quads));
 }
 
 /// A surface's vertices, without faces.
@@ -298,7 +300,7 @@ void check_region_bounds(std::uint64_t seed, Checks& checks) {
   Random random(seed);
   const double far = random.chance(0.2) ? 0x1p30 : 1;
   const auto somewhere = [&] {
-    return Vector3d(random.between(-2, 2) * far, random.between(-1, 1), random.between(-1, 1));
+    return Vector3d{random.between(-2, 2) * far, random.between(-1, 1), random.between(-1, 1)};
   };
   const Vector3d place = somewhere();
   const Shape rest_a = any_large_shape(random);

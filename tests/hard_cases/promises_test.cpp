@@ -1,5 +1,6 @@
 // Broken promises of motion, and poses that are no rotations.
 
+#include <array>
 #include <iostream>
 
 #include "hard_cases/scene_comparison.hpp"
@@ -56,7 +57,8 @@ TEST_CASE("a pose 1e-4 off a rotation: a diagnostic, and the old one stands") {
     const ReportHandle before = scene.step();
     CHECK(before->diagnostics().empty());
     Eigen::Isometry3d off = pose;
-    off.matrix()(static_cast<int>(random.below(3)), static_cast<int>(random.below(3))) += 1e-4;
+    const std::array place{random.below(3), random.below(3)};
+    off.matrix()(place[0], place[1]) += 1e-4;
     off.translation().x() += 1;
     scene.set_pose(rigid, off);
     const ReportHandle report = scene.step();

@@ -77,12 +77,12 @@ void RandomMotion::change_pairs() {
     scene_.ignore(a, b);
     ignored_.emplace_back(a, b);
   } else if (random_.chance(0.5) && !ignored_.empty()) {
-    const auto [a, b] = ignored_[random_.below(static_cast<std::uint32_t>(ignored_.size()))];
-    scene_.watch(b, a);
-    std::erase_if(ignored_,
-                  [&](const auto& pair) { return pair == std::pair(a, b) || pair == std::pair(b, a); });
+    const std::pair watched = ignored_[random_.below(static_cast<std::uint32_t>(ignored_.size()))];
+    const std::pair reversed(watched.second, watched.first);
+    scene_.watch(watched.second, watched.first);
+    std::erase_if(ignored_, [&](const auto& pair) { return pair == watched || pair == reversed; });
   } else {
-    const std::pair kinds(random_.below(3), random_.below(3));
+    const std::pair kinds{random_.below(3), random_.below(3)};
     const double threshold = random_.between(0, 0.2);
     rules_.emplace_back(kinds, PairRule{threshold, random_.chance(0.3) ? 0 : random_.between(0, 1), {}});
     scene_.set_rule(kinds.first, kinds.second, rules_.back().second);

@@ -2,7 +2,9 @@
 
 #include <cstdio>
 #include <graze/io/error.hpp>
-#ifdef __SANITIZE_ADDRESS__
+
+#include "scenes/sanitizers.hpp"
+#ifdef GRAZE_HAS_ADDRESS_SANITIZER
 #include <sanitizer/lsan_interface.h>
 #endif
 
@@ -72,7 +74,7 @@ Box make_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   return box;
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GRAZE_HAS_ADDRESS_SANITIZER
 AssimpLeaks::AssimpLeaks() {
   __lsan_disable();
 }

@@ -82,7 +82,7 @@ TEST_CASE("concave polygons are cut without overlap") {
     for (int run = 0; run < 200; ++run) {
       const int count = 5 + run % 20;
       const Eigen::Quaterniond turn =
-          Eigen::Quaterniond(length(random) - 0.5, length(random), length(random) - 0.7, length(random))
+          Eigen::Quaterniond{length(random) - 0.5, length(random), length(random) - 0.7, length(random)}
               .normalized();
       std::vector<Eigen::Vector3d> star;
       for (int i = 0; i < count; ++i) {

@@ -5,16 +5,9 @@
 #include <atomic>
 #include <cstdlib>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define GRAZE_HAS_SANITIZER
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GRAZE_HAS_SANITIZER
-#endif
+#include "scenes/sanitizers.hpp"
 
-#if !defined(__GLIBC__) || defined(GRAZE_HAS_SANITIZER)
+#if !defined(__GLIBC__) || defined(GRAZE_HAS_ADDRESS_SANITIZER) || defined(GRAZE_HAS_THREAD_SANITIZER)
 
 namespace graze::tests {
 

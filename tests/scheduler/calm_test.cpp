@@ -32,8 +32,7 @@ class Heap {
                                static_cast<double>(layer));
     now_[body].clear();
     for (const Eigen::Vector3d& rest : mesh_->rest()) {
-      const Eigen::Vector3d by(random_.between(-tremor, tremor), random_.between(-tremor, tremor),
-                               random_.between(-tremor, tremor));
+      const Eigen::Vector3d by = random_.vector(-tremor, tremor);
       now_[body].push_back((1.985 * cell + rest + off + by).cast<float>().cast<double>());
     }
   }

@@ -81,7 +81,8 @@ class BoxWorld {
     if (random_.chance(0.01)) return box_at(random_vector(0x1p119), Eigen::Vector3d::Constant(0x1p119));
     const double size = std::pow(10.0, random_.between(-3, 3));
     const double spread = random_.chance(0.3) ? 5 : 3000;
-    return box_at(random_vector(spread), Eigen::Vector3d(size, size * random_.between(0, 1), size / 2));
+    const double width = size * random_.between(0, 1);
+    return box_at(random_vector(spread), Eigen::Vector3d(size, width, size / 2));
   }
 
   oracle::Random random_;
@@ -153,7 +154,10 @@ TEST_CASE("the pairs kept are those that a look at all pairs of boxes gives") {
     oracle::Random random(seed + 100);
     auto reaches = half_reaches_of(0, 0.1, 0.5);
     for (int frame = 0; frame < 60; ++frame) {
-      if (random.chance(0.1)) reaches = half_reaches_of(0, random.between(0, 1), random.between(0, 40));
+      if (random.chance(0.1)) {
+        const std::array reach{random.between(0, 1), random.between(0, 40)};
+        reaches = half_reaches_of(0, reach[0], reach[1]);
+      }
       if (random.chance(0.2)) world.remove_some(random.between(0, 0.5));
       if (frame == 0 || random.chance(0.3))
         for (std::uint32_t i = random.below(frame % 10 == 0 ? 300 : 10); i > 0; --i) world.add();

@@ -22,11 +22,11 @@ Positions positions_in(Scene& scene, ObjectId observer, ObjectId object) {
 
 Eigen::Isometry3d random_pose(oracle::Random& random) {
   const auto number = [&] { return random.between(-1, 1); };
-  Eigen::Quaterniond rotation(number(), number(), number(), number());
+  const Eigen::Quaterniond rotation{number(), number(), number(), number()};
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = rotation.normalized().toRotationMatrix();
   const double size = random.chance(0.5) ? 1 : 1000;
-  pose.translation() = size * Eigen::Vector3d(number(), number(), number());
+  pose.translation() = size * random.vector(-1, 1);
   return pose;
 }
 

@@ -198,6 +198,12 @@ bool Random::chance(double probability) {
   return between(0, 1) < probability;
 }
 
+Eigen::Vector3d Random::vector(double low, double high) {
+  const double x = between(low, high);
+  const double y = between(low, high);
+  return {x, y, between(low, high)};
+}
+
 RandomScene random_scene(std::uint64_t seed) {
   Random random(seed);
   RandomScene scene;

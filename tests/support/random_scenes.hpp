@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +11,9 @@
 
 namespace graze::oracle {
 
-/// A small generator of random numbers (splitmix64): the same numbers from every standard library.
+/// A small generator of random numbers (splitmix64): the same numbers from every standard library. What is
+/// made of several asks for each in a statement of its own, or in braces: compilers differ in the order of a
+/// call's arguments.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -21,6 +24,8 @@ class Random {
   /// In [low, high).
   double between(double low, double high);
   bool chance(double probability);
+  /// Each coordinate between them.
+  Eigen::Vector3d vector(double low, double high);
 
  private:
   std::uint64_t state_;

@@ -31,7 +31,7 @@ TEST_CASE("a rotation turns about x, then y, then z, all fixed") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> degrees(-400, 400);
   for (int round = 0; round < 200; ++round) {
-    const Vector3d angles(degrees(random), degrees(random), degrees(random));
+    const Vector3d angles{degrees(random), degrees(random), degrees(random)};
     const Vector3d point(0.3, -1.2, 2.5);
     const Vector3d expected = turned(turned(turned(point, 0, angles.x()), 1, angles.y()), 2, angles.z());
     CHECK((rotation_from_degrees(angles) * point - expected).norm() < 1e-13);

@@ -91,9 +91,9 @@ TEST_CASE("a locale with a decimal comma: mesh and scene files are read alike") 
     CHECK(read() == expected);
   };
   CHECK(positions_of(folder / "a.obj")[0] == Eigen::Vector3d(0.125, -1234.5678, 1e-3));
-  for (const auto& [name, text] : mesh_texts) {
-    INFO(name);
-    check([&] { return positions_of(folder / name); });
+  for (const auto& mesh : mesh_texts) {
+    INFO(mesh.first);
+    check([&] { return positions_of(folder / mesh.first); });
   }
   check([&] { return witness_of(folder / "scene.json"); });
   std::cout << "compared " << mesh_texts.size() + 1 << " files\n";

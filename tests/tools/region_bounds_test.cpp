@@ -81,7 +81,8 @@ CloudPair clouds_of(std::uint64_t seed) {
   Random random(seed);
   const auto shape = [&] { return static_cast<Shape>(random.below(static_cast<std::size_t>(Shape::last))); };
   CloudPair pair{cloud_of(shape(), random), cloud_of(shape(), random)};
-  const Vector apart = random.vector(-1, 1).normalized() * random.between(0, 4);
+  const Vector direction = random.vector(-1, 1).normalized();
+  const Vector apart = direction * random.between(0, 4);
   const double scale = std::ldexp(1.0, static_cast<int>(random.below(5)) * 40 - 80);
   const Vector far =
       random.chance(0.5) ? Vector::Zero().eval() : (random.vector(-1, 1) * scale * 0x1p30).eval();
@@ -362,7 +363,8 @@ TEST_CASE("Near vertices: as every pair tells, with vertices that no face uses")
     data.positions.emplace_back(Vector::Zero());  // unused
     const Mesh mesh = mesh_of(data);
     const Cloud a = deformed(mesh, random.between(-1, 1), Vector::Zero());
-    const Cloud b = deformed(mesh, random.between(-1, 1), random.vector(-1.5, 1.5));
+    const Vector away = random.vector(-1.5, 1.5);
+    const Cloud b = deformed(mesh, random.between(-1, 1), away);
     const double distance = random.between(0.02, 0.5);
     LeafPairs expected, found;
     for (std::uint32_t i = 0; i + 1 < a.size(); ++i)

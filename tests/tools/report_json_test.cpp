@@ -69,7 +69,7 @@ class CrumpledSheets {
     for (std::uint32_t y = 0; y < side; ++y)
       for (std::uint32_t x = 0; x < side; ++x)
         positions.push_back(
-            scale_ * Vector3d(0.5 * x + noise(random_), 0.5 * y + noise(random_), height + noise(random_)));
+            scale_ * Vector3d{0.5 * x + noise(random_), 0.5 * y + noise(random_), height + noise(random_)});
     positions[0].x() = -0.0;
     return positions;
   }

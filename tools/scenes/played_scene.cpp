@@ -197,7 +197,8 @@ class CrowdScene : public PlayedScene {
     if (!random_.chance(0.2)) return;
     const std::uint32_t kind = any_kind();
     const double threshold = random_.between(0, 0.1);
-    scene.set_rule(kind, any_kind(), {threshold, random_.between(0, 0.4), {}});
+    const double range = random_.between(0, 0.4);
+    scene.set_rule(kind, any_kind(), {threshold, range, {}});
   }
   void join(Scene& scene) {
     Member member;

@@ -93,8 +93,10 @@ void nudge(Shape& shape, Random& random) {
 Shapes far_away(Random& random) {
   Shapes shapes = random.chance(0.5) ? two_faces(random) : parallel_shapes(random, false, true);
   Vector3d offset;
-  for (int axis = 0; axis < 3; ++axis)
-    offset[axis] = std::ldexp(random.chance(0.5) ? 1 : -1, static_cast<int>(20 + random.below(21)));
+  for (int axis = 0; axis < 3; ++axis) {
+    const int exponent = static_cast<int>(20 + random.below(21));
+    offset[axis] = std::ldexp(random.chance(0.5) ? 1 : -1, exponent);
+  }
   move(shapes[0], offset);
   move(shapes[1], offset);
   return shapes;

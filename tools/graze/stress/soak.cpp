@@ -14,6 +14,7 @@
 
 #include "progress.hpp"
 #include "scenes/report_hash.hpp"
+#include "scenes/sanitizers.hpp"
 #include "stress/clocks.hpp"
 #include "stress/soak_world.hpp"
 #include "text_format.hpp"
@@ -34,7 +35,7 @@ constexpr double tolerated_growth = 1.1;
 constexpr double tolerated_bytes = 32 << 20;
 
 // The address sanitizer keeps what was freed for a while, so that resident memory grows by its design.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GRAZE_HAS_ADDRESS_SANITIZER
 constexpr bool resident_memory_is_ours = false;
 #else
 constexpr bool resident_memory_is_ours = true;

@@ -77,10 +77,11 @@ SoftMotion three_humans_and_torus(Random& random) {
     body.kind_id = kind_id;
     body.name = name;
     body.rest = std::move(rest);
-    body.start =
-        placed(at + random.vector(-1, 1),
-               Eigen::AngleAxisd(turn + random.between(-0.1, 0.1), Vector3d::UnitZ()) *
-                   Eigen::AngleAxisd(random.between(-0.15, 0.15), Vector3d::UnitX()).toRotationMatrix());
+    const double about_x = random.between(-0.15, 0.15);
+    const double about_z = turn + random.between(-0.1, 0.1);
+    body.start = placed(at + random.vector(-1, 1),
+                        Eigen::AngleAxisd(about_z, Vector3d::UnitZ()) *
+                            Eigen::AngleAxisd(about_x, Vector3d::UnitX()).toRotationMatrix());
     body.flow = random_flow(random, 0.002, 0.008);
     body.speed = 0.13;
     motion.bodies.push_back(std::move(body));
@@ -104,8 +105,9 @@ SoftMotion tooth_and_cylinder(Random& random) {
   cylinder.name = cylinder.kind = "cylinder";
   cylinder.kind_id = 1;
   cylinder.rest = scaled(models::cylinder(), 36.5);
+  const double about_z = random.between(-0.2, 0.2);
   cylinder.start = placed(Vector3d(0, 0, 75) + random.vector(-1, 1),
-                          (Eigen::AngleAxisd(random.between(-0.2, 0.2), Vector3d::UnitZ()) *
+                          (Eigen::AngleAxisd(about_z, Vector3d::UnitZ()) *
                            Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX()))
                               .toRotationMatrix());
   cylinder.flow = random_flow(random, 0.002, 0.01);
