@@ -13,25 +13,23 @@ if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
 else()
   set(GRAZE_CATCH_MAIN graze_catch_main)
   add_library(graze_catch_main STATIC ${CMAKE_CURRENT_LIST_DIR}/catch_main.cpp)
+  target_compile_features(graze_catch_main PUBLIC cxx_std_20)  # what it prints depends on it
+  target_compile_options(graze_catch_main PRIVATE ${GRAZE_TEST_OPTIONS})
   target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2)
 endif()
+
+# The headers and compiler options of all test programs, in one place since headers are precompiled once for all.
+add_library(graze_test_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
+target_compile_options(graze_test_headers PRIVATE ${GRAZE_TEST_OPTIONS})
+target_link_libraries(graze_test_headers PRIVATE graze_options Catch2::Catch2)
+graze_precompile_headers(graze_test_headers ${CMAKE_CURRENT_LIST_DIR}/catch.hpp)
 
 function(graze_add_test_program name)
   add_executable(${name} ${ARGN})
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
   target_compile_definitions(${name} PRIVATE GRAZE_SHARED_DATA="${GRAZE_SHARED_DATA}")
-  target_compile_options(${name} PRIVATE ${GRAZE_TEST_OPTIONS})
-  target_link_libraries(${name} PRIVATE graze_options ${GRAZE_CATCH_MAIN})
-  list(LENGTH ARGN source_count)
-  if(source_count GREATER 4)  # fewer are built before the headers would be
-    # What nearly every test includes: reading it takes longer than compiling most tests.
-    target_link_libraries(${name} PRIVATE Eigen3::Eigen)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-      # What it sees in the standard library's strings (GCC bug 105651) it does not take for a system header's then.
-      target_compile_options(${name} PRIVATE -Wno-array-bounds)
-    endif()
-    target_precompile_headers(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/catch.hpp
-      <Eigen/Geometry> <algorithm> <array> <cmath> <memory> <string> <vector>)
-  endif()
+  target_compile_options(${name} PRIVATE $<TARGET_PROPERTY:graze_test_headers,COMPILE_OPTIONS>)
+  target_precompile_headers(${name} REUSE_FROM graze_test_headers)
+  target_link_libraries(${name} PRIVATE graze_options ${GRAZE_CATCH_MAIN} Eigen3::Eigen)
   catch_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
 endfunction()
