@@ -29,7 +29,7 @@ apt_get update
 tar -xf "$work"/onetbb_*.orig.tar.* -C "$work/tbb" --strip-components=1
 
 cmake -S "$work/tbb" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_INSTALL_PREFIX="$prefix" \
-  -DTBB_SANITIZE=thread -DCMAKE_CXX_FLAGS=-Wno-tsan -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF >/dev/null
+  -DCMAKE_CXX_COMPILER=clang++ -DTBB_SANITIZE=thread -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF >/dev/null
 cmake --build "$work/build" -- --quiet
 cmake --install "$work/build" >/dev/null
 touch "$prefix/finished"
