@@ -181,8 +181,7 @@ TEST_CASE("2,000 objects in one place: memory bounded, degradation reported") {
   oracle::Random random(3);
   std::vector<std::shared_ptr<const Mesh>> meshes;
   for (int i = 0; i < 20; ++i) {
-    const auto point = [&] { return random.vector(0, 1); };
-    const std::array corners{point(), point(), point()};
+    const std::array corners{random.vector(0, 1), random.vector(0, 1), random.vector(0, 1)};
     meshes.push_back(mesh_of(triangle(corners[0], corners[1], corners[2])));
   }
   for (std::size_t i = 0; i < count; ++i) scene.add(meshes[i % meshes.size()]);
