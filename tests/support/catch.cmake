@@ -13,7 +13,7 @@ if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
 else()
   set(GRAZE_CATCH_MAIN graze_catch_main)
   add_library(graze_catch_main STATIC ${CMAKE_CURRENT_LIST_DIR}/catch_main.cpp)
-  target_compile_features(graze_catch_main PUBLIC cxx_std_20)  # what it prints depends on it
+  target_compile_features(graze_catch_main PUBLIC cxx_std_20)  # it knows string views only then
   target_compile_options(graze_catch_main PRIVATE ${GRAZE_TEST_OPTIONS})
   target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2)
 endif()
