@@ -388,9 +388,10 @@ TEST_CASE("filter: a limit is never rounded down") {
   for (int i = 0; i < 10'000; ++i) {
     Box box;
     box.add(Vector3d::Zero());
-    const double mantissa = random.between(0.5, 1);
-    box.add(Vector3d::Constant(std::ldexp(mantissa, static_cast<int>(random.below(600)) - 300)));
+    const double size = random.between(0.5, 1);
+    box.add(Vector3d::Constant(std::ldexp(size, static_cast<int>(random.below(600)) - 300)));
     const FilterFrame frame(box, box);
+    const double mantissa = random.between(0.5, 1);
     const double limit = std::ldexp(mantissa, static_cast<int>(random.below(700)) - 350);
     CHECK(double{frame.to_local_limit(limit)} >= limit * frame.scale());
   }

@@ -213,12 +213,26 @@ void check_scenes(std::uint64_t seed, Checks& checks) {
 }
 
 /// A few hundred vertices with two or three levels of regions.
+/// Two numbers, the first drawn first.
+std::array<std::uint32_t, 2> any_below(Random& random, std::uint32_t u, std::uint32_t v) {
+  return {random.below(u), random.below(v)};
+}
+
 Shape any_large_shape(Random& random) {
   const std::uint32_t form = random.below(4);
-  const auto [u, v] = std::pair{random.below(16), random.below(10)};
-  if (form == 0) return shape_of(models::sphere(12 + 2 * u, 8 + v));
-  if (form == 1) return shape_of(models::torus(16 + u, 8 + v, 0.8, 0.3));
-  if (form == 2) return shape_of(models::sheet(10 + u, 10 + v, 2, 2));
+  if (form == 0) {
+    const auto [u, v] = any_below(random, 28, 16);
+    return shape_of(models::sphere(12 + u, 8 + v));
+  }
+  if (form == 1) {
+    const auto [u, v] = any_below(random, 24, 12);
+    return shape_of(models::torus(16 + u, 8 + v, 0.8, 0.3));
+  }
+  if (form == 2) {
+    const auto [u, v] = any_below(random, 15, 15);
+    return shape_of(models::sheet(10 + u, 10 + v, 2, 2));
+  }
+  const auto [u, v] = any_below(random, 20, 10);
   return shape_of(models::sphere(12 + u, 8 + v, models::Faces::quads));
 }
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <graze/io/error.hpp>
 
-#include "scenes/sanitizers.hpp"
+#include "sanitizers.hpp"
 #ifdef GRAZE_HAS_ADDRESS_SANITIZER
 #include <sanitizer/lsan_interface.h>
 #endif

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "scenes/sanitizers.hpp"
+#include "sanitizers.hpp"
 
 #if !defined(__GLIBC__) || defined(GRAZE_HAS_ADDRESS_SANITIZER) || defined(GRAZE_HAS_THREAD_SANITIZER)
 

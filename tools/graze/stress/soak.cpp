@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "progress.hpp"
+#include "sanitizers.hpp"
 #include "scenes/report_hash.hpp"
-#include "scenes/sanitizers.hpp"
 #include "stress/clocks.hpp"
 #include "stress/soak_world.hpp"
 #include "text_format.hpp"
