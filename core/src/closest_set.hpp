@@ -68,8 +68,11 @@ class ClosestSet {
  private:
   static bool is_edge_through_face(const ContactName& name) { return name.kind() == ContactKind::EF; }
   void replace(const ContactName& name) {
+    const double upper = upper_distance(pair_, name);
+    // What is looked for at 0 alone is not found in what a look that went further met.
+    if (closest_.upper == 0 && upper > 0) return;
     names_.assign(name);
-    at_most(upper_distance(pair_, name));
+    at_most(upper);
   }
 
   const SurfacePair& pair_;

@@ -7,7 +7,6 @@
 #include <graze/pair_query.hpp>
 #include <iostream>
 #include <limits>
-#include <utility>
 
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
@@ -97,10 +96,12 @@ TEST_CASE(
   for (const Meeting& meeting : all)
     for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features})
       for (const double threshold : {0.0, 0.02})
-        for (const auto& [reach, slack] : {std::pair(infinity, 0.25), {0.3, 0.25}, {infinity, 1e-3}}) {
+        for (const auto& [reach, slack, look_slack] :
+             {std::array{infinity, 0.25, 0.0}, {0.3, 0.25, 0.1}, {infinity, 1e-3, 0.01}}) {
           PairQuery query = query_of(detail, threshold);
           query.reach = reach;
           query.slack = slack;
+          query.look_slack = look_slack;
           const Tally tally = compare_steps(meeting, query);
           if (detail != ContactDetail::none) continue;
           sum.touched += tally.touched;
@@ -114,6 +115,36 @@ TEST_CASE(
   CHECK(sum.in_turn > 100);
   std::cout << sum.touched << " answers at distance 0, " << sum.unwalked << " of them from listed leaves and "
             << sum.in_turn << " in turn, " << sum.parted << " partings\n";
+}
+
+TEST_CASE("touching: surfaces on a grid that part by less than leaves are looked into for") {
+  const FloatingPointScope scope;
+  PairDetector detector;
+  PairDetector of_nothing;
+  std::size_t parted = 0;
+  for (std::uint64_t seed = 1; seed < 2'400; seed += 2) {
+    const oracle::RandomScene given = oracle::random_scene(seed);
+    if (oracle::surface_distance(given.a, given.b).distance_up > 0) continue;
+    Surface a = surface_of(given.a);
+    Surface b = surface_of(given.b);
+    oracle::Random random(seed);
+    const Eigen::Vector3d by = random.vector(-0.01, 0.01);
+    PairQuery query = query_of(ContactDetail::none, given.threshold);
+    query.slack = 0.01;
+    query.look_slack = 0.1;
+    LeafFront front;
+    PairAnswer answer;
+    PairCounters counters;
+    detector.detect(a, b, query, front, answer, counters);
+    REQUIRE(b.set_positions(mapped(given.b, 1, {by.x(), by.y(), 0}).positions).taken());
+    PairAnswer afresh;
+    detector.detect(a, b, query, front, answer, counters);
+    of_nothing.detect(a, b, query, afresh, counters);
+    INFO("seed " << seed);
+    check_same(answer, afresh);
+    parted += afresh.distance.upper > 0 ? 1U : 0U;
+  }
+  CHECK(parted > 50);
 }
 
 }  // namespace graze::tests
