@@ -22,6 +22,8 @@ constexpr std::size_t few_blocks = 8 * group_size;
 constexpr std::size_t few_at_once = 4 * group_size;
 /// So many blocks of a in one group of sixteen are worth it.
 constexpr std::size_t least_run = 4;
+/// Blocks of b among which there are too few pairs within the limit to look for the nearest first.
+constexpr std::size_t few_beside = 4;
 /// Blocks of b whose points are compared at once.
 constexpr std::size_t blocks_at_once = 128;
 
@@ -170,7 +172,7 @@ bool NearVertices::offer(WorkMeter& meter, ClosestRange& nearest) {
   nearest.left_out(most);
   order_near_first();
   auto& near_first = scratch_.near_first;
-  while (!near_first.empty()) {
+  for (bool is_first = true; !near_first.empty(); is_first = false) {
     std::pop_heap(near_first.begin(), near_first.end(), std::greater<>());
     const double lower = near_first.back().first;
     const std::uint32_t block = near_first.back().second;
@@ -179,6 +181,9 @@ bool NearVertices::offer(WorkMeter& meter, ClosestRange& nearest) {
     if (!meter.spend()) return false;
     look_within(std::min(most, above(nearest.limit())));
     find_beside(block);
+    if (is_first && scratch_.beside.count > few_beside)
+      look_within(std::min(limit_, in_float_ ? upper_distance_beside(block, near_.floats)
+                                             : upper_distance_beside(block, near_.doubles)));
     for_each_near(block, [&](const ContactName& name) {
       const SquaredRange squared =
           squared_range(pair_.a.position(name.a().feature.index), pair_.b.position(name.b().feature.index));
@@ -231,6 +236,19 @@ void NearVertices::find_beside_in_around(std::uint32_t block_of_a) {
   IndexList& found = scratch_.beside;
   find_meeting(scratch_.boxes, box_around(block_of_a), found);
   for (std::size_t i = 0; i < found.count; ++i) found.room[i] = scratch_.around.room[found.room[i]];
+}
+
+/// At least the distance of the nearest points of a block and those found beside it.
+template <typename Number>
+double NearVertices::upper_distance_beside(std::uint32_t block_of_a,
+                                           const std::vector<Number>& blocks_of_b) const {
+  std::array<Number, numbers_of_block> block;
+  lay_out_block(pair_.a, block_of_a, block.data());
+  const auto beside = scratch_.beside.listed();
+  const Number squared = passes_for<Number>().least_squared(block.data(), of_a_.vertices(block_of_a).size(),
+                                                            blocks_of_b.data(), beside.data(), beside.size());
+  return above(std::sqrt(double{squared} * (1 + 8 * double{std::numeric_limits<Number>::epsilon()}) +
+                         double{std::numeric_limits<Number>::min()}));
 }
 
 template <typename Number>

@@ -83,6 +83,9 @@ class NearVertices {
   void find_beside(std::uint32_t block_of_a);
   void find_beside_in_around(std::uint32_t block_of_a);
   template <typename Number>
+  [[nodiscard]] double upper_distance_beside(std::uint32_t block_of_a,
+                                             const std::vector<Number>& blocks_of_b) const;
+  template <typename Number>
   std::size_t compare(std::uint32_t block_of_a, std::span<const std::uint32_t> beside,
                       const std::vector<Number>& blocks_of_b);
   /// Calls `visit(name)` for all pairs of a block of a and those found beside it that are not certainly too

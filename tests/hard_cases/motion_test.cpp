@@ -1,6 +1,7 @@
 // Coherence is never fooled: whatever moved however, a report is that of a scene built afresh.
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <set>
@@ -112,6 +113,39 @@ class Judge {
   std::size_t contacts_ = 0;
 };
 
+/// Four shapes on a grid of quarters, where distances tie and features are parallel; they rest, or move by
+/// steps of the grid, by small exact steps, or by something small in between.
+class GridMotion {
+ public:
+  explicit GridMotion(std::uint64_t seed) : random_(seed) {
+    for (std::uint64_t i = 0; i < 2; ++i) {
+      const oracle::RandomScene given = oracle::random_scene(2 * (2 * seed + i) + 1);
+      bodies_.insert(bodies_.end(), {given.a, given.b});
+      threshold_ = std::max(threshold_, given.threshold);
+    }
+  }
+  void move() {
+    for (Body& body : bodies_) {
+      const std::uint32_t kind = random_.below(6);
+      if (kind < 2) continue;
+      const double size = kind == 2 ? 0.25 : std::ldexp(1.0, -static_cast<int>(random_.below(16)) - 4);
+      const auto step = [&] {
+        return kind < 5 ? size * (static_cast<double>(random_.below(3)) - 1) : random_.between(-size, size);
+      };
+      const double x = step();
+      const double y = step();
+      body.now = mapped(body.now, 1, {x, y, step()});
+    }
+  }
+  [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
+  [[nodiscard]] double threshold() const { return threshold_; }
+
+ private:
+  oracle::Random random_;
+  std::vector<Body> bodies_;
+  double threshold_ = 0;
+};
+
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG(
@@ -177,6 +211,29 @@ TEST_CASE("teleport, tunnelling, collapse to a point and back, inside out: each 
       }
     }
   std::cout << "compared " << compared << " frames of single motions\n";
+}
+
+TEMPLATE_TEST_CASE_SIG("shapes on a grid that part and meet by little: as built afresh, detail", "",
+                       ((int number), number), 0, 1, 2, 3, 4) {
+  const auto detail = static_cast<ContactDetail>(number);
+  std::size_t rows = 0;
+  for (std::uint64_t seed = 0; seed < 12 * GRAZE_MOTIONS; ++seed) {
+    GridMotion motion(seed);
+    const double range = seed % 2 == 0 ? 1 : 0;
+    const SceneSettings settings = settings_of(seed % 4 < 2 ? motion.threshold() : 0, range, detail);
+    BodyScene scene(motion.bodies(), settings);
+    for (int frame = 0; frame < 12; ++frame) {
+      const ReportHandle report = scene.step(motion.bodies());
+      BodyScene fresh(motion.bodies(), settings);
+      const ReportHandle afresh = fresh.step(motion.bodies());
+      INFO("seed " << seed << ", frame " << frame);
+      REQUIRE(timeless_rows_of(*report, range) == timeless_rows_of(*afresh, range));
+      rows += afresh->pairs().size();
+      motion.move();
+    }
+  }
+  CHECK(rows > 12 * 12 * GRAZE_MOTIONS);
+  std::cout << "compared " << rows << " pairs on a grid\n";
 }
 
 }  // namespace graze::tests

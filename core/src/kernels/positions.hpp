@@ -55,6 +55,9 @@ struct PassesOf {
   std::size_t (*near_points)(const Number* block, std::size_t count, const Number* blocks,
                              const std::uint32_t* listed, std::size_t listed_count, Number reach_squared,
                              const NearPairs& out);
+  /// The least of the squared distances that `near_points` compares; infinity where there are none.
+  Number (*least_squared)(const Number* block, std::size_t count, const Number* blocks,
+                          const std::uint32_t* listed, std::size_t listed_count);
 };
 
 /// The passes of one instruction set.
