@@ -14,6 +14,11 @@ inline double upper_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return (b - a).norm() * round_up + lost_to_underflow;
 }
 
+/// Whether two points may be apart of which this is the upper distance; not where they are in one place.
+inline bool may_be_apart(double upper_distance) {
+  return upper_distance > lost_to_underflow;
+}
+
 /// At most the distance of two points.
 inline double lower_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::max(0.0, (b - a).norm() - lost_to_underflow) * round_down;

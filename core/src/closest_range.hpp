@@ -77,12 +77,13 @@ class ClosestRange {
     const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
     // Not at 0: whether a walk came by must not show in the witness.
     const double upper = upper_distance(pair_.a.position(a), pair_.b.position(b));
-    if (upper > 0 && upper < set_.upper()) set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+    if (may_be_apart(upper) && upper < set_.upper())
+      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
   }
   /// Where points of both surfaces are this far apart. Not at 0, as with middles; and not where a name must
   /// be that near, since a search to a tolerance may leave it out.
   void at_most(double upper) {
-    if (upper > 0 && query_.mode == AccuracyMode::exact) set_.at_most(upper);
+    if (may_be_apart(upper) && query_.mode == AccuracyMode::exact) set_.at_most(upper);
   }
   /// Whether an edge may pierce a face.
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }

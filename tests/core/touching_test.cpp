@@ -117,6 +117,31 @@ TEST_CASE(
             << sum.in_turn << " in turn, " << sum.parted << " partings\n";
 }
 
+TEST_CASE("touching: that middle vertices are in one place shows in no witness") {
+  const FloatingPointScope scope;
+  const Shape ball = shape_of(models::sphere(24, 16));
+  PairDetector detector;
+  PairCounters counters;
+  for (const double threshold : {0.0, 0.02}) {
+    const PairQuery query = query_of(ContactDetail::none, threshold);
+    Surface a = surface_of(ball);
+    Surface b = surface_of(ball);
+    LeafFront front;
+    PairAnswer answer;
+    PairAnswer afresh;
+    for (const double away : {0.0, 0.125, 0.25}) {
+      const Shape moved = mapped(ball, 1, {away, 0, 0});
+      REQUIRE(a.set_positions(moved.positions).taken());
+      REQUIRE(b.set_positions(moved.positions).taken());
+      detector.detect(a, b, query, front, answer, counters);
+      detector.detect(a, b, query, afresh, counters);
+      INFO("threshold " << threshold << ", " << away << " away");
+      check_same(answer, afresh);
+      CHECK(answer.distance.upper == 0);
+    }
+  }
+}
+
 TEST_CASE("touching: surfaces on a grid that part by less than leaves are looked into for") {
   const FloatingPointScope scope;
   PairDetector detector;
