@@ -5,11 +5,11 @@
 
 namespace graze {
 
-kernels::BoxInFrame box_about(const VertexBlocks& blocks, const Box& box, float grown) {
+kernels::BoxInFrame box_about(const Eigen::Vector3d& origin, const Box& box, float grown) {
   kernels::BoxInFrame about{};
   for (int axis = 0; axis < 3; ++axis) {
-    about.min[axis] = static_cast<float>(box.min[axis] - blocks.origin()[axis]);
-    about.max[axis] = static_cast<float>(box.max[axis] - blocks.origin()[axis]);
+    about.min[axis] = static_cast<float>(box.min[axis] - origin[axis]);
+    about.max[axis] = static_cast<float>(box.max[axis] - origin[axis]);
   }
   return moved(about, Eigen::Vector3f::Zero(), grown);
 }
@@ -33,6 +33,10 @@ kernels::Block rows_of(const VertexBlocks::Level& level) {
 
 kernels::Block rows_of(const BoxRows& boxes) {
   return {boxes.rows.data(), boxes.stride, boxes.stride};
+}
+
+kernels::Block rows_of(const VertexStretches& stretches) {
+  return {stretches.rows(), stretches.stride(), stretches.stride()};
 }
 
 void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> places, BoxRows& boxes) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <graze/box.hpp>
 #include <graze/vertex_blocks.hpp>
+#include <graze/vertex_stretches.hpp>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -76,8 +77,8 @@ inline kernels::BoxInFrame moved(const kernels::BoxInFrame& box, const Eigen::Ve
   return moved;
 }
 
-/// A surface's box about the origin of another's blocks, grown.
-kernels::BoxInFrame box_about(const VertexBlocks& blocks, const Box& box, float grown);
+/// A surface's box about the origin of another's boxes, grown.
+kernels::BoxInFrame box_about(const Eigen::Vector3d& origin, const Box& box, float grown);
 /// The box of some blocks about their origin.
 kernels::BoxInFrame around_all(const VertexBlocks& blocks, std::span<const std::uint32_t> listed);
 
@@ -93,6 +94,7 @@ inline double lower_distance(const std::array<float, 6>& box, const kernels::Box
 
 kernels::Block rows_of(const VertexBlocks::Level& level);
 kernels::Block rows_of(const BoxRows& boxes);
+kernels::Block rows_of(const VertexStretches& stretches);
 /// Boxes put side by side, those of some places.
 void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> places, BoxRows& boxes);
 /// The blocks whose boxes meet another one, ascending: level by level, from the last down. There is room for

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <graze/box.hpp>
 #include <graze/vertex_blocks.hpp>
+#include <graze/vertex_stretches.hpp>
 #include <span>
 #include <tuple>
 
@@ -35,6 +36,23 @@ std::vector<std::uint32_t> block_order_of(const Mesh& mesh) {
   std::vector<std::uint32_t> order(used.begin(), used.end());
   halve(mesh, order);
   return order;
+}
+
+void list_stretch_groups(const Mesh& mesh, std::vector<std::uint32_t>& groups,
+                         std::vector<std::uint32_t>& begin) {
+  const std::uint32_t count = mesh.vertex_count();
+  if (!mesh.uses_all_vertices() || count < VertexStretches::least_vertices) return;
+  std::vector<std::uint32_t> group_of(count);
+  for (std::uint32_t place = 0; place < count; ++place)
+    group_of[mesh.block_order()[place]] = place / (VertexBlocks::block_size * VertexBlocks::group_size);
+  begin.push_back(0);
+  for (std::uint32_t first = 0; first < count; first += VertexStretches::stretch_size) {
+    const auto from = group_of.begin() + first;
+    const auto to = from + std::min(VertexStretches::stretch_size, count - first);
+    std::sort(from, to);
+    groups.insert(groups.end(), from, std::unique(from, to));
+    begin.push_back(static_cast<std::uint32_t>(groups.size()));
+  }
 }
 
 }  // namespace graze

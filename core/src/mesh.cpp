@@ -92,6 +92,7 @@ Mesh Mesh::from_polygons(PositionView rest, std::span<const std::uint32_t> corne
   mesh.look_for_unused();
   mesh.regions_ = RegionTree(mesh);
   mesh.block_order_ = block_order_of(mesh);
+  list_stretch_groups(mesh, mesh.stretch_groups_, mesh.stretch_group_begin_);
   return mesh;
 }
 
@@ -159,7 +160,8 @@ std::size_t Mesh::byte_count() const {
   return sizeof(Mesh) + bytes_of(rest_) + bytes_of(corners_) + bytes_of(face_begin_) + bytes_of(face_edges_) +
          bytes_of(edges_) + bytes_of(neighbours_) + bytes_of(neighbour_begin_) + bytes_of(vertex_faces_) +
          bytes_of(vertex_face_begin_) + bytes_of(fans_) + bytes_of(fan_begin_) + bytes_of(edge_faces_) +
-         bytes_of(edge_face_begin_) + bytes_of(block_order_) + regions_.byte_count();
+         bytes_of(edge_face_begin_) + bytes_of(block_order_) + bytes_of(stretch_groups_) +
+         bytes_of(stretch_group_begin_) + regions_.byte_count();
 }
 
 }  // namespace graze

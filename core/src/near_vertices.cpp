@@ -57,9 +57,7 @@ constexpr std::size_t numbers_of_block = 3 * block_size;
 
 /// A block's points, in another precision if need be.
 template <typename Number>
-void lay_out_block(const Surface& surface, std::uint32_t block, Number* numbers) {
-  const PositionView positions = surface.positions();
-  const auto vertices = surface.blocks().vertices(block);
+void lay_out_block(const PositionView& positions, std::span<const std::uint32_t> vertices, Number* numbers) {
   const auto in_own = [&]<typename Own>(Own* own) {
     passes_for<Own>().lay_out_block(points_of<Own>(positions), vertices.data(), vertices.size(), own);
   };
@@ -79,8 +77,8 @@ void lay_out_block(const Surface& surface, std::uint32_t block, Number* numbers)
 NearVertices::NearVertices(const SurfacePair& pair, double limit, NearBlocks& near,
                            NearVerticesScratch& scratch)
     : pair_(pair),
-      of_a_(pair.a.blocks()),
-      of_b_(pair.b.blocks()),
+      of_a_(pair.a.has_blocks() ? pair.a.blocks() : near.part_a.blocks),
+      of_b_(pair.b.has_blocks() ? pair.b.blocks() : near.part_b.blocks),
       limit_(limit),
       // Floats are compared as floats: their differences lose nothing that matters.
       in_float_(are_floats(pair) && suits_float(limit)),
@@ -93,19 +91,31 @@ void NearVertices::look_within(double limit) {
 }
 
 void NearVertices::find_blocks() {
-  validate_blocks(pair_.a);
-  validate_blocks(pair_.b);
   near_.a.count = near_.b.count = 0;
   if (!(limit_ > 0)) return;
   look_within(limit_);
+  if (!make_parts()) return;
+  validate_blocks(pair_.a, of_a_);
+  validate_blocks(pair_.b, of_b_);
   near_.shift = (of_a_.origin() - of_b_.origin()).cast<float>();
-  find_meeting(of_a_, box_about(of_a_, pair_.b.box(), near_.reach), scratch_.groups, near_.a);
+  find_meeting(of_a_, box_about(of_a_.origin(), pair_.b.box(), near_.reach), scratch_.groups, near_.a);
   if (near_.a.count == 0) return;
   find_meeting(of_b_, moved(around_all(of_a_, near_.a.listed()), near_.shift, near_.reach), scratch_.groups,
                near_.b);
   near_.few = near_.b.count <= few_blocks;
   if (near_.few) tighten();
   if (near_.a.count > 0) lay_out_blocks_of_b();
+}
+
+/// Blocks of what each surface has in the other's box, where it has none of all; false where it has nothing
+/// there.
+bool NearVertices::make_parts() {
+  const auto make = [&](const Surface& surface, const Surface& other, NearPart& part) {
+    if (surface.has_blocks()) return true;
+    make_near_part(surface, other.box(), near_.reach, part);
+    return !part.order.empty();
+  };
+  return make(pair_.a, pair_.b, near_.part_a) && make(pair_.b, pair_.a, near_.part_b);
 }
 
 /// Of a those that are near the few of b together, whose boxes are put side by side.
@@ -121,7 +131,7 @@ void NearVertices::lay_out_blocks_of_b() {
     if (blocks.size() < count * numbers_of_block) blocks.resize(count * numbers_of_block);
     for (std::size_t i = 0; i < near_.b.count; ++i) {
       const std::size_t place = near_.few ? i : near_.b.room[i];
-      lay_out_block(pair_.b, near_.b.room[i], &blocks[place * numbers_of_block]);
+      lay_out_block(pair_.b.positions(), of_b_.vertices(near_.b.room[i]), &blocks[place * numbers_of_block]);
     }
   };
   in_float_ ? lay_out(near_.floats) : lay_out(near_.doubles);
@@ -243,7 +253,7 @@ template <typename Number>
 double NearVertices::upper_distance_beside(std::uint32_t block_of_a,
                                            const std::vector<Number>& blocks_of_b) const {
   std::array<Number, numbers_of_block> block;
-  lay_out_block(pair_.a, block_of_a, block.data());
+  lay_out_block(pair_.a.positions(), of_a_.vertices(block_of_a), block.data());
   const auto beside = scratch_.beside.listed();
   const Number squared = passes_for<Number>().least_squared(block.data(), of_a_.vertices(block_of_a).size(),
                                                             blocks_of_b.data(), beside.data(), beside.size());
@@ -255,7 +265,7 @@ template <typename Number>
 std::size_t NearVertices::compare(std::uint32_t block_of_a, std::span<const std::uint32_t> beside,
                                   const std::vector<Number>& blocks_of_b) {
   std::array<Number, numbers_of_block> block;
-  lay_out_block(pair_.a, block_of_a, block.data());
+  lay_out_block(pair_.a.positions(), of_a_.vertices(block_of_a), block.data());
   const std::size_t most = block_size * block_size * beside.size();
   return passes_for<Number>().near_points(block.data(), of_a_.vertices(block_of_a).size(), blocks_of_b.data(),
                                           beside.data(), beside.size(), squared_reach<Number>(limit_),
@@ -263,6 +273,8 @@ std::size_t NearVertices::compare(std::uint32_t block_of_a, std::span<const std:
 }
 
 void NearBlocks::reserve(const PairRoom& room) {
+  part_a.reserve(room);
+  part_b.reserve(room);
   const std::size_t blocks = room.vertices / block_size + 1;
   a.reserve(blocks + group_size);
   b.reserve(blocks + group_size);

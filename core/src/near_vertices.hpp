@@ -11,6 +11,7 @@
 #include "contact_name.hpp"
 #include "dmv.hpp"
 #include "near_listing.hpp"
+#include "near_part.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
@@ -18,6 +19,9 @@ namespace graze {
 /// What is left of two surfaces' blocks where either may be near the other, for all slices of a search. Boxes
 /// are seen about the origin of b's.
 struct NearBlocks {
+  /// The blocks themselves, of a surface that has stretches in their place.
+  NearPart part_a;
+  NearPart part_b;
   IndexList a;  ///< ascending
   IndexList b;
   /// Whether those of b are so few that they are looked at one after the other, by their places in the list.
@@ -32,7 +36,7 @@ struct NearBlocks {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.a, self.b, self.boxes, self.floats, self.doubles);
+    return std::tie(self.part_a, self.part_b, self.a, self.b, self.boxes, self.floats, self.doubles);
   }
   void reserve(const PairRoom& room);
 };
@@ -59,7 +63,7 @@ struct NearVerticesScratch {
 /// in each other's box, of these those whose boxes are near each other, and of these the points.
 class NearVertices {
  public:
-  /// Both surfaces have their blocks.
+  /// Both surfaces have their blocks, or stretches.
   NearVertices(const SurfacePair& pair, double limit, NearBlocks& near, NearVerticesScratch& scratch);
 
   /// Lists the blocks that may have such a pair; none of a where there is none.
@@ -74,6 +78,7 @@ class NearVertices {
   bool offer(WorkMeter& meter, ClosestRange& nearest);
 
  private:
+  [[nodiscard]] bool make_parts();
   void look_within(double limit);
   void tighten();
   void lay_out_blocks_of_b();

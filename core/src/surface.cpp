@@ -422,13 +422,20 @@ void Surface::box_inner_regions(std::vector<Box>& boxes) const {
 
 void Surface::make_blocks() {
   if (has_blocks()) return;
-  blocks_.make(*mesh_, positions());
+  blocks_.make(mesh_->block_order(), positions());
   blocks_version_ = version_;
+}
+
+void Surface::make_stretches() {
+  if (has_stretches()) return;
+  stretches_.make(positions());
+  stretches_version_ = version_;
 }
 
 std::size_t Surface::byte_count() const {
   return sizeof(Surface) + bytes_of(in_float_) + bytes_of(in_double_) + bytes_of(radii_) +
-         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) + blocks_.byte_count();
+         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) + blocks_.byte_count() +
+         stretches_.byte_count();
 }
 
 }  // namespace graze

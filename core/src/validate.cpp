@@ -182,9 +182,7 @@ void validate(const Surface& surface) {
   }
 }
 
-void validate_blocks(const Surface& surface) {
-  require(surface.has_blocks(), "blocks are those of other positions", 0);
-  const VertexBlocks& blocks = surface.blocks();
+void validate_blocks(const Surface& surface, const VertexBlocks& blocks) {
   std::uint32_t blocks_each = 1;
   for (std::size_t index = 0; index < blocks.level_count(); ++index) {
     const VertexBlocks::Level level = blocks.level(index);
@@ -201,6 +199,16 @@ void validate_blocks(const Surface& surface) {
       }
     blocks_each *= VertexBlocks::group_size;
   }
+}
+
+void validate_near_part(const Surface& surface, const Box& box, double reach,
+                        std::span<const std::uint32_t> listed) {
+  require(surface.has_stretches(), "stretches are those of other positions", 0);
+  std::vector<bool> is_listed(surface.mesh().vertex_count());
+  for (const std::uint32_t vertex : listed) is_listed[vertex] = true;
+  for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex)
+    require(is_listed[vertex] || !contains(grown(box, reach), surface.position(vertex)),
+            "a vertex is near and not listed", vertex);
 }
 
 /// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,
@@ -229,7 +237,9 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
 namespace graze {
 void validate(const RegionTree& /*tree*/, const Mesh& /*mesh*/) {}
 void validate(const Surface& /*surface*/) {}
-void validate_blocks(const Surface& /*surface*/) {}
+void validate_blocks(const Surface& /*surface*/, const VertexBlocks& /*blocks*/) {}
+void validate_near_part(const Surface& /*surface*/, const Box& /*box*/, double /*reach*/,
+                        std::span<const std::uint32_t> /*listed*/) {}
 void validate(const LeafFront& /*front*/, const Surface& /*a*/, const Surface& /*b*/) {}
 }  // namespace graze
 #endif

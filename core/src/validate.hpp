@@ -1,12 +1,15 @@
 #pragma once
 
+#include <graze/box.hpp>
 #include <graze/mesh.hpp>
 #include <graze/region_tree.hpp>
+#include <span>
 
 namespace graze {
 
 struct LeafFront;
 class Surface;
+class VertexBlocks;
 
 /// Structure validators. Each throws std::logic_error naming what does not hold; without GRAZE_VALIDATE they
 /// are empty.
@@ -22,7 +25,10 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b);
 /// Every region's bounds contain its vertices and the corners of the faces and edges it owns.
 void validate(const Surface& surface);
 
-/// A surface's blocks are those of its present positions, and each level's boxes contain their vertices.
-void validate_blocks(const Surface& surface);
+/// Blocks are those of a surface's present positions: each level's boxes contain their vertices.
+void validate_blocks(const Surface& surface, const VertexBlocks& blocks);
+/// Vertices that are not listed are not within a distance of a box.
+void validate_near_part(const Surface& surface, const Box& box, double reach,
+                        std::span<const std::uint32_t> listed);
 
 }  // namespace graze

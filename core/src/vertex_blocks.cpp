@@ -3,6 +3,7 @@
 #include <graze/vertex_blocks.hpp>
 #include <limits>
 
+#include "middle_of_three.hpp"
 #include "passes_for.hpp"
 
 namespace graze {
@@ -13,21 +14,13 @@ static_assert(VertexBlocks::block_size == kernels::block_size);
 /// So many groups are gone through as quickly as another level would be.
 constexpr std::size_t few_groups = 8;
 
-/// Of the first, the middle and the last vertex the middle coordinates, so that one part that exploded takes
-/// no precision from the rest.
-Eigen::Vector3d middle_of_three(const PositionView& positions, std::span<const std::uint32_t> order) {
-  if (order.empty()) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d first = positions[order.front()];
-  const Eigen::Vector3d middle = positions[order[order.size() / 2]];
-  const Eigen::Vector3d last = positions[order.back()];
-  return first.cwiseMin(middle).cwiseMax(first.cwiseMax(middle).cwiseMin(last));
-}
-
 }  // namespace
 
-void VertexBlocks::make(const Mesh& mesh, const PositionView& positions) {
-  order_ = mesh.block_order();
-  origin_ = middle_of_three(positions, order_);
+void VertexBlocks::make(std::span<const std::uint32_t> order, const PositionView& positions) {
+  order_ = order;
+  origin_ = order.empty() ? Eigen::Vector3d::Zero()
+                          : middle_of_three(positions[order.front()], positions[order[order.size() / 2]],
+                                            positions[order.back()]);
   lay_out_levels();
   positions.is_double() ? box_blocks<double>(positions) : box_blocks<float>(positions);
   for (std::size_t level = 1; level < level_count_; ++level) box_level(level);
@@ -55,6 +48,13 @@ void VertexBlocks::lay_out_levels() {
     count = stride / group_size;
   }
   boxes_.assign(first, std::numeric_limits<float>::quiet_NaN());
+}
+
+void VertexBlocks::reserve(std::size_t vertices) {
+  std::size_t floats = 0;
+  for (std::size_t count = vertices / block_size + 1; count > 1; count = count / group_size + 1)
+    floats += 6 * in_whole_groups(count);
+  boxes_.reserve(floats);
 }
 
 /// A group's first box is there, so that one that is not is never the least or the greatest.

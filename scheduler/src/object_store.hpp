@@ -65,6 +65,7 @@ struct Object {
     std::uint64_t refit = 0;
     std::size_t jobs = 0;  ///< that look at it
     bool walked = false;   ///< one of them went from region to region in the last step
+    double shares = 0;     ///< of its box that are near the jobs' other objects, where it is read in parts
   } asked;
   /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
   bool frozen = false;

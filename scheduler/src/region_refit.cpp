@@ -17,6 +17,11 @@ constexpr double stale_leaf_sizes_unwalked = 2;
 /// them makes boxes of its leaves for itself. Vertices are mostly found by stretches.
 constexpr std::size_t jobs_worth_a_refit = 3;
 
+/// Where few jobs look at a large surface, and all of them together at less than this part of its box, each
+/// makes blocks of that for itself.
+constexpr std::size_t most_jobs_in_part = 8;
+constexpr double most_shares_in_part = 0.25;
+
 /// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
 constexpr std::size_t work_each = 8192;
 
@@ -32,6 +37,16 @@ bool is_by_list(const PairJob& job, bool with_blocks) {
   if (near == nullptr || !with_blocks) return near != nullptr;
   const bool asks_contacts_alone = !job.was_in_contact() && job.thresholds.reach <= threshold;
   return asks_contacts_alone || near->has_vertices_within(a, b, threshold);
+}
+
+/// Which part of a box another one in it is, by volume; a side without a length counts nothing.
+double share_of(const Box& box, const Box& part) {
+  if (part.empty()) return 0;
+  double share = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (box.max[axis] > box.min[axis])
+      share *= (part.max[axis] - part.min[axis]) / (box.max[axis] - box.min[axis]);
+  return share;
 }
 
 /// How many vertices a region's bounds are made from; boxes but for leaves come from the children.
@@ -62,8 +77,17 @@ void RegionRefit::run(std::span<const PairJob> jobs) {
 void RegionRefit::make_blocks() {
   tasks_.run(objects_.size(), [&](unsigned, std::size_t item) {
     const AccessScope access({AccessRight::write(objects_[item]), {}});
-    objects_[item]->surface_to_write().make_blocks();
+    Surface& surface = objects_[item]->surface_to_write();
+    is_seen_in_part(*objects_[item]) ? surface.make_stretches() : surface.make_blocks();
   });
+}
+
+/// Whether jobs make blocks for themselves of what they look at. Not where there are some already, or are
+/// better made now, since it has not moved.
+bool RegionRefit::is_seen_in_part(const Object& object) {
+  const Surface& surface = object.surface();
+  return surface.mesh().has_stretches() && !surface.has_blocks() && !surface.has_stretches() &&
+         object.asked.jobs <= most_jobs_in_part && object.asked.shares < most_shares_in_part;
 }
 
 void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
@@ -89,17 +113,22 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
 void RegionRefit::make_ready(Surface& surface) const {
   surface.refit(boxes_);
   if (with_blocks_) surface.make_blocks();
+  if (with_blocks_ && surface.mesh().has_stretches()) surface.make_stretches();
   if (with_radii()) surface.refit(RefitOf::radii);
 }
 
-void RegionRefit::count_job(Object& object, bool walked) {
+void RegionRefit::count_job(Object& object, const Object& other, const PairJob& job) {
   if (object.asked.refit != refits_) {
-    object.asked = {refits_, 0, false};
+    object.asked = {refits_, 0, false, 0};
     object.asked_for_blocks = with_blocks_;
     objects_.push_back(&object);
   }
   ++object.asked.jobs;
-  object.asked.walked = object.asked.walked || walked;
+  object.asked.walked = object.asked.walked || job.memory->front.walked;
+  if (object.in_parts)
+    object.asked.shares +=
+        share_of(object.surface().box(),
+                 common(object.surface().box(), grown(other.surface().box(), job.thresholds.threshold)));
 }
 
 void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
@@ -107,7 +136,8 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   objects_.clear();
   for (const PairJob& job : jobs)
     if (job.is_looked_at() && (to_the_letter_ || !is_by_list(job, with_blocks_)))
-      for (Object* const object : {job.a, job.b}) count_job(*object, job.memory->front.walked);
+      for (const auto& [object, other] : {std::pair(job.a, job.b), {job.b, job.a}})
+        count_job(*object, *other, job);
   small_.clear();
   large_.clear();
   for (Object* const object : objects_)

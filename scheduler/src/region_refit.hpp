@@ -35,11 +35,12 @@ class RegionRefit {
   void refit(std::span<const PairJob> jobs, RefitOf what);
   [[nodiscard]] bool with_radii() const { return to_the_letter_ && boxes_ == RefitOf::vertices; }
   void list_objects(std::span<const PairJob> jobs, RefitOf what);
-  void count_job(Object& object, bool walked);
+  void count_job(Object& object, const Object& other, const PairJob& job);
   [[nodiscard]] bool is_stale(const Object& object, RefitOf what) const;
   void list_parts(Object& object, RefitOf what);
   void refit_small(Object& object, RefitOf what) const;
   void make_blocks();
+  [[nodiscard]] static bool is_seen_in_part(const Object& object);
 
   TaskPool& tasks_;
   RefitOf boxes_;

@@ -61,12 +61,9 @@ PairAnswer detect_in_slices(const Surface& a, const Surface& b, const PairQuery&
   return answer;
 }
 
-/// With every instruction set; how many pairs. Where there are none the nearest is asked for too.
-std::size_t check(const Surface& a, const Surface& b, double limit) {
-  const VertexPairs expected = close_pairs(a, b, limit);
-  double nearest = infinity;
-  for_each_pair(
-      a, b, [&](std::uint32_t, std::uint32_t, double distance) { nearest = std::min(nearest, distance); });
+/// Expects these pairs of every search with every instruction set.
+void check_answers(const Surface& a, const Surface& b, double limit, const VertexPairs& expected,
+                   double nearest) {
   const InstructionSet before = instruction_set();
   for (const InstructionSet set : available_instruction_sets()) {
     use_instruction_set(set);
@@ -79,6 +76,28 @@ std::size_t check(const Surface& a, const Surface& b, double limit) {
     }
   }
   use_instruction_set(before);
+}
+
+/// A large surface once more, with stretches in place of blocks.
+Surface in_part(const Surface& surface) {
+  Surface part(surface.shared_mesh());
+  REQUIRE(part.set_positions(surface.positions()).taken());
+  part.make_stretches();
+  REQUIRE_FALSE(part.has_blocks());
+  return part;
+}
+
+/// How many pairs. Where there are none the nearest is asked for too.
+std::size_t check(const Surface& a, const Surface& b, double limit) {
+  const VertexPairs expected = close_pairs(a, b, limit);
+  double nearest = infinity;
+  for_each_pair(
+      a, b, [&](std::uint32_t, std::uint32_t, double distance) { nearest = std::min(nearest, distance); });
+  check_answers(a, b, limit, expected, nearest);
+  if (a.mesh().has_stretches()) check_answers(in_part(a), b, limit, expected, nearest);
+  if (b.mesh().has_stretches()) check_answers(a, in_part(b), limit, expected, nearest);
+  if (a.mesh().has_stretches() && b.mesh().has_stretches())
+    check_answers(in_part(a), in_part(b), limit, expected, nearest);
   return expected.size();
 }
 
@@ -93,6 +112,21 @@ void read_in_float(Surface& surface) {
 /// A grid of the size in the plane, in waves.
 oracle::Shape cloth(std::uint32_t rows, double size, std::uint64_t seed) {
   return wobbled(shape_of(models::sheet(rows, rows, size, size)), 0.01 * size, seed);
+}
+
+/// Vertices under other numbers.
+oracle::Shape renumbered(const oracle::Shape& shape, std::uint64_t seed) {
+  oracle::Random random(seed);
+  std::vector<std::uint32_t> number(shape.positions.size());
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    number[i] = i;
+    std::swap(number[i], number[random.below(i + 1)]);
+  }
+  oracle::Shape other = shape;
+  for (std::size_t i = 0; i < number.size(); ++i) other.positions[number[i]] = shape.positions[i];
+  for (auto& face : other.faces)
+    for (std::uint32_t& corner : face) corner = number[corner];
+  return other;
 }
 
 }  // namespace
@@ -151,6 +185,15 @@ TEST_CASE("near vertices: large surfaces that meet in a corner, and lie along ea
   CHECK(check(surface_of(cloth(40, 0.01, 6)), surface_of(cloth(40, 0.01, 7)), 0.004) > 1000);
   // Nothing nearer than the limit: only the closest.
   CHECK(check(a, surface_of(mapped(cloth(60, 1, 8), 1, {0.3, 0.2, 0.4})), 0.03) == 0);
+}
+
+TEST_CASE("near vertices: large surfaces whose vertices are numbered in any order, one of them exploded") {
+  oracle::Shape sheet = renumbered(cloth(100, 1, 11), 5);
+  Surface other = surface_of(mapped(cloth(95, 1, 12), 1, {0.9, 0.9, 0.005}));
+  CHECK(check(surface_of(sheet), other, 0.03) > 50);
+  sheet.positions[4000] = Eigen::Vector3d(1e30, -1e29, 1e30);
+  CHECK(check(surface_of(sheet), other, 0.03) > 50);
+  CHECK(check(other, surface_of(sheet), 0.03) > 50);
 }
 
 TEST_CASE("near vertices: a large surface and a small one far below its size") {

@@ -160,6 +160,61 @@ TEST_CASE("vertex blocks: boxes of every level are those of their vertices") {
 
 namespace {
 
+/// Boxes of stretches of so many random points; how many.
+template <typename Number>
+std::size_t check_stretches(std::uint64_t seed, std::size_t count) {
+  Random random(seed);
+  std::vector<Eigen::Matrix<Number, 3, 1>> positions;
+  for (std::size_t i = 0; i < count; ++i) positions.push_back(random.vector(-1, 1).template cast<Number>());
+  VertexStretches stretches;
+  stretches.make(positions);
+  for (std::size_t i = 0; i < stretches.stride(); ++i) {
+    Box box;
+    const std::size_t first = i * VertexStretches::stretch_size;
+    for (std::size_t k = first; k < std::min(first + VertexStretches::stretch_size, count); ++k)
+      box.add(positions[k].template cast<double>());
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* const row = stretches.rows() + static_cast<std::size_t>(axis) * stretches.stride();
+      if (box.empty()) {
+        CHECK(std::isnan(row[i]));
+        continue;
+      }
+      CHECK(row[i] == about<Number>(box.min[axis], stretches.origin()[axis]));
+      CHECK(row[3 * stretches.stride() + i] == about<Number>(box.max[axis], stretches.origin()[axis]));
+    }
+  }
+  return stretches.stride();
+}
+
+}  // namespace
+
+TEST_CASE("vertex stretches: boxes are those of their vertices") {
+  std::size_t compared = 0;
+  with_every_instruction_set([&] {
+    for (std::uint64_t seed = 0; seed < 300; ++seed)
+      compared += check_stretches<float>(seed, 1 + seed) + check_stretches<double>(seed, 1 + seed);
+  });
+  CHECK(compared > 5000);
+}
+
+TEST_CASE("vertex stretches: a large mesh lists the groups of blocks that each is in") {
+  const auto mesh = mesh_of(shape_of(models::torus(160, 70, 0.7, 0.3)));
+  REQUIRE(mesh->has_stretches());
+  std::vector<std::vector<std::uint32_t>> expected(mesh->vertex_count() / VertexStretches::stretch_size + 1);
+  for (std::uint32_t place = 0; place < mesh->vertex_count(); ++place)
+    expected[mesh->block_order()[place] / VertexStretches::stretch_size].push_back(
+        place / (VertexBlocks::block_size * VertexBlocks::group_size));
+  for (std::uint32_t stretch = 0; stretch * VertexStretches::stretch_size < mesh->vertex_count(); ++stretch) {
+    auto& groups = expected[stretch];
+    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());  // places ascend
+    const auto listed = mesh->stretch_groups(stretch);
+    CHECK(std::vector<std::uint32_t>(listed.begin(), listed.end()) == groups);
+  }
+  CHECK_FALSE(mesh_of(shape_of(models::sphere(80, 60)))->has_stretches());
+}
+
+namespace {
+
 /// A block and some others of random points, of which some are not there, and a reach.
 template <typename Number>
 class BlockAndOthers {

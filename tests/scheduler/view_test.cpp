@@ -264,6 +264,39 @@ TEST_CASE("view: large surfaces too, which are surveyed in parts") {
   }
 }
 
+TEST_CASE("view: of large surfaces that meet in a corner blocks are made of that alone, while they move") {
+  const auto mesh = mesh_of(models::sheet(95, 95, 1, 1));
+  const double threshold = 0.02;
+  Scene scene(settings_of(threshold, threshold, ContactDetail::vertices));
+  std::array<Positions, 2> memory;
+  for (Positions& positions : memory) {
+    positions.assign(mesh->rest().begin(), mesh->rest().end());
+    scene.bind_positions(scene.add(mesh), positions);
+  }
+  std::vector<double> bytes_each;
+  for (int step = 0; step < 8; ++step) {
+    const double by = 0.92 - 0.011 * std::min(step, 4);
+    for (std::uint32_t vertex = 0; vertex < mesh->vertex_count(); ++vertex) {
+      memory[0][vertex] = mesh->rest()[vertex] + Eigen::Vector3d(0.012 * std::min(step + 1, 5), 0, 0);
+      memory[1][vertex] = mesh->rest()[vertex] + Eigen::Vector3d(by, by, 0.013);
+    }
+    const ReportHandle report = scene.step();
+    std::size_t expected = 0;
+    const double least = by + mesh->rest()[0].x() - threshold;
+    for (const Eigen::Vector3d& a : memory[0])
+      for (std::size_t i = 0; i < memory[1].size() && a.x() > least; ++i)
+        expected += (a - memory[1][i]).norm() < threshold ? 1U : 0U;
+    CHECK(expected > 100);
+    CHECK(report->contacts().size() == expected);
+    bytes_each.push_back(static_cast<double>(report->statistics().object_bytes) /
+                         (2 * static_cast<double>(mesh->vertex_count())));
+  }
+  // A box of 64 vertices takes 24 bytes, and one of eight as much; at rest all blocks are kept, and
+  // positions.
+  CHECK(*std::max_element(bytes_each.begin(), bytes_each.begin() + 5) < 2.5);
+  CHECK(bytes_each.back() > 24);
+}
+
 TEST_CASE("view: of an object in a pair as of one that is far, while it moves") {
   const auto mesh = mesh_of(models::sphere(10, 7));
   const auto surveyed = [&](ContactDetail detail) {

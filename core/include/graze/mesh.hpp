@@ -98,6 +98,13 @@ class GRAZE_API Mesh {
   /// longest side of their box, and the halves again, with whole eights on either side.
   [[nodiscard]] std::span<const std::uint32_t> block_order() const { return block_order_; }
 
+  /// Whether vertices are listed by stretches: of large meshes all of whose vertices are used.
+  [[nodiscard]] bool has_stretches() const { return !stretch_group_begin_.empty(); }
+  /// Which groups of sixteen blocks the vertices of a stretch (VertexStretches) are in, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> stretch_groups(std::uint32_t stretch) const {
+    return row(stretch_groups_, stretch_group_begin_, stretch);
+  }
+
   /// Bytes held, the region tree included.
   [[nodiscard]] std::size_t byte_count() const;
 
@@ -129,6 +136,8 @@ class GRAZE_API Mesh {
   std::vector<std::uint32_t> edge_face_begin_;
   RegionTree regions_;
   std::vector<std::uint32_t> block_order_;
+  std::vector<std::uint32_t> stretch_groups_;
+  std::vector<std::uint32_t> stretch_group_begin_;
   bool uses_all_vertices_ = true;
 };
 

@@ -8,6 +8,7 @@
 #include <graze/mesh.hpp>
 #include <graze/position_view.hpp>
 #include <graze/vertex_blocks.hpp>
+#include <graze/vertex_stretches.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -151,6 +152,11 @@ class GRAZE_API Surface {
   [[nodiscard]] const VertexBlocks& blocks() const { return blocks_; }
   /// Whether they are those of now.
   [[nodiscard]] bool has_blocks() const { return blocks_version_ == version_; }
+  /// The same of stretches, of a mesh that has them: enough in place of blocks, where few pairs look at the
+  /// surface and each at a part of it.
+  void make_stretches();
+  [[nodiscard]] const VertexStretches& stretches() const { return stretches_; }
+  [[nodiscard]] bool has_stretches() const { return stretches_version_ == version_; }
 
   /// Of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
@@ -208,6 +214,8 @@ class GRAZE_API Surface {
   std::array<Refit, 3> refits_;  ///< by RefitOf
   VertexBlocks blocks_;
   std::uint64_t blocks_version_ = 0;  ///< when they were made
+  VertexStretches stretches_;
+  std::uint64_t stretches_version_ = 0;
 };
 
 }  // namespace graze

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <graze/mesh.hpp>
 #include <graze/position_view.hpp>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace graze {
 
-/// A surface's used vertices, eight at a time in the order of Mesh::block_order, and a box of each such
-/// block; of sixteen boxes one again, and so on. Made anew wherever the surface moved: for vertices that
-/// costs less than what a hierarchy that is kept from step to step would save.
+/// A surface's used vertices, or those of a part of it, eight at a time in the order of Mesh::block_order,
+/// and a box of each such block; of sixteen boxes one again, and so on. Made anew wherever the surface moved:
+/// for vertices that costs less than what a hierarchy that is kept from step to step would save.
 class VertexBlocks {
  public:
   static constexpr std::uint32_t block_size = 8;   ///< vertices
@@ -30,8 +30,11 @@ class VertexBlocks {
     std::size_t count = 0;
   };
 
-  /// Of positions that lie one beside the other.
-  void make(const Mesh& mesh, const PositionView& positions);
+  /// Of positions that lie one beside the other, those in `order`: all of Mesh::block_order, or whole groups
+  /// of it. It is kept as a view.
+  void make(std::span<const std::uint32_t> order, const PositionView& positions);
+  /// Makes room for so many vertices.
+  void reserve(std::size_t vertices);
 
   /// The place that boxes are about, amid most vertices.
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
@@ -48,6 +51,10 @@ class VertexBlocks {
   }
 
   [[nodiscard]] std::size_t byte_count() const;
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.boxes_);
+  }
 
  private:
   template <typename Number>
@@ -63,7 +70,7 @@ class VertexBlocks {
     std::size_t count = 0;
   };
 
-  std::span<const std::uint32_t> order_;  ///< the mesh's
+  std::span<const std::uint32_t> order_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<float> boxes_;
   std::array<Place, most_levels> places_;

@@ -27,6 +27,8 @@ struct PointFrame {
 
 /// Points of a block.
 inline constexpr std::size_t block_size = 8;
+/// Points of a stretch.
+inline constexpr std::size_t stretch_size = 64;
 
 /// Passes over points of three floats or doubles each, of which there is one at least.
 template <typename Number>
@@ -45,6 +47,9 @@ struct PassesOf {
   /// rounded to Number and then to float, in six rows.
   void (*box_blocks)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
                      const Number* origin, float* boxes, std::size_t stride);
+  /// The same of points as they lie in memory, one for each stretch of them.
+  void (*box_stretches)(const Number* points, std::size_t count, const Number* origin, float* boxes,
+                        std::size_t stride);
   /// Up to eight listed points as a block: eight x, y and z, where no numbers stand in the place of points
   /// that are not there.
   void (*lay_out_block)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,

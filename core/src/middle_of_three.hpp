@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace graze {
+
+/// The middle coordinates of three places, so that one part of a surface that exploded takes no precision
+/// from the rest where boxes are about it.
+inline Eigen::Vector3d middle_of_three(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
+                                       const Eigen::Vector3d& third) {
+  return first.cwiseMin(second).cwiseMax(first.cwiseMax(second).cwiseMin(third));
+}
+
+}  // namespace graze

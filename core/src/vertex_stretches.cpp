@@ -1,0 +1,40 @@
+#include <graze/bytes_of.hpp>
+#include <graze/vertex_blocks.hpp>
+#include <graze/vertex_stretches.hpp>
+#include <limits>
+
+#include "middle_of_three.hpp"
+#include "passes_for.hpp"
+
+namespace graze {
+namespace {
+
+static_assert(VertexStretches::stretch_size == kernels::stretch_size);
+
+template <typename Number>
+void box_stretches(const PositionView& positions, const Eigen::Vector3d& origin, float* boxes,
+                   std::size_t stride) {
+  const Eigen::Matrix<Number, 3, 1> about = origin.cast<Number>();  // exact: it is one of their coordinates
+  passes_for<Number>().box_stretches(static_cast<const Number*>(positions.data()), positions.size(),
+                                     about.data(), boxes, stride);
+}
+
+}  // namespace
+
+void VertexStretches::make(const PositionView& positions) {
+  const std::size_t count = positions.size();
+  const std::size_t stride = VertexBlocks::in_whole_groups((count + stretch_size - 1) / stretch_size);
+  if (stride != stride_) {
+    stride_ = stride;
+    boxes_.assign(6 * stride, std::numeric_limits<float>::quiet_NaN());
+  }
+  origin_ = middle_of_three(positions[0], positions[count / 2], positions[count - 1]);
+  positions.is_double() ? box_stretches<double>(positions, origin_, boxes_.data(), stride)
+                        : box_stretches<float>(positions, origin_, boxes_.data(), stride);
+}
+
+std::size_t VertexStretches::byte_count() const {
+  return bytes_of(boxes_);
+}
+
+}  // namespace graze
