@@ -206,9 +206,11 @@ void validate_near_part(const Surface& surface, const Box& box, double reach,
   require(surface.has_stretches(), "stretches are those of other positions", 0);
   std::vector<bool> is_listed(surface.mesh().vertex_count());
   for (const std::uint32_t vertex : listed) is_listed[vertex] = true;
-  for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex)
-    require(is_listed[vertex] || !contains(grown(box, reach), surface.position(vertex)),
-            "a vertex is near and not listed", vertex);
+  for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex) {
+    const Eigen::Vector3d place = surface.position(vertex);
+    const double beyond = std::max((box.min - place).maxCoeff(), (place - box.max).maxCoeff());
+    require(is_listed[vertex] || beyond >= reach, "a vertex is near and not listed", vertex);
+  }
 }
 
 /// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,

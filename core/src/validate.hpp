@@ -27,7 +27,7 @@ void validate(const Surface& surface);
 
 /// Blocks are those of a surface's present positions: each level's boxes contain their vertices.
 void validate_blocks(const Surface& surface, const VertexBlocks& blocks);
-/// Vertices that are not listed are not within a distance of a box.
+/// Vertices that are not listed are at least so far from a box along some axis.
 void validate_near_part(const Surface& surface, const Box& box, double reach,
                         std::span<const std::uint32_t> listed);
 

@@ -26,7 +26,7 @@ double displacement(const Mesh& mesh, const Positions& from, const Positions& to
 }  // namespace
 
 RandomMotion::RandomMotion(std::uint64_t seed, const SceneSettings& settings)
-    : random_(seed), settings_(settings), scene_(settings) {
+    : random_(seed), settings_(settings), scene_(settings), is_on_grid_(seed % 2 == 1) {
   meshes_ = {mesh_of(models::sphere(16, 9)), mesh_of(models::torus(18, 8, 0.6, 0.25)),
              mesh_of(models::sheet(9, 7, 1.5, 1.25)), mesh_of(models::box({0.7, 0.5, 0.9})),
              mesh_of(models::sphere(9, 6, models::Faces::quads))};
@@ -91,6 +91,8 @@ void RandomMotion::change_pairs() {
 
 /// Gives the body positions, and takes up the pose of a rigid one.
 void RandomMotion::place(Body& body, Positions positions) {
+  if (is_on_grid_ && body.given != Given::posed && random_.chance(0.8))
+    for (Eigen::Vector3d& position : positions) position = (position * 16).array().round().matrix() / 16;
   const double moved = displacement(*body.mesh, body.seen, positions);
   // Copied in place: bound memory is read where it is.
   std::copy(positions.begin(), positions.end(), body.positions.begin());

@@ -56,6 +56,7 @@ class RandomMotion {
   std::vector<std::shared_ptr<const Mesh>> meshes_;
   Scene scene_;
   std::vector<Body> bodies_;
+  bool is_on_grid_;  ///< most positions are, where distances tie and features are parallel
   std::vector<std::pair<ObjectId, ObjectId>> ignored_;
   std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, PairRule>> rules_;
 };
