@@ -41,7 +41,7 @@ std::vector<std::uint32_t> block_order_of(const Mesh& mesh) {
 void list_stretch_groups(const Mesh& mesh, std::vector<std::uint32_t>& groups,
                          std::vector<std::uint32_t>& begin) {
   const std::uint32_t count = mesh.vertex_count();
-  if (!mesh.uses_all_vertices() || count < VertexStretches::least_vertices) return;
+  if (!mesh.uses_all_vertices() || count <= VertexStretches::vertices_without) return;
   std::vector<std::uint32_t> group_of(count);
   for (std::uint32_t place = 0; place < count; ++place)
     group_of[mesh.block_order()[place]] = place / (VertexBlocks::block_size * VertexBlocks::group_size);

@@ -43,7 +43,7 @@ void make_near_part(const Surface& surface, const Box& box, float reach, NearPar
 }
 
 void NearPart::reserve(const PairRoom& room) {
-  if (room.vertices < VertexStretches::least_vertices) return;
+  if (room.vertices <= VertexStretches::vertices_without) return;
   blocks.reserve(room.vertices);
   order.reserve(room.vertices);
   stretches.reserve(VertexBlocks::in_whole_groups(room.vertices / VertexStretches::stretch_size + 1));

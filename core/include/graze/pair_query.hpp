@@ -110,7 +110,8 @@ class GRAZE_API PairDetector {
 
   /// Both surfaces have been refitted, by `refit_vertices` for the details `regions` and `vertices`, by
   /// `refit_faces` for the others: now for AccuracyMode::paper, otherwise ever; bounds are the looser the
-  /// further the surfaces have moved since. Where `wants_blocks` says so it is `make_blocks` instead, now.
+  /// further the surfaces have moved since. Where `wants_blocks` says so it is `make_blocks` instead, now, or
+  /// `make_stretches`.
   /// `answer` is overwritten, its memory used again; the work is added to `counters`.
   ///
   /// `front` is the same pair's of an earlier query, or a new one, and is brought up to date. It saves work

@@ -12,8 +12,8 @@ namespace graze {
 /// for less than the blocks of all its vertices cost (docs/method.md, section 2).
 class VertexStretches {
  public:
-  static constexpr std::uint32_t stretch_size = 64;      ///< vertices
-  static constexpr std::uint32_t least_vertices = 8192;  ///< smaller surfaces have none
+  static constexpr std::uint32_t stretch_size = 64;        ///< vertices
+  static constexpr std::uint32_t vertices_without = 8192;  ///< surfaces of no more have none
 
   /// Of positions that lie one beside the other.
   void make(const PositionView& positions);
