@@ -1,3 +1,4 @@
+#include <array>
 #include <graze/bytes_of.hpp>
 #include <graze/vertex_blocks.hpp>
 #include <graze/vertex_stretches.hpp>
@@ -14,7 +15,9 @@ static_assert(VertexStretches::stretch_size == kernels::stretch_size);
 template <typename Number>
 void box_stretches(const PositionView& positions, const Eigen::Vector3d& origin, float* boxes,
                    std::size_t stride) {
-  const Eigen::Matrix<Number, 3, 1> about = origin.cast<Number>();  // exact: it is one of their coordinates
+  // Exact: it is one of their coordinates.
+  const std::array<Number, 3> about{static_cast<Number>(origin.x()), static_cast<Number>(origin.y()),
+                                    static_cast<Number>(origin.z())};
   passes_for<Number>().box_stretches(static_cast<const Number*>(positions.data()), positions.size(),
                                      about.data(), boxes, stride);
 }

@@ -235,7 +235,7 @@ TEMPLATE_TEST_CASE_SIG("shapes on a grid that part and meet by little: as built 
                        ((int number), number), 0, 1, 2, 3, 4) {
   const auto detail = static_cast<ContactDetail>(number);
   std::size_t rows = 0;
-  for (std::uint64_t seed = 0; seed < 12 * GRAZE_MOTIONS; ++seed) {
+  for (std::uint64_t seed = 0; seed < std::uint64_t{12} * GRAZE_MOTIONS; ++seed) {
     GridMotion motion(seed);
     const double range = seed % 2 == 0 ? 1 : 0;
     const SceneSettings settings = settings_of(seed % 4 < 2 ? motion.threshold() : 0, range, detail);
@@ -250,7 +250,7 @@ TEMPLATE_TEST_CASE_SIG("shapes on a grid that part and meet by little: as built 
       motion.move();
     }
   }
-  CHECK(rows > 12 * 12 * GRAZE_MOTIONS);
+  CHECK(rows > std::size_t{144} * GRAZE_MOTIONS);
   std::cout << "compared " << rows << " pairs on a grid\n";
 }
 
