@@ -44,7 +44,7 @@ void list_stretch_groups(const Mesh& mesh, std::vector<std::uint32_t>& groups,
   if (!mesh.uses_all_vertices() || count <= VertexStretches::vertices_without) return;
   std::vector<std::uint32_t> group_of(count);
   for (std::uint32_t place = 0; place < count; ++place)
-    group_of[mesh.block_order()[place]] = place / (VertexBlocks::block_size * VertexBlocks::group_size);
+    group_of[mesh.block_order()[place]] = place / VertexBlocks::group_vertices;
   begin.push_back(0);
   for (std::uint32_t first = 0; first < count; first += VertexStretches::stretch_size) {
     const auto from = group_of.begin() + first;

@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-constexpr std::size_t group_vertices = std::size_t{VertexBlocks::block_size} * VertexBlocks::group_size;
+constexpr std::size_t group_vertices = VertexBlocks::group_vertices;
 constexpr std::size_t bits_each = 64;
 
 /// The vertices of all marked groups, in the mesh's order; clears the marks.

@@ -212,12 +212,12 @@ void check_scenes(std::uint64_t seed, Checks& checks) {
   }
 }
 
-/// A few hundred vertices with two or three levels of regions.
 /// Two numbers, the first drawn first.
 std::array<std::uint32_t, 2> any_below(Random& random, std::uint32_t u, std::uint32_t v) {
   return {random.below(u), random.below(v)};
 }
 
+/// A few hundred vertices with two or three levels of regions.
 Shape any_large_shape(Random& random) {
   const std::uint32_t form = random.below(4);
   if (form == 0) {

@@ -114,8 +114,8 @@ class Judge {
   std::size_t contacts_ = 0;
 };
 
-/// Four shapes on a grid of quarters, where distances tie and features are parallel; they rest, or move by
-/// steps of the grid, by small exact steps, or by something small in between.
+/// Four shapes on a grid of quarters or eighths, where distances tie and features are parallel; they rest, or
+/// move by steps of the grid, by small exact steps, or by something small in between.
 class GridMotion {
  public:
   explicit GridMotion(std::uint64_t seed) : random_(seed) { seed % 3 == 0 ? add_larger() : add_small(seed); }
@@ -145,7 +145,7 @@ class GridMotion {
       threshold_ = std::max(threshold_, given.threshold);
     }
   }
-  /// Of several regions; some of their faces lose their area to the grid, which is one of eighths.
+  /// Of several regions; some of their faces lose their area to the grid of eighths.
   void add_larger() {
     const std::array shapes{shape_of(models::sheet(12, 9, 2, 2)), shape_of(models::sphere(16, 12)),
                             shape_of(models::torus(16, 10, 0.75, 0.3)), shape_of(models::box({1, 1, 1}))};

@@ -18,6 +18,7 @@ class VertexBlocks {
  public:
   static constexpr std::uint32_t block_size = 8;   ///< vertices
   static constexpr std::uint32_t group_size = 16;  ///< boxes
+  static constexpr std::uint32_t group_vertices = block_size * group_size;
   /// So many boxes with those behind the last, so that they are whole groups.
   static constexpr std::size_t in_whole_groups(std::size_t count) {
     return (count + group_size - 1) / group_size * group_size;
