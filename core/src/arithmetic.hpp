@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "exact.hpp"
 
@@ -29,12 +30,16 @@ struct Ball {
     return {difference, left.radius + right.radius + std::abs(difference) * half_ulp};
   }
   friend Ball operator*(const Ball& left, const Ball& right) {
+    if (left.is_zero() || right.is_zero()) return {};
     const double product = left.value * right.value;
     return {product, std::abs(left.value) * right.radius +
                          left.radius * (std::abs(right.value) + right.radius) + std::abs(product) * half_ulp +
                          underflow};
   }
   Ball operator-() const { return {-value, radius}; }
+
+  /// Whether it is certainly zero, as the difference of two coordinates that are the same bits.
+  [[nodiscard]] bool is_zero() const { return value == 0 && radius == 0; }
 
   static constexpr double half_ulp = 0x1p-53;
   static constexpr double underflow =
@@ -45,7 +50,7 @@ struct Ball {
 /// The sign of a number where it is certain; otherwise `unsure` is set and the answer means nothing.
 inline int sign(const Ball& number, bool& unsure) {
   if (std::abs(number.value) > number.radius * Ball::slack) return number.value > 0 ? 1 : -1;
-  if (!(number.value == 0 && number.radius == 0)) unsure = true;
+  if (!number.is_zero()) unsure = true;
   return 0;
 }
 inline int sign(const Exact& number, bool& /*unsure*/) {
@@ -73,6 +78,15 @@ auto decide(DecisionCount& count, const Question& question) {
   ++count.exact;
   unsure = false;
   return question.template operator()<Exact>(unsure);
+}
+
+/// The sign of `number.operator()<Number>()`, likewise. Of a question with several signs mostly one alone is
+/// unsure.
+template <typename NumberOf>
+int decide_sign(DecisionCount& count, const NumberOf& number) {
+  return decide(count, [&]<typename Number>(bool& unsure) {
+    return sign(number.template operator()<Number>(), unsure);
+  });
 }
 
 /// A vector of three numbers of any of the arithmetics.
@@ -105,8 +119,26 @@ Vector<Number> cross(const Vector<Number>& left, const Vector<Number>& right) {
 /// to − from. All kernels see coordinates through this alone, so that a moved scene gives the same numbers.
 template <typename Number>
 Vector<Number> difference(const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
-  return {Number(to.x()) - Number(from.x()), Number(to.y()) - Number(from.y()),
-          Number(to.z()) - Number(from.z())};
+  if constexpr (std::is_same_v<Number, Exact>) {
+    return {Exact::difference(to.x(), from.x()), Exact::difference(to.y(), from.y()),
+            Exact::difference(to.z(), from.z())};
+  } else {
+    return {Number(to.x()) - Number(from.x()), Number(to.y()) - Number(from.y()),
+            Number(to.z()) - Number(from.z())};
+  }
+}
+
+/// Whether `vector.operator()<Number>()` is zero.
+template <typename VectorOf>
+bool is_zero(DecisionCount& count, const VectorOf& vector) {
+  return decide(count, [&]<typename Number>(bool& unsure) {
+    const Vector<Number> asked = vector.template operator()<Number>();
+    bool any_unsure = false;
+    for (const Number* const part : {&asked.x, &asked.y, &asked.z})
+      if (sign(*part, any_unsure) != 0) return false;
+    unsure = any_unsure;
+    return true;
+  });
 }
 
 /// numerator / denominator with a positive denominator.

@@ -64,6 +64,13 @@ class Signs {
 
 }  // namespace
 
+bool certainly_not_parallel(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  const double uu = u.squaredNorm();
+  const double vv = v.squaredNorm();
+  const Plain normal = cross(Plain{u.x(), u.y(), u.z()}, Plain{v.x(), v.y(), v.z()});
+  return is_in_range(uu) && is_in_range(vv) && is_long(dot(normal, normal), uu, vv);
+}
+
 bool certain_place(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner, Place& place,
                    SquaredRange& squared) {
   const Plain u = difference<double>(corner[1], corner[0]);

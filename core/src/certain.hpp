@@ -27,6 +27,9 @@ inline SquaredRange squared_range(const Eigen::Vector3d& a, const Eigen::Vector3
   return {squared * (1 - 0x1p-50) - 0x1p-1000, squared * (1 + 0x1p-50) + 0x1p-1000};
 }
 
+/// Whether two differences of points, rounded, are certainly of directions that are not parallel.
+bool certainly_not_parallel(const Eigen::Vector3d& u, const Eigen::Vector3d& v);
+
 /// Where in a triangle (0, 1, 2) a closest point lies.
 enum class Place : std::uint8_t { vertex0, vertex1, vertex2, edge01, edge12, edge20, inside, no_area };
 

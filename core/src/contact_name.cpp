@@ -70,6 +70,24 @@ Hulls hulls_of(const SurfacePair& pair, const ContactName& name) {
   return hulls;
 }
 
+bool do_touch(const Hulls& hulls, DecisionCount& count) {
+  const Simplex& low = hulls.a.size <= hulls.b.size ? hulls.a : hulls.b;
+  const Simplex& high = hulls.a.size <= hulls.b.size ? hulls.b : hulls.a;
+  if (high.size == 1) return low.point[0] == high.point[0];
+  const auto offset = [&]<typename Number>() { return difference<Number>(low.point[0], high.point[0]); };
+  const auto along = [&]<typename Number>() { return difference<Number>(high.point[1], high.point[0]); };
+  if (high.size == 2 && low.size == 1)
+    return is_zero(count, [&]<typename Number>() {
+      return cross(along.template operator()<Number>(), offset.template operator()<Number>());
+    });
+  const int side = decide_sign(count, [&]<typename Number>() {
+    const Vector<Number> other = high.size == 3 ? difference<Number>(high.point[2], high.point[0])
+                                                : difference<Number>(low.point[1], low.point[0]);
+    return dot(cross(along.template operator()<Number>(), other), offset.template operator()<Number>());
+  });
+  return side == 0;
+}
+
 int compare_distances(const SurfacePair& pair, const ContactName& left, const ContactName& right) {
   if (left.meeting() == Meeting::pierced && right.meeting() == Meeting::pierced) return 0;
   return decide(pair.count, [&]<typename Number>(bool& unsure) {

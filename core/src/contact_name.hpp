@@ -120,6 +120,9 @@ struct Hulls {
 };
 Hulls hulls_of(const SurfacePair& pair, const ContactName& name);
 
+/// Whether the distance of two hulls is 0, by the numbers of the lowest degree that say so.
+bool do_touch(const Hulls& hulls, DecisionCount& count);
+
 /// -1, 0 or 1 as the distance of `left` is less than, equal to or greater than that of `right`.
 int compare_distances(const SurfacePair& pair, const ContactName& left, const ContactName& right);
 

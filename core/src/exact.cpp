@@ -1,62 +1,67 @@
 #include "exact.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cassert>
-#include <cmath>
-
 namespace graze {
 namespace {
 
-constexpr int limb_bits = 32;
+using Limb = std::uint64_t;
 
-int floor_div(int value, int divisor) {
-  return value >= 0 ? value / divisor : -((-value + divisor - 1) / divisor);
+struct Product {
+  Limb low, high;
+};
+Product multiply(Limb left, Limb right) {
+#ifdef __SIZEOF_INT128__
+  __extension__ using Double = unsigned __int128;
+  const Double product = Double{left} * right;
+  return {static_cast<Limb>(product), static_cast<Limb>(product >> 64U)};
+#else
+  constexpr Limb half = 0xffffffff;
+  const Limb low = (left & half) * (right & half);
+  const Limb first = (left >> 32U) * (right & half) + (low >> 32U);
+  const Limb second = (left & half) * (right >> 32U) + (first & half);
+  return {second << 32U | (low & half), (left >> 32U) * (right >> 32U) + (first >> 32U) + (second >> 32U)};
+#endif
+}
+
+/// left + right + carry, which is 0 or 1 before and after.
+Limb add_limbs(Limb left, Limb right, Limb& carry) {
+  const Limb sum = left + right;
+  const Limb whole = sum + carry;
+  carry = (sum < left ? 1U : 0U) | (whole < sum ? 1U : 0U);
+  return whole;
+}
+/// left − right − borrow, which is 0 or 1 before and after.
+Limb subtract_limbs(Limb left, Limb right, Limb& borrow) {
+  const Limb difference = left - right;
+  const Limb whole = difference - borrow;
+  borrow = (left < right ? 1U : 0U) | (difference < borrow ? 1U : 0U);
+  return whole;
 }
 
 }  // namespace
 
-Exact::Exact(double value) {
-  if (value == 0) return;
-  assert(std::isfinite(value));
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const auto biased_exponent = static_cast<int>(bits >> 52U & 0x7ffU);
-  std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52U) - 1);
-  if (biased_exponent > 0) mantissa |= std::uint64_t{1} << 52U;
-  const int exponent = std::max(biased_exponent, 1) - 1075;  // value = mantissa · 2^exponent
-  sign_ = value > 0 ? 1 : -1;
-  exponent_ = floor_div(exponent, limb_bits);
-  const int shift = exponent - exponent_ * limb_bits;  // 0 to 31: the mantissa spans at most three limbs
-  const std::uint64_t low = mantissa << shift;
-  const std::uint64_t high = shift == 0 ? 0 : mantissa >> (64 - shift);
-  limbs_[0] = static_cast<std::uint32_t>(low);
-  limbs_[1] = static_cast<std::uint32_t>(low >> limb_bits);
-  limbs_[2] = static_cast<std::uint32_t>(high);
-  size_ = 3;
-  trim();
-}
-
-void Exact::copy(const Exact& other) {
-  sign_ = other.sign_;
-  exponent_ = other.exponent_;
-  size_ = other.size_;
-  std::copy_n(other.limbs_.begin(), size_, limbs_.begin());
+/// The limbs of another number on a scale that begins at `bottom`, and zeros around them.
+void Exact::copy_shifted(const Exact& other, int bottom, int size) {
+  assert(size <= capacity);
+  exponent_ = bottom;
+  size_ = size;
+  Limb* const first = limbs_.data();
+  Limb* const begin = std::fill_n(first, other.exponent_ - bottom, Limb{0});
+  Limb* const end = std::copy_n(other.limbs_.data(), other.size_, begin);
+  std::fill(end, first + size, Limb{0});
 }
 
 void Exact::trim() {
-  while (size_ > 0 && limbs_[static_cast<std::size_t>(size_ - 1)] == 0) --size_;
-  const auto* const first =
-      std::find_if(limbs_.begin(), limbs_.begin() + size_, [](std::uint32_t limb) { return limb != 0; });
-  const auto zeros = static_cast<int>(first - limbs_.begin());
-  if (zeros > 0 && zeros < size_) {
-    std::copy(first, static_cast<const std::uint32_t*>(limbs_.begin() + size_), limbs_.begin());
-    exponent_ += zeros;
-    size_ -= zeros;
-  }
+  while (size_ > 0 && limb(size_ - 1) == 0) --size_;
   if (size_ == 0) {
-    sign_ = 0;
-    exponent_ = 0;
+    sign_ = exponent_ = 0;
+    return;
   }
+  if (limb(0) != 0) return;
+  int zeros = 1;
+  while (limb(zeros) == 0) ++zeros;
+  size_ -= zeros;
+  exponent_ += zeros;
+  std::copy_n(limbs_.data() + zeros, size_, limbs_.data());
 }
 
 Exact Exact::operator-() const {
@@ -66,13 +71,11 @@ Exact Exact::operator-() const {
 }
 
 int Exact::compare_magnitudes(const Exact& left, const Exact& right) {
-  const int left_top = left.exponent_ + left.size_;
-  const int right_top = right.exponent_ + right.size_;
-  if (left_top != right_top) return left_top < right_top ? -1 : 1;
+  if (left.top() != right.top()) return left.top() < right.top() ? -1 : 1;
   const int bottom = std::min(left.exponent_, right.exponent_);
-  for (int position = left_top - 1; position >= bottom; --position) {
-    const std::uint32_t left_limb = left.limb_at(position);
-    const std::uint32_t right_limb = right.limb_at(position);
+  for (int position = left.top() - 1; position >= bottom; --position) {
+    const Limb left_limb = left.limb_at(position);
+    const Limb right_limb = right.limb_at(position);
     if (left_limb != right_limb) return left_limb < right_limb ? -1 : 1;
   }
   return 0;
@@ -81,35 +84,28 @@ int Exact::compare_magnitudes(const Exact& left, const Exact& right) {
 Exact Exact::add_magnitudes(const Exact& left, const Exact& right, int sign) {
   Exact sum;
   sum.sign_ = sign;
-  sum.exponent_ = std::min(left.exponent_, right.exponent_);
-  const int top = std::max(left.exponent_ + left.size_, right.exponent_ + right.size_);
-  sum.size_ = top - sum.exponent_ + 1;
-  assert(sum.size_ <= capacity);
-  std::uint64_t carry = 0;
-  for (int index = 0; index < sum.size_; ++index) {
-    carry += std::uint64_t{left.limb_at(sum.exponent_ + index)} + right.limb_at(sum.exponent_ + index);
-    sum.limbs_[static_cast<std::size_t>(index)] = static_cast<std::uint32_t>(carry);
-    carry >>= limb_bits;
-  }
+  const int bottom = std::min(left.exponent_, right.exponent_);
+  sum.copy_shifted(left, bottom, std::max(left.top(), right.top()) - bottom + 1);
+  int index = right.exponent_ - bottom;
+  Limb carry = 0;
+  for (int i = 0; i < right.size_; ++i, ++index)
+    sum.limb(index) = add_limbs(sum.limb(index), right.limb(i), carry);
+  for (; carry != 0; ++index) sum.limb(index) = add_limbs(sum.limb(index), 0, carry);
   sum.trim();
   return sum;
 }
 
-/// left − right, for |left| ≥ |right|.
+/// left − right, for |left| > |right|.
 Exact Exact::subtract_magnitudes(const Exact& left, const Exact& right, int sign) {
   Exact difference;
   difference.sign_ = sign;
-  difference.exponent_ = std::min(left.exponent_, right.exponent_);
-  difference.size_ = left.exponent_ + left.size_ - difference.exponent_;
-  assert(difference.size_ <= capacity);
-  std::int64_t borrow = 0;
-  for (int index = 0; index < difference.size_; ++index) {
-    std::int64_t limb = std::int64_t{left.limb_at(difference.exponent_ + index)} -
-                        std::int64_t{right.limb_at(difference.exponent_ + index)} + borrow;
-    borrow = limb < 0 ? -1 : 0;
-    if (limb < 0) limb += std::int64_t{1} << limb_bits;
-    difference.limbs_[static_cast<std::size_t>(index)] = static_cast<std::uint32_t>(limb);
-  }
+  const int bottom = std::min(left.exponent_, right.exponent_);
+  difference.copy_shifted(left, bottom, left.top() - bottom);
+  int index = right.exponent_ - bottom;
+  Limb borrow = 0;
+  for (int i = 0; i < right.size_; ++i, ++index)
+    difference.limb(index) = subtract_limbs(difference.limb(index), right.limb(i), borrow);
+  for (; borrow != 0; ++index) difference.limb(index) = subtract_limbs(difference.limb(index), 0, borrow);
   difference.trim();
   return difference;
 }
@@ -130,22 +126,24 @@ Exact Exact::add(const Exact& left, const Exact& right, int right_sign) {
 
 Exact operator*(const Exact& left, const Exact& right) {
   Exact product;
+  if (left.sign_ == 0 || right.sign_ == 0) return product;
   product.sign_ = left.sign_ * right.sign_;
-  if (product.sign_ == 0) return product;
   product.exponent_ = left.exponent_ + right.exponent_;
   product.size_ = left.size_ + right.size_;
   assert(product.size_ <= Exact::capacity);
-  std::fill_n(product.limbs_.begin(), product.size_, 0);
+  std::fill_n(product.limbs_.data(), right.size_, Limb{0});
   for (int i = 0; i < left.size_; ++i) {
-    std::uint64_t carry = 0;
-    const std::uint64_t factor = left.limbs_[static_cast<std::size_t>(i)];
+    Limb carry = 0;
+    const Limb factor = left.limb(i);
     for (int j = 0; j < right.size_; ++j) {
-      auto& limb = product.limbs_[static_cast<std::size_t>(i + j)];
-      carry += factor * right.limbs_[static_cast<std::size_t>(j)] + limb;
-      limb = static_cast<std::uint32_t>(carry);
-      carry >>= limb_bits;
+      const Product of_limbs = multiply(factor, right.limb(j));
+      Limb low_carry = 0;
+      Limb high_carry = 0;
+      const Limb low = add_limbs(of_limbs.low, carry, low_carry);
+      product.limb(i + j) = add_limbs(product.limb(i + j), low, high_carry);
+      carry = of_limbs.high + low_carry + high_carry;  // a product of two limbs leaves room for both
     }
-    product.limbs_[static_cast<std::size_t>(i + right.size_)] = static_cast<std::uint32_t>(carry);
+    product.limb(i + right.size_) = carry;
   }
   product.trim();
   return product;
@@ -153,13 +151,20 @@ Exact operator*(const Exact& left, const Exact& right) {
 
 Exact::Scaled Exact::scaled() const {
   if (sign_ == 0) return {};
-  double value = 0;  // the top three limbs hold at least 65 bits; each addition rounds once
-  const int used = std::min(size_, 3);
-  for (int index = size_ - used; index < size_; ++index)
-    value = std::ldexp(value, -limb_bits) + limbs_[static_cast<std::size_t>(index)];
+  // The top three halves of limbs hold at least 65 bits; each addition rounds once.
+  constexpr int half_bits = limb_bits / 2;
+  const auto half_at = [&](int position) {
+    const Limb whole = limb_at(position >> 1);
+    return static_cast<std::uint32_t>(position % 2 != 0 ? whole >> half_bits : whole);
+  };
+  int position = 2 * top() - 1;
+  if (half_at(position) == 0) --position;
+  const double low = half_at(position - 2);
+  const double middle = std::ldexp(low, -half_bits) + half_at(position - 1);
+  const double value = std::ldexp(middle, -half_bits) + half_at(position);
   Scaled result;
   result.fraction = sign_ * std::frexp(value, &result.exponent);
-  result.exponent += (exponent_ + size_ - 1) * limb_bits;
+  result.exponent += position * half_bits;
   return result;
 }
 

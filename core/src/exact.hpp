@@ -1,16 +1,22 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace graze {
 
-/// A dyadic rational without rounding: sign · magnitude · 2^(32 · exponent). Sums and products are exact;
-/// there is no division. Lives wholly on the stack and allocates nothing, so that a decision in exact
+/// A dyadic rational without rounding: sign · magnitude · 2^(64 · exponent). Sums and products are exact;
+/// there is no division. It lives wholly on the stack and allocates nothing, so that a decision in exact
 /// arithmetic costs time only.
 ///
-/// The capacity is enough for products of ten coordinate differences, the highest degree the kernels compare,
-/// with coordinates from the smallest denormal, 2^-1074, to 2^121: (1195 + 4) · 10 bits < 32 · 384.
+/// The capacity is enough for products of ten coordinate differences, the highest degree that the kernels
+/// compare, of coordinates from the smallest denormal, 2^-1074, to 2^121: (1195 + 4) · 10 bits < 64 · 192.
+/// Numbers in use have a few limbs, and copies take no more than these.
 class Exact {
  public:
   Exact() {}  // NOLINT(modernize-use-equals-default): a defaulted one would zero the limbs in `Exact{}`
@@ -21,6 +27,8 @@ class Exact {
   }
   ~Exact() = default;
   Exact(double value);  // NOLINT(google-explicit-constructor): every finite double is one
+  /// to − from, which mostly is a double.
+  static Exact difference(double to, double from);
 
   friend Exact operator+(const Exact& left, const Exact& right) { return add(left, right, right.sign_); }
   friend Exact operator-(const Exact& left, const Exact& right) { return add(left, right, -right.sign_); }
@@ -41,7 +49,9 @@ class Exact {
   [[nodiscard]] static double quotient(const Exact& left, const Exact& right);
 
  private:
-  static constexpr int capacity = 384;
+  using Limb = std::uint64_t;
+  static constexpr int limb_bits = 64;
+  static constexpr int capacity = 192;
 
   /// left / right to a relative error of at most 2^-50, unless it underflows.
   static double rough_quotient(const Exact& left, const Exact& right);
@@ -49,18 +59,60 @@ class Exact {
   static Exact add_magnitudes(const Exact& left, const Exact& right, int sign);
   static Exact subtract_magnitudes(const Exact& left, const Exact& right, int sign);
   static int compare_magnitudes(const Exact& left, const Exact& right);
+  void copy(const Exact& other) {
+    sign_ = other.sign_;
+    exponent_ = other.exponent_;
+    size_ = other.size_;
+    std::copy_n(other.limbs_.begin(), size_, limbs_.begin());
+  }
+  void copy_shifted(const Exact& other, int bottom, int size);
   void trim();
-  [[nodiscard]] std::uint32_t limb_at(int position) const {
+  [[nodiscard]] int top() const { return exponent_ + size_; }
+  Limb& limb(int index) { return limbs_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] Limb limb(int index) const { return limbs_[static_cast<std::size_t>(index)]; }
+  /// The limb at a place of the number's own scale; 0 where it has none.
+  [[nodiscard]] Limb limb_at(int position) const {
     const int index = position - exponent_;
-    return index >= 0 && index < size_ ? limbs_[static_cast<std::size_t>(index)] : 0;
+    return index >= 0 && index < size_ ? limb(index) : 0;
   }
 
-  void copy(const Exact& other);
-
   int sign_ = 0;
-  int exponent_ = 0;                           ///< of the lowest limb, in limbs
-  int size_ = 0;                               ///< limbs in use; neither the lowest nor the highest is 0
-  std::array<std::uint32_t, capacity> limbs_;  ///< lowest first; only the first size_ are ever read
+  int exponent_ = 0;                  ///< of the lowest limb, in limbs
+  int size_ = 0;                      ///< limbs in use; neither the lowest nor the highest is 0
+  std::array<Limb, capacity> limbs_;  ///< lowest first; only the first size_ are ever read
 };
+
+inline Exact::Exact(double value) {
+  if (value == 0) return;
+  assert(std::isfinite(value));
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto biased_exponent = static_cast<int>(bits >> 52U & 0x7ffU);
+  Limb mantissa = bits & ((Limb{1} << 52U) - 1);
+  if (biased_exponent > 0) mantissa |= Limb{1} << 52U;
+  const int exponent = std::max(biased_exponent, 1) - 1075;  // value = mantissa · 2^exponent
+  sign_ = value > 0 ? 1 : -1;
+  exponent_ = exponent >> 6;  // rounded down
+  const auto shift = static_cast<unsigned>(exponent) % limb_bits;
+  const Limb low = mantissa << shift;
+  const Limb high = shift == 0 ? 0 : mantissa >> (limb_bits - shift);
+  if (low == 0) {
+    ++exponent_;
+    limbs_[0] = high;
+    size_ = 1;
+  } else {
+    limbs_[0] = low;
+    limbs_[1] = high;
+    size_ = high == 0 ? 1 : 2;
+  }
+}
+
+inline Exact Exact::difference(double to, double from) {
+  // What rounding leaves over (Knuth); finite doubles up to 2^121 do not overflow.
+  const double rounded = to - from;
+  const double of_from = rounded - to;
+  const double left_over = (to - (rounded - of_from)) - (from + of_from);
+  if (left_over == 0) return {rounded};
+  return Exact(to) - Exact(from);
+}
 
 }  // namespace graze

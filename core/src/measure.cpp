@@ -133,8 +133,8 @@ constexpr double allowed_error = 0x1p-48;
 template <typename Number>
 using Fraction = std::pair<Vector<Number>, Number>;
 
-/// The distance of the hulls, within the allowed error or exactly rounded.
-double distance_of(const SurfacePair& pair, const ContactName& name, const Hulls& hulls, double size) {
+/// The distance of the hulls from double, where that is within the allowed error.
+std::optional<double> distance_in_double(const Hulls& hulls, double size) {
   const Ratio<Ball> square = hull_distance_squared<Ball>(hulls.a, hulls.b);
   const double bottom = square.denominator.value - square.denominator.radius * Ball::slack;
   if (bottom > 0x1p-900 && std::isfinite(square.numerator.value) && std::isfinite(square.denominator.value)) {
@@ -145,7 +145,7 @@ double distance_of(const SurfacePair& pair, const ContactName& name, const Hulls
     if (square.numerator.value > 0x1p-900 && (high - low) * Ball::slack <= size * allowed_error)
       return middle;
   }
-  return rounded_distance(pair, name).upper;
+  return std::nullopt;
 }
 
 /// Fills in distance and normal of a contact whose points are known.
@@ -154,14 +154,15 @@ void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hul
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   const Simplex& low = a_is_low ? hulls.a : hulls.b;
   const Simplex& high = a_is_low ? hulls.b : hulls.a;
-  contact.distance = distance_of(pair, name, hulls, extent(low, high));
-  const auto normal = unit_direction(pair.count, [&]<typename Number>() { return closest.in<Number>().gap; });
-  if (normal) {
-    contact.normal = a_is_low ? *normal : Eigen::Vector3d(-*normal);
-  } else {
+  const std::optional<double> distance = distance_in_double(hulls, extent(low, high));
+  if (!distance && do_touch(hulls, pair.count)) {
     contact.distance = 0;
     contact.normal = touching_normal(pair.a, name.a(), pair.b, name.b(), pair.count);
+    return;
   }
+  contact.distance = distance ? *distance : rounded_distance(pair, name).upper;
+  const auto normal = unit_direction(pair.count, [&]<typename Number>() { return closest.in<Number>().gap; });
+  contact.normal = a_is_low ? *normal : Eigen::Vector3d(-*normal);
 }
 
 void add_sides(const SurfacePair& pair, const ContactName& name, Contact& contact) {

@@ -1,6 +1,7 @@
 #include "naming.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "certain.hpp"
@@ -10,32 +11,33 @@ namespace graze {
 namespace {
 
 /// The region of Voronoi of a triangle that holds the point; its borders belong to the lower dimension.
-template <typename Number>
 Place place_in_triangle(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner,
-                        bool& unsure) {
-  using V = Vector<Number>;
-  const auto at_most_zero = [&](const Number& number) { return sign(number, unsure) <= 0; };
-  const V u = difference<Number>(corner[1], corner[0]);
-  const V v = difference<Number>(corner[2], corner[0]);
-  const V normal = cross(u, v);
-  if (sign(dot(normal, normal), unsure) == 0) return Place::no_area;
-
-  const V from0 = difference<Number>(point, corner[0]);
-  const Number u0 = dot(u, from0);
-  const Number v0 = dot(v, from0);
-  if (at_most_zero(u0) && at_most_zero(v0)) return Place::vertex0;
-  const V from1 = difference<Number>(point, corner[1]);
-  const Number u1 = dot(u, from1);
-  const Number v1 = dot(v, from1);
-  if (at_most_zero(-u1) && at_most_zero(v1 - u1)) return Place::vertex1;
-  const V from2 = difference<Number>(point, corner[2]);
-  const Number u2 = dot(u, from2);
-  const Number v2 = dot(v, from2);
-  if (at_most_zero(-v2) && at_most_zero(u2 - v2)) return Place::vertex2;
-
-  if (at_most_zero(u0 * v1 - u1 * v0) && at_most_zero(-u0) && at_most_zero(u1)) return Place::edge01;
-  if (at_most_zero(u2 * v0 - u0 * v2) && at_most_zero(-v0) && at_most_zero(v2)) return Place::edge20;
-  if (at_most_zero(u1 * v2 - u2 * v1) && at_most_zero(u1 - v1) && at_most_zero(v2 - u2)) return Place::edge12;
+                        DecisionCount& count) {
+  const auto normal_of = [&]<typename Number>() {
+    return cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
+  };
+  if (is_zero(count, normal_of)) return Place::no_area;
+  // From one corner towards another: how far the point has come, and whether it is outside of the line or on
+  // it.
+  const auto way = [&](std::size_t from, std::size_t to) {
+    return decide_sign(count, [&]<typename Number>() {
+      return dot(difference<Number>(corner[to], corner[from]), difference<Number>(point, corner[from]));
+    });
+  };
+  const auto is_outside = [&](std::size_t from, std::size_t to) {
+    return decide_sign(count, [&]<typename Number>() {
+             return dot(normal_of.template operator()<Number>(),
+                        cross(difference<Number>(corner[to], corner[from]),
+                              difference<Number>(point, corner[from])));
+           }) <= 0;
+  };
+  for (std::size_t at = 0; at < 3; ++at)
+    if (way(at, (at + 1) % 3) <= 0 && way(at, (at + 2) % 3) <= 0) return static_cast<Place>(at);
+  constexpr std::array along{Place::edge01, Place::edge12, Place::edge20};
+  for (const std::size_t from : {0U, 2U, 1U}) {
+    const std::size_t to = (from + 1) % 3;
+    if (is_outside(from, to) && way(from, to) >= 0 && way(to, from) >= 0) return along[from];
+  }
   return Place::inside;
 }
 
@@ -69,10 +71,10 @@ struct FaceTriangle {
   std::array<bool, 3> has_side{};  ///< false for a corner repeated
 };
 
-FaceTriangle triangle_of(const Surface& surface, std::uint32_t face, Piece which) {
+FaceTriangle triangle_of(const Surface& surface, std::uint32_t face, Piece which, const Simplex& corners) {
   const Mesh& mesh = surface.mesh();
   FaceTriangle triangle;
-  triangle.corners = simplex_of(surface, face_piece(face, which));
+  triangle.corners = corners;
   const auto edges = mesh.face_edges(face);
   const auto set_side = [&](std::size_t side, const FeaturePiece& piece) {
     triangle.sides[side] = piece;
@@ -110,14 +112,19 @@ FeaturePiece nearest_piece_of_sides(const Eigen::Vector3d& point, const Surface&
 FeaturePiece nearest_piece_of_triangle(const Eigen::Vector3d& point, const Surface& surface,
                                        std::uint32_t face, Piece which, DecisionCount& count,
                                        SquaredRange& squared) {
-  const FaceTriangle triangle = triangle_of(surface, face, which);
+  const Simplex corners = simplex_of(surface, face_piece(face, which));
+  for (std::size_t i = 0; i < 3; ++i)
+    if (point == corners.point[i] &&
+        certainly_not_parallel(corners.point[1] - corners.point[0], corners.point[2] - corners.point[0])) {
+      ++count.in_double;
+      return vertex_piece(corners.vertex[i]);
+    }
+  const FaceTriangle triangle = triangle_of(surface, face, which, corners);
   Place place{};
   if (certain_place(point, triangle.corners.point, place, squared))
     ++count.in_double;
   else
-    place = decide(count, [&]<typename Number>(bool& unsure) {
-      return place_in_triangle<Number>(point, triangle.corners.point, unsure);
-    });
+    place = place_in_triangle(point, triangle.corners.point, count);
   switch (place) {
     case Place::vertex0:
     case Place::vertex1:
@@ -158,23 +165,86 @@ FeaturePiece piece_along(const FeaturePiece& segment, const Simplex& ends, Along
   return vertex_piece(ends.vertex[place == Along::first ? 0 : 1]);
 }
 
-/// How the closest points of two lines lie to the segments on them.
-enum class LinePair : std::uint8_t { inside_both, at_an_end, parallel };
+bool is_point(const Simplex& segment) {
+  return segment.point[0] == segment.point[1];
+}
 
-template <typename Number>
-LinePair classify_lines(const Simplex& a, const Simplex& b, bool& unsure) {
-  const Vector<Number> u = difference<Number>(a.point[1], a.point[0]);
-  const Vector<Number> v = difference<Number>(b.point[1], b.point[0]);
-  const Vector<Number> normal = cross(u, v);
-  const Number determinant = dot(normal, normal);
-  if (sign(determinant, unsure) == 0) return LinePair::parallel;
-  const Vector<Number> w = difference<Number>(b.point[0], a.point[0]);
-  // Parameters times the determinant, both in (0, determinant) for interior points.
-  const Number s = dot(cross(w, v), normal);
-  const Number t = dot(cross(w, u), normal);
-  const bool inside = sign(s, unsure) > 0 && sign(determinant - s, unsure) > 0 && sign(t, unsure) > 0 &&
-                      sign(determinant - t, unsure) > 0;
-  return inside ? LinePair::inside_both : LinePair::at_an_end;
+/// Of two segments that are no points.
+bool are_parallel(const Simplex& a, const Simplex& b, DecisionCount& count) {
+  const bool are_same = a.point[0] == b.point[0] && a.point[1] == b.point[1];
+  const bool are_reversed = a.point[0] == b.point[1] && a.point[1] == b.point[0];
+  if (are_same || are_reversed) return true;
+  return is_zero(count, [&]<typename Number>() {
+    return cross(difference<Number>(a.point[1], a.point[0]), difference<Number>(b.point[1], b.point[0]));
+  });
+}
+
+/// Whether the closest points of two lines that are not parallel are inside both segments on them: the
+/// parameters times the square of the lines' cross product, and what is left of that.
+bool are_closest_inside(const Simplex& a, const Simplex& b, DecisionCount& count) {
+  const auto is_above_zero = [&](const auto& left_of, const auto& right_of) {
+    return decide_sign(count, [&]<typename Number>() {
+             const Vector<Number> normal = cross(difference<Number>(a.point[1], a.point[0]),
+                                                 difference<Number>(b.point[1], b.point[0]));
+             return dot(cross(left_of.template operator()<Number>(), right_of.template operator()<Number>()),
+                        normal);
+           }) > 0;
+  };
+  const auto u = [&]<typename Number>() { return difference<Number>(a.point[1], a.point[0]); };
+  const auto v = [&]<typename Number>() { return difference<Number>(b.point[1], b.point[0]); };
+  const auto between = [](const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
+    return [&to, &from]<typename Number>() { return difference<Number>(to, from); };
+  };
+  return is_above_zero(between(b.point[0], a.point[0]), v) &&
+         is_above_zero(between(a.point[1], b.point[0]), v) &&
+         is_above_zero(between(b.point[0], a.point[0]), u) &&
+         is_above_zero(u, between(b.point[1], a.point[0]));
+}
+
+/// The ends at which two segments meet, the same bits of both.
+std::optional<std::array<std::size_t, 2>> shared_ends(const Simplex& a, const Simplex& b) {
+  for (std::size_t end_a = 0; end_a < 2; ++end_a)
+    for (std::size_t end_b = 0; end_b < 2; ++end_b)
+      if (a.point[end_a] == b.point[end_b]) return std::array{end_a, end_b};
+  return std::nullopt;
+}
+
+/// The names at the ends of the common stretch of parallel segments, or of the ends that are nearest where
+/// they have none, by how far along a the ends of b are.
+SegmentPairNames names_of_parallel(const FeaturePiece& segment_a, const Simplex& a,
+                                   const FeaturePiece& segment_b, const Simplex& b, DecisionCount& count) {
+  // How far end `end_b` of b has come past end `end_a` of a.
+  const auto past = [&](std::size_t end_a, std::size_t end_b) {
+    return decide_sign(count, [&]<typename Number>() {
+      return dot(difference<Number>(a.point[1], a.point[0]),
+                 difference<Number>(b.point[end_b], a.point[end_a]));
+    });
+  };
+  const bool same_way =
+      decide_sign(count, [&]<typename Number>() {
+        return dot(difference<Number>(a.point[1], a.point[0]), difference<Number>(b.point[1], b.point[0]));
+      }) > 0;
+  const std::size_t low_b = same_way ? 0 : 1;
+  const std::size_t high_b = 1 - low_b;
+  const auto end_of_a = [&](std::size_t end) { return vertex_piece(a.vertex[end]); };
+  const auto end_of_b = [&](std::size_t end) { return vertex_piece(b.vertex[end]); };
+  SegmentPairNames names;
+  const auto add = [&](const FeaturePiece& of_a, const FeaturePiece& of_b) {
+    names.names[names.size++] = {of_a, of_b};
+  };
+  const int low_past_end = past(1, low_b);
+  const int high_past_begin = past(0, high_b);
+  if (low_past_end >= 0) {
+    add(end_of_a(1), end_of_b(low_b));
+  } else if (high_past_begin <= 0) {
+    add(end_of_a(0), end_of_b(high_b));
+  } else {
+    const int low = past(0, low_b);
+    add(low > 0 ? segment_a : end_of_a(0), low < 0 ? segment_b : end_of_b(low_b));
+    const int high = past(1, high_b);
+    add(high < 0 ? segment_a : end_of_a(1), high > 0 ? segment_b : end_of_b(high_b));
+  }
+  return names;
 }
 
 /// The closest points of each end of either segment and the other segment, keeping those at the least
@@ -237,13 +307,14 @@ FeaturePiece nearest_piece_of_segment(const Eigen::Vector3d& point, const Surfac
                                       const FeaturePiece& segment, DecisionCount& count) {
   const Simplex ends = simplex_of(surface, segment);
   if (coincide(surface, ends.vertex[0], ends.vertex[1])) return vertex_piece(end_vertex(surface, ends, 0));
-  const int place = decide(count, [&]<typename Number>(bool& unsure) {
-    const Vector<Number> direction = difference<Number>(ends.point[1], ends.point[0]);
-    if (sign(dot(direction, difference<Number>(point, ends.point[0])), unsure) <= 0) return -1;
-    return sign(dot(direction, difference<Number>(point, ends.point[1])), unsure) >= 0 ? 1 : 0;
-  });
-  if (place == 0) return segment;
-  return vertex_piece(ends.vertex[place < 0 ? 0 : 1]);
+  const auto past = [&](std::size_t end) {
+    return decide_sign(count, [&]<typename Number>() {
+      return dot(difference<Number>(ends.point[1], ends.point[0]),
+                 difference<Number>(point, ends.point[end]));
+    });
+  };
+  if (past(0) <= 0) return vertex_piece(ends.vertex[0]);
+  return past(1) >= 0 ? vertex_piece(ends.vertex[1]) : segment;
 }
 
 FeaturePiece nearest_piece_of_face(const Eigen::Vector3d& point, const Surface& surface, std::uint32_t face,
@@ -275,32 +346,38 @@ SegmentPairNames nearest_pieces_of_segments(const Surface& surface_a, const Feat
                                             DecisionCount& count, SquaredRange& squared) {
   const Simplex a = simplex_of(surface_a, segment_a);
   const Simplex b = simplex_of(surface_b, segment_b);
+  const auto one_name = [](const FeaturePiece& of_a, const FeaturePiece& of_b) {
+    SegmentPairNames names;
+    names.size = 1;
+    names.names[0] = {of_a, of_b};
+    return names;
+  };
+  const auto ends = shared_ends(a, b);
+  if (ends) squared = {0, 0};
+  if (ends && certainly_not_parallel(a.point[1] - a.point[0], b.point[1] - b.point[0])) {
+    ++count.in_double;
+    return one_name(vertex_piece(a.vertex[(*ends)[0]]), vertex_piece(b.vertex[(*ends)[1]]));
+  }
   std::array<Along, 2> places{};
   if (certain_places({a.point[0], a.point[1]}, {b.point[0], b.point[1]}, places, squared)) {
     ++count.in_double;
-    SegmentPairNames names;
-    names.size = 1;
-    names.names[0] = {piece_along(segment_a, a, places[0]), piece_along(segment_b, b, places[1])};
-    return names;
+    return one_name(piece_along(segment_a, a, places[0]), piece_along(segment_b, b, places[1]));
   }
-  const LinePair lines =
-      decide(count, [&]<typename Number>(bool& unsure) { return classify_lines<Number>(a, b, unsure); });
-  if (lines == LinePair::inside_both) {
-    SegmentPairNames names;
-    names.size = 1;
-    names.names[0] = {segment_a, segment_b};
-    return names;
+  if (!is_point(a) && !is_point(b)) {
+    if (are_parallel(a, b, count)) return names_of_parallel(segment_a, a, segment_b, b, count);
+    if (ends) return one_name(vertex_piece(a.vertex[(*ends)[0]]), vertex_piece(b.vertex[(*ends)[1]]));
+    if (are_closest_inside(a, b, count)) return one_name(segment_a, segment_b);
   }
-  NearestEnds ends(surface_a, surface_b, count);
+  NearestEnds nearest(surface_a, surface_b, count);
   for (std::size_t end = 0; end < 2; ++end) {
     const std::uint32_t vertex_a = end_vertex(surface_a, a, end);
-    ends.add(vertex_piece(vertex_a),
-             nearest_piece_of_segment(surface_a.position(vertex_a), surface_b, segment_b, count));
+    nearest.add(vertex_piece(vertex_a),
+                nearest_piece_of_segment(surface_a.position(vertex_a), surface_b, segment_b, count));
     const std::uint32_t vertex_b = end_vertex(surface_b, b, end);
-    ends.add(nearest_piece_of_segment(surface_b.position(vertex_b), surface_a, segment_a, count),
-             vertex_piece(vertex_b));
+    nearest.add(nearest_piece_of_segment(surface_b.position(vertex_b), surface_a, segment_a, count),
+                vertex_piece(vertex_b));
   }
-  return ends.found();
+  return nearest.found();
 }
 
 bool is_folded(const Surface& surface, std::uint32_t face, DecisionCount& count) {

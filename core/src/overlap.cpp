@@ -16,90 +16,97 @@ Outline points_of(const Simplex& simplex) {
 }
 
 template <typename Number>
-Vector<Number> direction_of(const Simplex& segment) {
-  return difference<Number>(segment.point[1], segment.point[0]);
-}
-
-template <typename Number>
 Vector<Number> normal_of(const Simplex& triangle) {
   return cross(difference<Number>(triangle.point[1], triangle.point[0]),
                difference<Number>(triangle.point[2], triangle.point[0]));
 }
 
-template <typename Number>
-bool is_zero(const Vector<Number>& vector, bool& unsure) {
-  return sign(dot(vector, vector), unsure) == 0;
+bool has_area(const Simplex& triangle, DecisionCount& count) {
+  return !is_zero(count, [&]<typename Number>() { return normal_of<Number>(triangle); });
 }
 
-/// Whether two parallel segments, projected on the first, share more than a point.
-template <typename Number>
-bool segments_overlap(const Simplex& a, const Simplex& b, bool& unsure) {
-  const Vector<Number> u = direction_of<Number>(a);
-  const Vector<Number> v = direction_of<Number>(b);
-  if (is_zero(u, unsure) || is_zero(v, unsure) || !is_zero(cross(u, v), unsure)) return false;
-  const Number length = dot(u, u);
-  const Number first = dot(u, difference<Number>(b.point[0], a.point[0]));
-  const Number second = dot(u, difference<Number>(b.point[1], a.point[0]));
-  const bool starts_before_end = sign(first - length, unsure) < 0 || sign(second - length, unsure) < 0;
-  const bool ends_after_start = sign(first, unsure) > 0 || sign(second, unsure) > 0;
-  return starts_before_end && ends_after_start;
+/// The sign of the product of `along` and a difference of two points.
+int sign_along(const Simplex& along, const Eigen::Vector3d& to, const Eigen::Vector3d& from,
+               DecisionCount& count) {
+  return decide_sign(count, [&]<typename Number>() {
+    return dot(difference<Number>(along.point[1], along.point[0]), difference<Number>(to, from));
+  });
 }
 
-/// Whether a line in the plane of a triangle (through `origin` along `along`) has all of `other` on its outer
-/// side or on it, where the inner side is that of `inner`. With `open`, what lies along the line is not on
-/// its outer side.
-template <typename Number>
-bool separates(const Vector<Number>& plane_normal, const Eigen::Vector3d& origin, const Vector<Number>& along,
-               const Eigen::Vector3d& inner, const Simplex& other, bool open, bool& unsure) {
-  const Vector<Number> across = cross(plane_normal, along);
-  const int inner_side = sign(dot(across, difference<Number>(inner, origin)), unsure);
-  bool all_on_line = true;
-  for (std::uint32_t i = 0; i < other.size; ++i) {
-    const int side = inner_side * sign(dot(across, difference<Number>(other.point[i], origin)), unsure);
-    if (side > 0) return false;
-    all_on_line = all_on_line && side == 0;
-  }
-  return !(open && all_on_line);
+/// Whether two segments are parallel and, projected on the first, share more than a point.
+bool segments_overlap(const Simplex& a, const Simplex& b, DecisionCount& count) {
+  if (a.point[0] == a.point[1] || b.point[0] == b.point[1]) return false;
+  const bool are_parallel = is_zero(count, [&]<typename Number>() {
+    return cross(difference<Number>(a.point[1], a.point[0]), difference<Number>(b.point[1], b.point[0]));
+  });
+  if (!are_parallel) return false;
+  const bool starts_before_end =
+      sign_along(a, b.point[0], a.point[1], count) < 0 || sign_along(a, b.point[1], a.point[1], count) < 0;
+  return starts_before_end && (sign_along(a, b.point[0], a.point[0], count) > 0 ||
+                               sign_along(a, b.point[1], a.point[0], count) > 0);
 }
 
-template <typename Number>
-bool a_side_separates(const Simplex& triangle, const Simplex& other, std::size_t fold_side, bool& unsure) {
-  const Vector<Number> normal = normal_of<Number>(triangle);
+/// On which side of the line through two points of a triangle's plane a point of that plane is, or one over
+/// it.
+int side_of_line(const Simplex& triangle, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                 const Eigen::Vector3d& point, DecisionCount& count) {
+  if (point == from || point == to) return 0;
+  return decide_sign(count, [&]<typename Number>() {
+    return dot(normal_of<Number>(triangle),
+               cross(difference<Number>(to, from), difference<Number>(point, from)));
+  });
+}
+
+/// Whether a side of a triangle has all of `other` on its outer side or on it. What lies along the fold side
+/// is not on its outer side.
+bool a_side_separates(const Simplex& triangle, const Simplex& other, std::size_t fold_side,
+                      DecisionCount& count) {
   for (std::size_t side = 0; side < 3; ++side) {
-    const Eigen::Vector3d& from = triangle.point[side];
-    const Vector<Number> along = difference<Number>(triangle.point[(side + 1) % 3], from);
-    if (separates(normal, from, along, triangle.point[(side + 2) % 3], other, side == fold_side, unsure))
-      return true;
+    bool all_outside = true;
+    bool all_on_line = true;
+    for (std::uint32_t i = 0; i < other.size && all_outside; ++i) {
+      const int inside =
+          side_of_line(triangle, triangle.point[side], triangle.point[(side + 1) % 3], other.point[i], count);
+      all_outside = inside <= 0;
+      all_on_line = all_on_line && inside == 0;
+    }
+    if (all_outside && !(all_on_line && side == fold_side)) return true;
   }
   return false;
 }
 
+bool is_corner(const Eigen::Vector3d& point, const Simplex& triangle) {
+  return std::find(triangle.point.begin(), triangle.point.end(), point) != triangle.point.end();
+}
+
 /// Whether a segment is parallel to a triangle's plane and passes over its inside: no separating line, which
 /// for a segment and a triangle could only run along a side or along the segment.
-template <typename Number>
 bool segment_overlaps_triangle(const Simplex& segment, const Simplex& triangle, std::size_t fold_side,
-                               bool& unsure) {
-  const Vector<Number> normal = normal_of<Number>(triangle);
-  const Vector<Number> u = direction_of<Number>(segment);
-  if (is_zero(normal, unsure) || is_zero(u, unsure) || sign(dot(normal, u), unsure) != 0) return false;
-  if (a_side_separates<Number>(triangle, segment, fold_side, unsure)) return false;
-  const Vector<Number> across = cross(normal, u);
+                               DecisionCount& count) {
+  const auto& [p, q, unused] = segment.point;
+  if (p == q || !has_area(triangle, count)) return false;
+  const bool is_side = is_corner(p, triangle) && is_corner(q, triangle);
+  const bool is_parallel = is_side || decide_sign(count, [&]<typename Number>() {
+                                        return dot(normal_of<Number>(triangle), difference<Number>(q, p));
+                                      }) == 0;
+  if (!is_parallel || a_side_separates(triangle, segment, fold_side, count)) return false;
   std::array<int, 3> sides{};
-  for (std::size_t i = 0; i < 3; ++i)
-    sides[i] = sign(dot(across, difference<Number>(triangle.point[i], segment.point[0])), unsure);
+  for (std::size_t i = 0; i < 3; ++i) sides[i] = side_of_line(triangle, p, q, triangle.point[i], count);
   const bool runs_along_fold = fold_side < 3 && sides[fold_side] == 0 && sides[(fold_side + 1) % 3] == 0;
   const bool before = std::find(sides.begin(), sides.end(), -1) != sides.end();
   const bool behind = std::find(sides.begin(), sides.end(), 1) != sides.end();
   return runs_along_fold || (before && behind);
 }
 
-template <typename Number>
-bool triangles_overlap(const Simplex& a, const Simplex& b, bool& unsure) {
-  const Vector<Number> normal_a = normal_of<Number>(a);
-  const Vector<Number> normal_b = normal_of<Number>(b);
-  if (is_zero(normal_a, unsure) || is_zero(normal_b, unsure) || !is_zero(cross(normal_a, normal_b), unsure))
-    return false;
-  return !a_side_separates<Number>(a, b, 3, unsure) && !a_side_separates<Number>(b, a, 3, unsure);
+bool triangles_overlap(const Simplex& a, const Simplex& b, DecisionCount& count) {
+  if (!has_area(a, count)) return false;
+  const auto is_of_a = [&](const Eigen::Vector3d& corner) { return is_corner(corner, a); };
+  const bool has_corners_of_a = std::all_of(b.point.begin(), b.point.end(), is_of_a);
+  if (!has_area(b, count)) return false;
+  if (has_corners_of_a) return true;
+  const bool are_parallel =
+      is_zero(count, [&]<typename Number>() { return cross(normal_of<Number>(a), normal_of<Number>(b)); });
+  return are_parallel && !a_side_separates(a, b, 3, count) && !a_side_separates(b, a, 3, count);
 }
 
 /// What is left of a convex polygon or segment inside the half space through `origin` with the normal
@@ -259,15 +266,15 @@ Simplex LocalFrame::to_local(Simplex simplex) const {
   return simplex;
 }
 
-std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, const Simplex& b,
-                                  std::size_t fold_side_b, const LocalFrame& frame, DecisionCount& count) {
-  const bool overlaps = decide(count, [&]<typename Number>(bool& unsure) {
-    if (a.size == 2 && b.size == 2) return segments_overlap<Number>(a, b, unsure);
-    if (a.size == 2) return segment_overlaps_triangle<Number>(a, b, fold_side_b, unsure);
-    if (b.size == 2) return segment_overlaps_triangle<Number>(b, a, fold_side_a, unsure);
-    return triangles_overlap<Number>(a, b, unsure);
-  });
-  if (!overlaps) return std::nullopt;
+bool do_overlap(const Simplex& a, std::size_t fold_side_a, const Simplex& b, std::size_t fold_side_b,
+                DecisionCount& count) {
+  if (a.size == 2 && b.size == 2) return segments_overlap(a, b, count);
+  if (a.size == 2) return segment_overlaps_triangle(a, b, fold_side_b, count);
+  if (b.size == 2) return segment_overlaps_triangle(b, a, fold_side_a, count);
+  return triangles_overlap(a, b, count);
+}
+
+Overlap overlap_of(const Simplex& a, const Simplex& b, const LocalFrame& frame, DecisionCount& count) {
   // What is clipped is the lower one, so that the middle lies on it to rounding; straight across is on the
   // other.
   const bool a_is_low = a.size <= b.size;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "few.hpp"
 #include "naming.hpp"
@@ -38,12 +37,14 @@ struct Overlap {
   Outline outline;
 };
 
-/// The overlap of the relative interiors of two parallel pieces of at least two points each (edges, folds,
-/// triangles); nothing where they are not exactly parallel, or overlap in no length or area. Whether is
-/// decided exactly; the middles are rounded. `fold_side` of a triangle is the side (0-1, 1-2, 2-0) that is
-/// inside its face, 3 for none.
-std::optional<Overlap> overlap_of(const Simplex& a, std::size_t fold_side_a, const Simplex& b,
-                                  std::size_t fold_side_b, const LocalFrame& frame, DecisionCount& count);
+/// Whether two pieces of at least two points each (edges, folds, triangles) are parallel and their relative
+/// interiors, seen along the gap between them, have a length or an area in common. Decided exactly.
+/// `fold_side` of a triangle is the side (0-1, 1-2, 2-0) that is inside its face, 3 for none.
+bool do_overlap(const Simplex& a, std::size_t fold_side_a, const Simplex& b, std::size_t fold_side_b,
+                DecisionCount& count);
+
+/// What two pieces that overlap have in common; rounded.
+Overlap overlap_of(const Simplex& a, const Simplex& b, const LocalFrame& frame, DecisionCount& count);
 
 /// Of two features' pieces, of which each has at most two.
 using Overlaps = Few<Overlap, 4>;

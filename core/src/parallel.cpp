@@ -1,5 +1,6 @@
 #include "parallel.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -10,35 +11,56 @@
 namespace graze {
 namespace {
 
-/// The edges and faces that hold a feature, itself included.
-void find_holders(const Mesh& mesh, const Feature& feature, std::vector<Feature>& holders) {
-  holders.clear();
-  const auto add_face = [&](std::uint32_t face) { holders.push_back({FeatureKind::face, face}); };
-  if (feature.kind == FeatureKind::face) {
-    add_face(feature.index);
-  } else if (feature.kind == FeatureKind::edge) {
-    holders.push_back(feature);
-    for (const std::uint32_t face : mesh.edge_faces(feature.index)) add_face(face);
-  } else {
-    for (const std::uint32_t face : mesh.vertex_faces(feature.index)) {
-      add_face(face);
-      for (const std::uint32_t edge : mesh.face_edges(face))
-        if (edge != Mesh::no_edge &&
-            (mesh.edge(edge)[0] == feature.index || mesh.edge(edge)[1] == feature.index))
-          holders.push_back({FeatureKind::edge, edge});
-    }
-  }
+/// How many answers about pairs of faces are kept.
+constexpr std::size_t known_count = 1024;
+
+Holder::Direction normal_of(const Simplex& triangle) {
+  const Eigen::Vector3d u = triangle.point[1] - triangle.point[0];
+  const Eigen::Vector3d v = triangle.point[2] - triangle.point[0];
+  return {u.cross(v), u.squaredNorm() * v.squaredNorm()};
 }
 
-/// The pairs of features that hold those of a name; in scratch.holders.
-void find_holders(const SurfacePair& pair, const ContactName& name, ParallelScratch& scratch) {
-  find_holders(pair.a.mesh(), name.a().feature, scratch.holders_a);
-  find_holders(pair.b.mesh(), name.b().feature, scratch.holders_b);
-  scratch.holders.clear();
-  for (const Feature& a : scratch.holders_a)
-    for (const Feature& b : scratch.holders_b) scratch.holders.emplace_back(a, b);
-  std::sort(scratch.holders.begin(), scratch.holders.end());
-  scratch.holders.erase(std::unique(scratch.holders.begin(), scratch.holders.end()), scratch.holders.end());
+Holder edge_holder(const Surface& surface, std::uint32_t edge) {
+  const auto [first, second] = surface.mesh().edge(edge);
+  const Eigen::Vector3d along = surface.position(second) - surface.position(first);
+  Holder holder{{FeatureKind::edge, edge}, {}};
+  holder.directions.push_back({along, along.squaredNorm()});
+  return holder;
+}
+
+Holder face_holder(const Surface& surface, std::uint32_t face) {
+  Holder holder{{FeatureKind::face, face}, {}};
+  holder.directions.push_back(normal_of(simplex_of(surface, face_piece(face, Piece::first))));
+  if (triangle_count(surface.mesh(), face) == 2)
+    holder.directions.push_back(normal_of(simplex_of(surface, face_piece(face, Piece::second))));
+  return holder;
+}
+
+/// What plain double is off by is below 2^-49 of the sizes, and by no more than these are edges or faces
+/// certainly not parallel. What underflows decides nothing.
+constexpr double least_angle_squared = 0x1p-80;
+constexpr double least_product = 0x1p-900;
+
+bool are_certainly_across(double squared, double sizes) {
+  return sizes > least_product && squared > least_angle_squared * sizes;
+}
+/// Of two edges or two faces.
+bool are_not_parallel(const Holder::Direction& a, const Holder::Direction& b) {
+  return are_certainly_across(a.vector.cross(b.vector).squaredNorm(), a.largest_square * b.largest_square);
+}
+/// Of an edge and a face.
+bool are_not_square(const Holder::Direction& a, const Holder::Direction& b) {
+  const double along = a.vector.dot(b.vector);
+  return are_certainly_across(along * along, a.largest_square * b.largest_square);
+}
+
+/// Whether no parts of two holders are parallel, by plain double; false where that is not certain.
+bool are_certainly_apart(const Holder& a, const Holder& b) {
+  const auto test = a.feature.kind == b.feature.kind ? are_not_parallel : are_not_square;
+  for (const Holder::Direction& of_a : a.directions)
+    for (const Holder::Direction& of_b : b.directions)
+      if (!test(of_a, of_b)) return false;
+  return true;
 }
 
 /// The flat pieces of an edge or face that can be parallel to another's, and which of their sides is the
@@ -64,75 +86,187 @@ Few<SidedPiece, 2> pieces_of(const Surface& surface, const Feature& feature) {
   return pieces;
 }
 
-/// The closest set of two features that hold closest points, where it has a length or an area.
-std::optional<ParallelContact> parallel_contact(const SurfacePair& pair, const FeaturePair& features,
-                                                const ContactName& nearest) {
-  const LocalFrame frame(pair.a, features.first, pair.b, features.second);
-  std::optional<ContactName> first_name;
-  Overlaps overlaps;
-  for (const SidedPiece& a : pieces_of(pair.a, features.first))
-    for (const SidedPiece& b : pieces_of(pair.b, features.second)) {
-      const auto overlap = overlap_of(simplex_of(pair.a, a.piece), a.fold_side, simplex_of(pair.b, b.piece),
-                                      b.fold_side, frame, pair.count);
-      if (!overlap) continue;
-      const ContactName name = ContactName::of(a.piece, b.piece, Meeting::parallel);
-      // One triangle of a bent quad may be parallel and further than the other.
-      if (compare_distances(pair, name, nearest) != 0) continue;
-      if (!first_name) first_name = name;
-      overlaps.push_back(*overlap);
-    }
-  if (!first_name) return std::nullopt;
-  const Overlap largest = largest_part(overlaps);
-  return ParallelContact{*first_name, frame.to_world(largest.middle_a), frame.to_world(largest.middle_b)};
-}
-
-bool by_name(const ParallelContact& left, const ParallelContact& right) {
-  return left.name < right.name;
-}
-
-/// Into scratch.found, sorted by name.
-void find_parallel_contacts(const SurfacePair& pair, const std::vector<ContactName>& names,
-                            ParallelScratch& scratch) {
-  auto& candidates = scratch.candidates;
-  candidates.clear();
-  for (const ContactName& name : names) {
-    find_holders(pair, name, scratch);
-    candidates.insert(candidates.end(), scratch.holders.begin(), scratch.holders.end());
+/// Features that are parallel to each other and have a stretch or an area of closest points. Among all that
+/// hold the names at the least distance, asks which are, and which of names and of these gives way to others
+/// of these.
+class ParallelContacts {
+ public:
+  ParallelContacts(const SurfacePair& pair, const ContactName& nearest, ParallelScratch& scratch)
+      : pair_(pair),
+        nearest_(nearest),
+        touches_(nearest.meeting() == Meeting::pierced || do_touch(hulls_of(pair, nearest), pair.count)),
+        scratch_(scratch) {
+    scratch_.known.resize(known_count);
+    if (++scratch_.query == 0) scratch_.known.assign(known_count, {});  // numbers begin anew
+    scratch_.query += scratch_.query == 0 ? 1 : 0;
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  scratch.found.clear();
-  for (const FeaturePair& features : candidates)
-    if (auto contact = parallel_contact(pair, features, names.front())) scratch.found.push_back(*contact);
-  std::sort(scratch.found.begin(), scratch.found.end(), by_name);
-}
 
-/// Whether a parallel pair of scratch.found, other than itself, holds both features of `name`.
-bool gives_way(const SurfacePair& pair, const ContactName& name, ParallelScratch& scratch) {
-  const FeaturePair self{name.a().feature, name.b().feature};
-  find_holders(pair, name, scratch);
-  return std::any_of(scratch.found.begin(), scratch.found.end(), [&](const ParallelContact& contact) {
-    const FeaturePair features{contact.name.a().feature, contact.name.b().feature};
-    return (features != self || name.meeting() != Meeting::parallel) &&
-           std::binary_search(scratch.holders.begin(), scratch.holders.end(), features);
-  });
-}
+  /// Whether a parallel contact holds both features of a name.
+  [[nodiscard]] bool gives_way(const ContactName& name) {
+    find(name);
+    return any_parallel(scratch_.of_name_a, scratch_.of_name_b, nullptr);
+  }
+
+  /// The lowest that gives way to no other and comes before `end`, if there is one, with its middle.
+  [[nodiscard]] std::optional<Contact> lowest(std::span<const ContactName> names, const ContactName* end) {
+    if (end != nullptr) lowest_ = *end;
+    for (const ContactName& name : names) {
+      find(name);
+      for_each_pair(scratch_.of_name_a, scratch_.of_name_b, [&](const Holder& a, const Holder& b) {
+        offer(a, b);
+        return false;
+      });
+    }
+    return found_ ? std::optional(contact_of(*found_)) : std::nullopt;
+  }
+
+ private:
+  void find(const ContactName& name) {
+    scratch_.of_name_a.find(pair_.a, name.a().feature);
+    scratch_.of_name_b.find(pair_.b, name.b().feature);
+  }
+
+  /// Calls `is_it(a, b)` with pairs of holders that may be parallel, faces first, until one is it.
+  template <typename IsIt>
+  static bool for_each_pair(const Holders& of_a, const Holders& of_b, const IsIt& is_it) {
+    const auto any_of = [&](const std::vector<Holder>& all_a, const std::vector<Holder>& all_b) {
+      for (const Holder& a : all_a)
+        for (const Holder& b : all_b)
+          if (!are_certainly_apart(a, b) && is_it(a, b)) return true;
+      return false;
+    };
+    return any_of(of_a.faces, of_b.faces) || any_of(of_a.faces, of_b.edges) ||
+           any_of(of_a.edges, of_b.faces) || any_of(of_a.edges, of_b.edges);
+  }
+
+  /// Whether a parallel contact is among the pairs of holders, other than `itself`.
+  bool any_parallel(const Holders& of_a, const Holders& of_b, const FeaturePair* itself) {
+    return for_each_pair(of_a, of_b, [&](const Holder& a, const Holder& b) {
+      const FeaturePair features{a.feature, b.feature};
+      return (itself == nullptr || features != *itself) && is_parallel(features);
+    });
+  }
+
+  /// Takes a pair of holders for the lowest if it is.
+  void offer(const Holder& a, const Holder& b) {
+    const FeaturePair features{a.feature, b.feature};
+    const ContactName name =
+        ContactName::of({a.feature, Piece::fold}, {b.feature, Piece::fold}, Meeting::parallel);
+    if (lowest_ && !(name < *lowest_)) return;
+    if (!is_parallel(features)) return;
+    scratch_.above_a.find(pair_.a, a.feature);
+    scratch_.above_b.find(pair_.b, b.feature);
+    if (any_parallel(scratch_.above_a, scratch_.above_b, &features)) return;
+    lowest_ = name;
+    found_ = features;
+  }
+
+  /// Whether two features have a stretch or an area of closest points at the least distance.
+  bool is_parallel(const FeaturePair& features) {
+    const auto& [a, b] = features;
+    if (a.kind != FeatureKind::face || b.kind != FeatureKind::face) return decide_parallel(features);
+    ParallelScratch::Known& known =
+        scratch_.known[(a.index * std::size_t{0x9e3779b1} + b.index) % known_count];
+    if (known.query != scratch_.query || known.faces != features)
+      known = {features, scratch_.query, decide_parallel(features)};
+    return known.are_parallel;
+  }
+  bool decide_parallel(const FeaturePair& features) {
+    bool found = false;
+    for_each_part(features, [&](const ContactName&, const Simplex&, const Simplex&) { return found = true; });
+    return found;
+  }
+
+  /// Calls `use` with the pieces of two features that are parallel contacts, until it returns true.
+  template <typename Use>
+  void for_each_part(const FeaturePair& features, const Use& use) {
+    for (const SidedPiece& of_a : pieces_of(pair_.a, features.first))
+      for (const SidedPiece& of_b : pieces_of(pair_.b, features.second)) {
+        const Simplex a = simplex_of(pair_.a, of_a.piece);
+        const Simplex b = simplex_of(pair_.b, of_b.piece);
+        if (!do_overlap(a, of_a.fold_side, b, of_b.fold_side, pair_.count)) continue;
+        const ContactName name = ContactName::of(of_a.piece, of_b.piece, Meeting::parallel);
+        // One triangle of a bent quad may be parallel and further than the other.
+        if (is_nearest(name, a, b) && use(name, a, b)) return;
+      }
+  }
+  [[nodiscard]] bool is_nearest(const ContactName& name, const Simplex& a, const Simplex& b) const {
+    if (!touches_) return compare_distances(pair_, name, nearest_) == 0;
+    for (std::uint32_t i = 0; i < a.size; ++i)
+      for (std::uint32_t j = 0; j < b.size; ++j)
+        if (a.point[i] == b.point[j]) return true;
+    return do_touch(hulls_of(pair_, name), pair_.count);
+  }
+
+  [[nodiscard]] Contact contact_of(const FeaturePair& features) {
+    const LocalFrame frame(pair_.a, features.first, pair_.b, features.second);
+    std::optional<ContactName> first_name;
+    Overlaps overlaps;
+    for_each_part(features, [&](const ContactName& name, const Simplex& a, const Simplex& b) {
+      if (!first_name) first_name = name;
+      overlaps.push_back(overlap_of(a, b, frame, pair_.count));
+      return false;
+    });
+    const Overlap largest = largest_part(overlaps);
+    return measure_parallel(pair_, *first_name, frame.to_world(largest.middle_a),
+                            frame.to_world(largest.middle_b));
+  }
+
+  const SurfacePair& pair_;
+  const ContactName& nearest_;
+  bool touches_;  ///< the least distance is 0
+  ParallelScratch& scratch_;
+  std::optional<ContactName> lowest_;  ///< of what is still looked for, the end
+  std::optional<FeaturePair> found_;
+};
 
 }  // namespace
 
+void Holders::find(const Surface& surface, const Feature& feature) {
+  const Mesh& mesh = surface.mesh();
+  features.clear();
+  const auto add_face = [&](std::uint32_t face) { features.push_back({FeatureKind::face, face}); };
+  if (feature.kind == FeatureKind::face) {
+    add_face(feature.index);
+  } else if (feature.kind == FeatureKind::edge) {
+    features.push_back(feature);
+    for (const std::uint32_t face : mesh.edge_faces(feature.index)) add_face(face);
+  } else {
+    for (const std::uint32_t face : mesh.vertex_faces(feature.index)) {
+      add_face(face);
+      for (const std::uint32_t edge : mesh.face_edges(face))
+        if (edge != Mesh::no_edge &&
+            (mesh.edge(edge)[0] == feature.index || mesh.edge(edge)[1] == feature.index))
+          features.push_back({FeatureKind::edge, edge});
+    }
+  }
+  std::sort(features.begin(), features.end());
+  features.erase(std::unique(features.begin(), features.end()), features.end());
+  edges.clear();
+  faces.clear();
+  for (const Feature& holder : features)
+    if (holder.kind == FeatureKind::edge)
+      edges.push_back(edge_holder(surface, holder.index));
+    else
+      faces.push_back(face_holder(surface, holder.index));
+}
+
+void ParallelScratch::reserve(const PairRoom& room) {
+  for (Holders* const holders : {&of_name_a, &of_name_b, &above_a, &above_b})
+    std::apply([&](auto&... part) { (part.reserve(room.ties), ...); }, Holders::parts(*holders));
+  known.reserve(known_count);
+}
+
 Contact closest_contact(const SurfacePair& pair, const std::vector<ContactName>& names,
                         ParallelScratch& scratch) {
-  find_parallel_contacts(pair, names, scratch);
-  const auto& parallel = scratch.found;
-  const auto lowest_name = std::find_if(
-      names.begin(), names.end(), [&](const ContactName& name) { return !gives_way(pair, name, scratch); });
-  const auto lowest_parallel =
-      std::find_if(parallel.begin(), parallel.end(),
-                   [&](const ParallelContact& contact) { return !gives_way(pair, contact.name, scratch); });
-  const bool is_parallel = lowest_name == names.end() ||
-                           (lowest_parallel != parallel.end() && lowest_parallel->name < *lowest_name);
-  if (!is_parallel) return measure(pair, *lowest_name);
-  return measure_parallel(pair, lowest_parallel->name, lowest_parallel->middle_a, lowest_parallel->middle_b);
+  ParallelContacts parallel(pair, names.front(), scratch);
+  const auto lowest_name = std::find_if(names.begin(), names.end(),
+                                        [&](const ContactName& name) { return !parallel.gives_way(name); });
+  const ContactName* const name = lowest_name == names.end() ? nullptr : &*lowest_name;
+  // Parallel are edges and faces alone.
+  if (name != nullptr && name->kind() < ContactKind::EE) return measure(pair, *name);
+  if (const auto contact = parallel.lowest(names, name)) return *contact;
+  return measure(pair, *name);
 }
 
 }  // namespace graze

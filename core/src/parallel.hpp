@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <graze/contact.hpp>
 #include <graze/pair_query.hpp>
+#include <graze/surface.hpp>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "contact_name.hpp"
+#include "few.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
@@ -14,27 +18,50 @@ namespace graze {
 /// Two features, of a and b.
 using FeaturePair = std::pair<Feature, Feature>;
 
-/// A parallel pair of features and the middle of its closest set.
-struct ParallelContact {
-  ContactName name;
-  Eigen::Vector3d middle_a;
-  Eigen::Vector3d middle_b;
+/// An edge or face that holds a feature, with the directions by which most are seen not to be parallel to
+/// another: of an edge its own, of a face the normals of its triangles.
+struct Holder {
+  struct Direction {
+    Eigen::Vector3d vector;
+    double largest_square;  ///< of its length, were the corners square
+  };
+  Feature feature;
+  Few<Direction, 2> directions;
+};
+
+/// All that hold a feature, itself included where it is no vertex; each once.
+struct Holders {
+  std::vector<Feature> features;
+  std::vector<Holder> edges;
+  std::vector<Holder> faces;
+
+  void find(const Surface& surface, const Feature& feature);
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.features, self.edges, self.faces);
+  }
 };
 
 /// Working memory of one thread.
 struct ParallelScratch {
-  std::vector<Feature> holders_a, holders_b;
-  std::vector<FeaturePair> holders;
-  std::vector<FeaturePair> candidates;
-  std::vector<ParallelContact> found;
+  /// Whether two faces are parallel contacts, of those that were asked about last.
+  struct Known {
+    FeaturePair faces;
+    std::uint32_t query = 0;  ///< the number of the query that asked
+    bool are_parallel = false;
+  };
+
+  Holders of_name_a, of_name_b;
+  Holders above_a, above_b;
+  std::vector<Known> known;
+  std::uint32_t query = 0;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.holders_a, self.holders_b, self.holders, self.candidates, self.found);
+    return std::tie(self.of_name_a, self.of_name_b, self.above_a, self.above_b, self.known);
   }
-  void reserve(const PairRoom& room) {
-    std::apply([&](auto&... part) { (part.reserve(room.ties), ...); }, parts(*this));
-  }
+  void reserve(const PairRoom& room);
 };
 
 /// `ContactDetail::closest` of two surfaces from all names at their least distance (sorted, at least one).

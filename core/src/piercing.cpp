@@ -8,21 +8,36 @@ namespace {
 /// Where a segment crosses a triangle.
 enum class Crossing : std::uint8_t { none, inside, on_side };
 
+/// A segment that ends at a corner of a triangle has that end in its plane.
+bool share_a_corner(const Simplex& segment, const Simplex& triangle) {
+  for (std::size_t end = 0; end < 2; ++end)
+    for (const Eigen::Vector3d& corner : triangle.point)
+      if (segment.point[end] == corner) return true;
+  return false;
+}
+
 /// `open_side` is the side (0-1, 1-2, 2-0) that counts as inside, a quad's fold; 3 for none.
-template <typename Number>
-Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t open_side, bool& unsure) {
-  const Eigen::Vector3d& p = segment.point[0];
-  std::array<Vector<Number>, 3> corner;
-  for (std::size_t i = 0; i < 3; ++i) corner[i] = difference<Number>(triangle.point[i], p);
-  const Vector<Number> normal = cross(difference<Number>(triangle.point[1], triangle.point[0]),
-                                      difference<Number>(triangle.point[2], triangle.point[0]));
-  const int side_p = -sign(dot(normal, corner[0]), unsure);
-  const int side_q = sign(dot(normal, difference<Number>(segment.point[1], triangle.point[0])), unsure);
+Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t open_side,
+                  DecisionCount& count) {
+  const auto& [p, q, unused] = segment.point;
+  const auto& corner = triangle.point;
+  const auto side_of_plane = [&](const Eigen::Vector3d& end) {
+    return decide_sign(count, [&]<typename Number>() {
+      const Vector<Number> normal =
+          cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
+      return dot(normal, difference<Number>(end, corner[0]));
+    });
+  };
+  const int side_p = side_of_plane(p);
+  if (side_p == 0) return Crossing::none;
+  const int side_q = side_of_plane(q);
   if (side_p * side_q != -1) return Crossing::none;
-  const Vector<Number> direction = difference<Number>(segment.point[1], p);
   Crossing result = Crossing::inside;
   for (std::size_t side = 0; side < 3; ++side) {
-    const int turn = sign(dot(direction, cross(corner[side], corner[(side + 1) % 3])), unsure);
+    const int turn = decide_sign(count, [&]<typename Number>() {
+      return dot(difference<Number>(q, p),
+                 cross(difference<Number>(corner[side], p), difference<Number>(corner[(side + 1) % 3], p)));
+    });
     if (turn == 0 && side == open_side)
       result = Crossing::on_side;
     else if (turn != side_q)
@@ -40,14 +55,13 @@ std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeatureP
   const bool has_fold = is_quad && diagonal_of(other.mesh(), face).feature.kind == FeatureKind::face;
   const auto cross_triangle = [&](Piece piece, std::size_t open_side) {
     const Simplex triangle = simplex_of(other, face_piece(face, piece));
+    if (share_a_corner(ends, triangle)) return Crossing::none;
     const Passing passing = certain_passing({ends.point[0], ends.point[1]}, triangle.point);
     if (passing != Passing::unsure) {
       ++count.in_double;
       return passing == Passing::yes ? Crossing::inside : Crossing::none;
     }
-    return decide(count, [&]<typename Number>(bool& unsure) {
-      return crossing<Number>(ends, triangle, open_side, unsure);
-    });
+    return crossing(ends, triangle, open_side, count);
   };
   // The fold is side 2-0 of the first triangle and side 0-1 of the second.
   const bool first = cross_triangle(Piece::first, has_fold ? 2 : 3) != Crossing::none;
