@@ -1,6 +1,7 @@
 #include <cmath>
 #include <graze/accuracy.hpp>
 #include <graze/error.hpp>
+#include <graze/number_text.hpp>
 #include <string>
 #include <utility>
 
@@ -9,7 +10,7 @@ namespace {
 
 void check_distance(double value, const char* what) {
   if (!std::isfinite(value) || value < 0)
-    throw Error(std::string(what) + " is " + std::to_string(value) +
+    throw Error(std::string(what) + " is " + number_text(value) +
                 "; give a finite distance that is not negative");
 }
 

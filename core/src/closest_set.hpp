@@ -11,6 +11,11 @@ namespace graze {
 /// Which of the names at the least distance are kept.
 enum class Ties : std::uint8_t { lowest, all };
 
+/// Whether an edge pierces a face, which is contact at every threshold; a fold that does is no edge.
+inline bool is_edge_through_face(const ContactName& name) {
+  return name.meeting() == Meeting::pierced && name.kind() == ContactKind::EF;
+}
+
 /// The names at the least distance among some, and a bound on that distance.
 struct Closest {
   NameSet names;
@@ -39,7 +44,7 @@ class ClosestSet {
       : pair_(pair), ties_(ties), closest_(closest), names_(closest.names) {}
 
   void offer(const ContactName& name) {
-    if (name.meeting() == Meeting::pierced) closest_.pierced = closest_.pierced || is_edge_through_face(name);
+    closest_.pierced = closest_.pierced || is_edge_through_face(name);
     if (names_.empty()) return replace(name);
     const bool is_known = ties_ == Ties::lowest ? name == names_.front() : names_.contains(name);
     if (is_known) return;
@@ -66,7 +71,6 @@ class ClosestSet {
   [[nodiscard]] const ContactName& front() const { return names_.front(); }
 
  private:
-  static bool is_edge_through_face(const ContactName& name) { return name.kind() == ContactKind::EF; }
   void replace(const ContactName& name) {
     const double upper = upper_distance(pair_, name);
     // What is looked for at 0 alone is not found in what a look that went further met.

@@ -133,9 +133,8 @@ constexpr double allowed_error = 0x1p-48;
 template <typename Number>
 using Fraction = std::pair<Vector<Number>, Number>;
 
-/// The distance of the hulls from double, where that is within the allowed error.
-std::optional<double> distance_in_double(const Hulls& hulls, double size) {
-  const Ratio<Ball> square = hull_distance_squared<Ball>(hulls.a, hulls.b);
+/// The distance of the hulls, of which this is the square, within the allowed error or exactly rounded.
+double distance_of(const SurfacePair& pair, const ContactName& name, const Ratio<Ball>& square, double size) {
   const double bottom = square.denominator.value - square.denominator.radius * Ball::slack;
   if (bottom > 0x1p-900 && std::isfinite(square.numerator.value) && std::isfinite(square.denominator.value)) {
     const double low = std::sqrt(std::max(0.0, square.numerator.value - square.numerator.radius) /
@@ -145,22 +144,23 @@ std::optional<double> distance_in_double(const Hulls& hulls, double size) {
     if (square.numerator.value > 0x1p-900 && (high - low) * Ball::slack <= size * allowed_error)
       return middle;
   }
-  return std::nullopt;
+  return rounded_distance(pair, name).upper;
 }
 
 /// Fills in distance and normal of a contact whose points are known.
 void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hulls, ClosestOf& closest,
               Contact& contact) {
-  const bool a_is_low = hulls.a.size <= hulls.b.size;
-  const Simplex& low = a_is_low ? hulls.a : hulls.b;
-  const Simplex& high = a_is_low ? hulls.b : hulls.a;
-  const std::optional<double> distance = distance_in_double(hulls, extent(low, high));
-  if (!distance && do_touch(hulls, pair.count)) {
+  const Ratio<Ball> square = hull_distance_squared<Ball>(hulls.a, hulls.b);
+  bool unsure = false;
+  const bool may_touch = sign(square.numerator, unsure) <= 0;
+  if (may_touch && do_touch(hulls, pair.count)) {
     contact.distance = 0;
     contact.normal = touching_normal(pair.a, name.a(), pair.b, name.b(), pair.count);
     return;
   }
-  contact.distance = distance ? *distance : rounded_distance(pair, name).upper;
+  const bool a_is_low = hulls.a.size <= hulls.b.size;
+  contact.distance =
+      distance_of(pair, name, square, extent(a_is_low ? hulls.a : hulls.b, a_is_low ? hulls.b : hulls.a));
   const auto normal = unit_direction(pair.count, [&]<typename Number>() { return closest.in<Number>().gap; });
   contact.normal = a_is_low ? *normal : Eigen::Vector3d(-*normal);
 }

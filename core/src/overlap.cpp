@@ -126,9 +126,20 @@ Outline clip(const Outline& points, const Eigen::Vector3d& origin, const Eigen::
   return kept;
 }
 
-/// The same for points of which something is known to be left: where rounding loses it, the point nearest to
+/// Whether all points lie along the line or plane, to rounding: an edge along a fold, which is inside the
+/// face.
+bool lie_along(const Outline& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
+  constexpr double rounding = 0x1p-45;  // of coordinates near 1 in a local frame
+  const double slack = rounding * inward.norm();
+  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    return std::abs(inward.dot(point - origin)) <= slack;
+  });
+}
+
+/// What is left of points of which something is known to be: where rounding loses it, the point nearest to
 /// it.
 Outline clip_some(const Outline& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
+  if (lie_along(points, origin, inward)) return points;
   Outline kept = clip(points, origin, inward);
   if (kept.empty())
     kept.push_back(*std::max_element(points.begin(), points.end(),

@@ -44,6 +44,12 @@ void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
       std::max(listed.looked, rounded_down((static_cast<double>(now.looked) + motion) * round_down));
 }
 
+/// Of sorted names at distance 0 the first of an edge that pierces a face. At threshold 0 that alone is contact: what
+/// touches there is not below the threshold.
+const ContactName& lowest_piercing(const std::vector<ContactName>& names) {
+  return *std::find_if(names.begin(), names.end(), is_edge_through_face);
+}
+
 /// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
 /// many they are; the others are not looked into, and stay in no order.
 std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance, const TouchingOrder& order) {
@@ -546,8 +552,8 @@ void PairSearch::set_apart() {
 
 void PairSearch::report_closest(Worker& worker) {
   const ContactName& nearest = closest_.closest.names.front();
-  answer_->in_contact = (!about_vertices() && closest_.closest.pierced) ||
-                        is_closer_than(worker.pair, nearest, query_.threshold);
+  const bool is_below = is_closer_than(worker.pair, nearest, query_.threshold);
+  answer_->in_contact = is_below || (!about_vertices() && closest_.closest.pierced);
   const bool in_reach = closest_.lower < query_.reach || is_closer_than(worker.pair, nearest, query_.reach);
   answer_->listed = answer_->in_contact || in_reach;
   const bool touched = std::exchange(front_->touched, closest_.closest.upper == 0);
@@ -557,8 +563,9 @@ void PairSearch::report_closest(Worker& worker) {
   front_->witness = last_witness_of(worker.pair, nearest, answer_->witness.point_a, answer_->witness.point_b);
   answer_->distance.lower = std::min(answer_->distance.lower, closest_.lower);
   if (query_.detail != ContactDetail::closest || !answer_->in_contact) return;
-  answer_->contacts.push_back(
-      closest_contact(worker.pair, closest_.closest.names.names(), worker.scratch.parallel));
+  const auto& names = closest_.closest.names.names();
+  answer_->contacts.push_back(is_below ? closest_contact(worker.pair, names, worker.scratch.parallel)
+                                       : measure(worker.pair, lowest_piercing(names)));
   answer_->witness = witness_of(answer_->contacts.front());
 }
 

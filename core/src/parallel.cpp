@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "measure.hpp"
@@ -147,18 +148,32 @@ class ParallelContacts {
     });
   }
 
-  /// Takes a pair of holders for the lowest if it is.
+  /// Takes a pair of holders for the lowest if it is. Most give way to faces, which are asked about first:
+  /// what is known of two faces serves all edges around them.
   void offer(const Holder& a, const Holder& b) {
     const FeaturePair features{a.feature, b.feature};
     const ContactName name =
         ContactName::of({a.feature, Piece::fold}, {b.feature, Piece::fold}, Meeting::parallel);
     if (lowest_ && !(name < *lowest_)) return;
-    if (!is_parallel(features)) return;
+    if (gives_way_to_faces(features) || !is_parallel(features)) return;
     scratch_.above_a.find(pair_.a, a.feature);
     scratch_.above_b.find(pair_.b, b.feature);
     if (any_parallel(scratch_.above_a, scratch_.above_b, &features)) return;
     lowest_ = name;
     found_ = features;
+  }
+  bool gives_way_to_faces(const FeaturePair& features) {
+    const auto is_face = [](const Feature& feature) { return feature.kind == FeatureKind::face; };
+    if (is_face(features.first) && is_face(features.second)) return false;
+    for (const std::uint32_t of_a : faces_of(pair_.a.mesh(), features.first))
+      for (const std::uint32_t of_b : faces_of(pair_.b.mesh(), features.second))
+        if (is_parallel({{FeatureKind::face, of_a}, {FeatureKind::face, of_b}})) return true;
+    return false;
+  }
+  /// Of an edge, or a face itself, which stays where it is.
+  static std::span<const std::uint32_t> faces_of(const Mesh& mesh, const Feature& feature) {
+    if (feature.kind == FeatureKind::face) return {&feature.index, 1};
+    return mesh.edge_faces(feature.index);
   }
 
   /// Whether two features have a stretch or an area of closest points at the least distance.

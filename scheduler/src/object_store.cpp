@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <graze/bytes_of.hpp>
+#include <graze/number_text.hpp>
 #include <utility>
 
 #include "look_slack.hpp"
@@ -19,8 +20,8 @@ constexpr bool checks_every_promise = false;
 #endif
 
 std::string coordinates(const Eigen::Vector3d& point) {
-  std::string text = std::to_string(point.x());
-  text.append(", ").append(std::to_string(point.y())).append(", ").append(std::to_string(point.z()));
+  std::string text = number_text(point.x());
+  text.append(", ").append(number_text(point.y())).append(", ").append(number_text(point.z()));
   return text;
 }
 
@@ -36,8 +37,8 @@ std::optional<Diagnostic> check_promise(const Object& object, double displacemen
   // The displacement is rounded; a promise kept to the last bit is not called broken.
   if (!(displacement > object.promised * round_up)) return std::nullopt;
   return Diagnostic{object.id, DiagnosticKind::broken_promise,
-                    name_of(object.id, object) + ": a vertex moved by " + std::to_string(displacement) +
-                        ", further than the " + std::to_string(object.promised) +
+                    name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
+                        ", further than the " + number_text(object.promised) +
                         " promised; all positions were read"};
 }
 

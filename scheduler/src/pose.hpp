@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
+#include <graze/number_text.hpp>
 #include <optional>
 #include <string>
 
@@ -20,7 +21,7 @@ inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& 
     return "the pose is not finite";
   // For a matrix at a small distance d from a rotation, |RᵀR − 1| is 2d to first order (Frobenius norms).
   const double off = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm() / 2;
-  if (!(off <= furthest)) return "the pose is " + std::to_string(off) + " from a rotation";
+  if (!(off <= furthest)) return "the pose is " + number_text(off) + " from a rotation";
   if (rotation.determinant() < 0) return "the pose is a reflection";
   return std::nullopt;
 }

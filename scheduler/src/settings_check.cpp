@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <graze/number_text.hpp>
 #include <graze/pair_query.hpp>
 
 namespace graze {
@@ -18,13 +19,24 @@ bool is_range(double value) {
 }
 
 std::string not_a_distance(const char* what, double value) {
-  return std::string(what) + " is " + std::to_string(value) +
+  return std::string(what) + " is " + number_text(value) +
          "; give a distance that is finite and not negative";
+}
+
+/// A number that was cast to an enumeration without being one of its enumerators.
+template <typename Enumeration>
+std::optional<std::string> not_an_enumerator(const char* what, Enumeration value, Enumeration last) {
+  if (value <= last) return std::nullopt;
+  return std::string(what) + " is " + std::to_string(static_cast<unsigned>(value)) + "; the last one is " +
+         std::to_string(static_cast<unsigned>(last));
 }
 
 }  // namespace
 
 std::optional<std::string> problem_of(const SceneSettings& settings) {
+  if (auto problem = not_an_enumerator("scene: detail", settings.detail, ContactDetail::features))
+    return problem;
+  if (auto problem = not_an_enumerator("scene: arena", settings.arena, ArenaPolicy::callers)) return problem;
   if (!is_distance(settings.contact_distance))
     return not_a_distance("scene: contact_distance", settings.contact_distance);
   if (!is_range(settings.range)) return not_a_distance("scene: range", settings.range);
@@ -36,6 +48,8 @@ std::optional<std::string> problem_of(const SceneSettings& settings) {
 
 std::optional<std::string> problem_of(const ObjectSettings& settings) {
   const std::string object = "object '" + settings.name + "': ";
+  if (auto problem = not_an_enumerator((object + "motion").c_str(), settings.motion, Motion::fixed))
+    return problem;
   if (!is_distance(settings.margin)) return not_a_distance((object + "margin").c_str(), settings.margin);
   if (settings.kind >= kind_count)
     return object + "kind is " + std::to_string(settings.kind) + "; kinds are 0 to 255";

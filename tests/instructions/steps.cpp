@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "scenes/coinciding_scenes.hpp"
 #include "scenes/played_scene.hpp"
 
 namespace {
@@ -36,7 +37,8 @@ bool use(std::string_view name) {
 }
 
 void play(std::string_view name, ContactDetail detail) {
-  const auto played = graze::scenes::make_played_scene(name);
+  auto played = graze::scenes::make_played_scene(name);
+  if (played == nullptr) played = graze::scenes::make_coinciding_scene(name);
   if (played == nullptr) throw std::runtime_error("no such scene");
   graze::SceneSettings settings = played->settings();
   settings.detail = detail;

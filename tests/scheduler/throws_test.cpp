@@ -56,6 +56,25 @@ TEST_CASE("a scene with bad settings is refused") {
   }
 }
 
+TEST_CASE("numbers that are no enumerators are refused") {
+  SceneSettings settings = settings_of(0.1, 1);
+  settings.detail = static_cast<ContactDetail>(77);
+  check_refused(settings, "detail is 77");
+  settings.detail = ContactDetail::none;
+  settings.arena = static_cast<ArenaPolicy>(2);
+  check_refused(settings, "arena is 2");
+  ObjectSettings object;
+  object.motion = static_cast<Motion>(3);
+  check_refused(object, "motion is 3");
+}
+
+TEST_CASE("a message shows a small number as it is") {
+  check_refused(settings_of(-1e-9, 1), "-1e-09");
+  ObjectSettings object;
+  object.margin = -2.5e-7;
+  check_refused(object, "-2.5e-07");
+}
+
 TEST_CASE("accuracies of bad numbers are refused") {
   CHECK_THROWS_AS(Accuracy::within(-1), Error);
   CHECK_THROWS_AS(Accuracy::within(nothing), Error);

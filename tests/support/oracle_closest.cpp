@@ -29,7 +29,12 @@ std::optional<Named> closest(const Shape& shape_a, const Shape& shape_b, double 
   const ExactShape a(shape_a);
   const ExactShape b(shape_b);
   const Rational distance_squared = smallest_distance_squared(a, b);
-  if (!Limit::below(threshold).admits(distance_squared) && !is_pierced(a, b)) return std::nullopt;
+  if (!Limit::below(threshold).admits(distance_squared)) {
+    // What touches is not below a threshold of 0; what pierces is a contact all the same.
+    if (!is_pierced(a, b)) return std::nullopt;
+    for (const auto& [name, contact] : candidates_at(a, b, distance_squared))
+      if (contact.pierced) return rounded(name, contact);
+  }
 
   ExactContacts candidates = collect_parallel(a, b, distance_squared);
   const ExactContacts parallel = candidates;

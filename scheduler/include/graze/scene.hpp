@@ -38,8 +38,8 @@ class GRAZE_API Scene {
   /// No promise: a vertex may have moved anywhere.
   static constexpr double any_displacement = std::numeric_limits<double>::infinity();
 
-  /// Throws Error for a threshold that is negative or NaN, or paper accuracy with a detail other than
-  /// `regions` and `vertices`.
+  /// Throws Error for a threshold that is negative or NaN, a number that is no enumerator, or paper accuracy
+  /// with a detail other than `regions` and `vertices`.
   explicit Scene(const SceneSettings& settings = {});
   ~Scene();
   Scene(const Scene&) = delete;
@@ -84,15 +84,18 @@ class GRAZE_API Scene {
   void set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                      double max_displacement = any_displacement);
 
-  /// Reads a deformable object's positions from the caller's memory, without a copy, until it is unbound: it
-  /// may be written between steps only. With BindPolicy::when_told it is read in the next step and then after
-  /// `positions_changed`.
+  /// Reads a deformable object's positions from the caller's memory, without a copy, until it is unbound.
+  /// Coordinates are at most 2^120 (docs/embedding.md); where a used vertex is beyond or not finite the
+  /// object is frozen. The memory may be written between steps only. With BindPolicy::when_told it is read in
+  /// the next step and then after `positions_changed`.
   void bind_positions(ObjectId object, PositionView positions, BindPolicy policy = BindPolicy::every_step);
   void bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                       BindPolicy policy = BindPolicy::every_step);
-  /// Ends a binding. Memory that is read in every step is copied a last time, in the call, and the object
-  /// stays there; bad memory freezes it until it is given good positions. Memory that is read when told is
-  /// only copied if no step has begun since it was bound, else the object stays where that was read last.
+  /// Ends a binding. The memory is free when the call returns, or at the end of a step that is running
+  /// meanwhile, for which `wait` waits; so it is where an object is bound anew, removed, or given positions.
+  /// Memory that is read in every step is copied a last time, in the call, and the object stays there; bad
+  /// memory freezes it until it is given good positions. Memory that is read when told is only copied if no
+  /// step has begun since it was bound, else the object stays where that was read last.
   void unbind_positions(ObjectId object);
   /// Bound memory has been written: no vertex is further than `max_displacement` from where the last step saw
   /// it.
@@ -122,8 +125,9 @@ class GRAZE_API Scene {
   void step_async();
   /// Whether a step is running.
   [[nodiscard]] bool is_stepping() const;
-  /// Waits for the end of the last step_async, if there was one, and returns its report, which is
-  /// `latest_report`. Throws what went wrong in it, as `step` does. From one thread at a time.
+  /// Waits for the end of the step that is running, if one is, and returns `latest_report`. Throws what went
+  /// wrong in the last step_async, as `step` does. From one thread at a time. Memory that was unbound before
+  /// is free when it returns.
   ReportHandle wait();
   /// The last published report; of frame 0 and empty before the first step. Wait-free.
   [[nodiscard]] ReportHandle latest_report() const;
