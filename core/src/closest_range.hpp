@@ -95,6 +95,7 @@ class ClosestRange {
     seen_ = std::numeric_limits<double>::infinity();
     double squared_seen = seen_;
     const auto offer = [&](const ContactName& name, const SquaredRange& squared) {
+      pair_.check_time();
       squared_seen = std::min(squared_seen, squared.low);
       if (!squared.is_beyond(set_.upper())) set_.offer(name);
     };

@@ -48,6 +48,7 @@ class ClosestSet {
     if (names_.empty()) return replace(name);
     const bool is_known = ties_ == Ties::lowest ? name == names_.front() : names_.contains(name);
     if (is_known) return;
+    pair_.check_time();
     const int order = compare_distances(pair_, name, names_.front());
     if (order < 0) return replace(name);
     if (order > 0) return;

@@ -8,14 +8,21 @@
 #include "arithmetic.hpp"
 #include "certain.hpp"
 #include "naming.hpp"
+#include "time_limit.hpp"
 
 namespace graze {
 
-/// The two surfaces of a query, and where its undecided questions are counted.
+/// The two surfaces of a query, where its undecided questions are counted, and how long it may take.
 struct SurfacePair {
   const Surface& a;
   const Surface& b;
   DecisionCount& count;
+  TimeLimit* time = nullptr;  ///< null where it may take as long as it does
+
+  /// Before so many pieces of work of some hundred nanoseconds each. Throws TimeIsUp.
+  void check_time(std::uint32_t pieces = 1) const {
+    if (time != nullptr) time->check(pieces);
+  }
 };
 
 inline ContactKind kind_of(const Feature& a, const Feature& b) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <graze/leaf_front.hpp>
 #include <graze/pair_query.hpp>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "time_limit.hpp"
 #include "working_memory.hpp"
 
 namespace graze {
@@ -35,28 +35,27 @@ struct DmvScratch {
 /// How much of a query's budget is left, counted in region pairs tested.
 class WorkMeter {
  public:
-  WorkMeter(const PairQuery& query, PairCounters& counters)
+  /// `time` is null where there is no deadline.
+  WorkMeter(const PairQuery& query, PairCounters& counters, TimeLimit* time)
       : counters_(counters),
         limit_(query.work_limit > ~std::uint64_t{0} - counters.region_pairs_tested
                    ? ~std::uint64_t{0}
                    : counters.region_pairs_tested + query.work_limit),
-        deadline_(query.deadline) {}
+        time_(time) {}
 
-  /// Counts one region pair; false when the budget is spent.
+  /// Counts one region pair; false when the budget is spent. Throws TimeIsUp.
   bool spend() {
     if (counters_.region_pairs_tested >= limit_) return false;
     ++counters_.region_pairs_tested;
-    // The clock costs as much as some ten region pairs.
-    constexpr std::uint64_t look_at_clock_every = 64;
-    return deadline_ == PairQuery::no_deadline || counters_.region_pairs_tested % look_at_clock_every != 0 ||
-           std::chrono::steady_clock::now() < deadline_;
+    if (time_ != nullptr) time_->check();
+    return true;
   }
   PairCounters& counters() { return counters_; }
 
  private:
   PairCounters& counters_;
   std::uint64_t limit_;
-  std::chrono::steady_clock::time_point deadline_;
+  TimeLimit* time_;
 };
 
 /// Which regions of a pair make way for their children.

@@ -28,6 +28,7 @@ bool CloseFeatures::is_contact(const ContactName& name, const SquaredRange& squa
 }
 
 void CloseFeatures::take(const ContactName& name, const SquaredRange& squared) {
+  pair_.check_time();
   if (!is_contact(name, squared)) return;
   std::uint32_t& place = scratch_.recent_names.place(name);
   if (place < names_.size() && names_[place] == name) return;
@@ -64,6 +65,7 @@ void CloseFeatures::with_names(const Use& use) {
 std::size_t keep_nearest_of_each(const SurfacePair& pair, std::span<ContactName> names) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
+    pair.check_time();
     if (kept == 0 || !names[kept - 1].same_features(names[i]))
       names[kept++] = names[i];
     else if (names[i] != names[i - 1] && compare_distances(pair, names[i], names[kept - 1]) < 0)

@@ -215,6 +215,7 @@ class LeafNames {
   }
   template <typename Take>
   void bound(FloatBatch<2, 3>& batch, const Take& take) {
+    pair_.check_time();
     if (range_.is_listing()) list_near_planes(batch);
     pair_.count.discarded_in_float += batch.empty(kernels::filter().passing, take);
   }
@@ -229,6 +230,7 @@ class LeafNames {
   }
   template <typename Batch, typename Kernel, typename Take>
   void bound_near(Batch& batch, Kernel kernel, const Take& take) {
+    pair_.check_time();
     const double limit = range_.limit();
     const kernels::NearLimits limits{local(limit), local_below()};
     const std::size_t discarded = batch.empty([&](auto& pairs) { return kernel(pairs, limits); }, take);
@@ -272,7 +274,9 @@ class LeafNames {
   }
   auto take_through_b() {
     return [this](const PartOf& segment, const PartOf& face, const KnownInFloat& known) {
-      if (!may_touch(pair_.a, segment, pair_.b, face, known) || !is_segment(pair_.a, segment)) return;
+      if (!may_touch(pair_.a, segment, pair_.b, face, known)) return;
+      pair_.check_time();
+      if (!is_segment(pair_.a, segment)) return;
       const FeaturePiece a = piece_of(segment);
       if (const auto b = pierced(pair_.a, a, pair_.b, face, known))
         sink_(ContactName::of(a, *b, Meeting::pierced), SquaredRange{});
@@ -280,7 +284,9 @@ class LeafNames {
   }
   auto take_through_a() {
     return [this](const PartOf& segment, const PartOf& face, const KnownInFloat& known) {
-      if (!may_touch(pair_.b, segment, pair_.a, face, known) || !is_segment(pair_.b, segment)) return;
+      if (!may_touch(pair_.b, segment, pair_.a, face, known)) return;
+      pair_.check_time();
+      if (!is_segment(pair_.b, segment)) return;
       const FeaturePiece b = piece_of(segment);
       if (const auto a = pierced(pair_.b, b, pair_.a, face, known))
         sink_(ContactName::of(*a, b, Meeting::pierced), SquaredRange{});

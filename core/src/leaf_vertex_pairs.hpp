@@ -22,6 +22,7 @@ void for_each_vertex_pair(const SurfacePair& pair, const LeafOf& leaf_a, const L
     const std::uint32_t i = scratch.a.vertices.index()[row];
     const kernels::Point point{{a.component(0, i), a.component(1, i), a.component(2, i)},
                                a.component(kernels::size_at<1>, i)};
+    pair.check_time();
     const double limit = range.limit();
     const std::size_t found =
         kernels::filter().near_points(point, columns, scratch.frame.to_local_limit(limit), survivors);

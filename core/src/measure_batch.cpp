@@ -192,11 +192,14 @@ void measure(const SurfacePair& pair, std::span<const ContactName> names, std::s
                                      [](const ContactName& name) { return name.kind() != ContactKind::VV; });
   const auto vertex_count = static_cast<std::size_t>(vertices - names.begin());
   VertexContacts of_vertices(pair, scratch);
-  for (std::size_t i = 0; i < vertex_count; i += kernels::vertices_at_once)
+  for (std::size_t i = 0; i < vertex_count; i += kernels::vertices_at_once) {
+    pair.check_time(kernels::vertices_at_once / 4);
     of_vertices.measure(names.subspan(i, std::min(vertex_count - i, kernels::vertices_at_once)),
                         &contacts[i]);
+  }
   Batch batch(pair, names, contacts, scratch);
   for (std::size_t i = vertex_count; i < names.size(); ++i) {
+    pair.check_time();
     const Shape shape = shape_of(names[i]);
     if (is_for_kernels(names[i], shape))
       batch.add(i, shape);

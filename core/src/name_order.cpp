@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "room_in_time.hpp"
+
 namespace graze {
 namespace {
 
@@ -62,6 +64,12 @@ void NameOrder::sort_keys() {
     for (const std::uint64_t key : keys_) spare_[begin[digit(key, shift)]++] = key;
     keys_.swap(spare_);
   }
+}
+
+void NameOrder::make_room(std::size_t count, TimeLimit* time) {
+  if (time == nullptr || count < short_list) return;
+  for (auto* const keys : {&keys_, &spare_})
+    if (keys->size() < count) make_room_in_time(*keys, count, time);
 }
 
 void NameOrder::sort(std::span<ContactName> names) {

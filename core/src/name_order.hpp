@@ -14,6 +14,8 @@ namespace graze {
 class NameOrder {
  public:
   void sort(std::span<ContactName> names);
+  /// Makes room to sort so many before a deadline, where there is one. Throws TimeIsUp.
+  void make_room(std::size_t count, TimeLimit* time);
 
   template <typename Self>
   static auto parts(Self& self) {

@@ -24,6 +24,8 @@ constexpr std::size_t few_at_once = 4 * group_size;
 constexpr std::size_t least_run = 4;
 /// Blocks of b among which there are too few pairs within the limit to look for the nearest first.
 constexpr std::size_t few_beside = 4;
+/// Pairs of points are visited so many at a time, between looks at the clock.
+constexpr std::size_t visited_each = 256;
 /// Blocks of b whose points are compared at once.
 constexpr std::size_t blocks_at_once = 128;
 
@@ -147,6 +149,7 @@ void NearVertices::for_each_near(std::uint32_t block_of_a, const Visit& visit) {
         in_float_ ? compare(block_of_a, some, near_.floats) : compare(block_of_a, some, near_.doubles);
     pair_.count.discarded_in_float += vertices_a.size() * block_size * some.size() - found;
     for (std::size_t i = 0; i < found; ++i) {
+      if (i % visited_each == 0) pair_.check_time(visited_each / 8);
       const std::uint32_t near_b = scratch_.near_b.room[i];
       const std::uint32_t place = some[near_b / block_size];
       const auto vertices_b = of_b_.vertices(near_.few ? near_.b.room[place] : place);

@@ -14,6 +14,7 @@
 #include "measure_batch.hpp"
 #include "pair_search_worker.hpp"
 #include "parallel.hpp"
+#include "room_in_time.hpp"
 #include "validate.hpp"
 
 namespace graze {
@@ -28,6 +29,9 @@ constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound t
 constexpr std::size_t closest_each = 64;
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t blocks_each = 64;
+
+/// At least so long a name takes to be found.
+constexpr std::chrono::nanoseconds to_find_one{5};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -81,17 +85,31 @@ void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& quer
 
 bool PairSearch::advance(SearchScratch& scratch, PairCounters& counters) {
   Worker worker(*this, scratch, counters);
+  try {
+    go_on(worker);
+  } catch (const TimeIsUp&) {
+    give_up();
+  }
+  return stage_ == Stage::done;
+}
+
+/// As far as a stage of several slices, or the answer.
+void PairSearch::go_on(Worker& worker) {
   while (stage_ != Stage::done) {
     next_stage(worker);
-    if (slice_count() > 1) return false;
+    if (slice_count() > 1) return;
     if (slice_count() == 1) run(0, worker);
   }
-  return true;
 }
 
 void PairSearch::run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters) {
   Worker worker(*this, scratch, counters);
-  run(index, worker);
+  try {
+    worker.time.check();
+    run(index, worker);
+  } catch (const TimeIsUp&) {
+    (stage_ == Stage::ordered ? stretches_[index].complete : slices_[index].complete) = false;
+  }
 }
 
 void PairSearch::run(std::size_t index, Worker& worker) {
@@ -101,6 +119,9 @@ void PairSearch::run(std::size_t index, Worker& worker) {
 void PairSearch::next_stage(Worker& worker) {
   for (std::size_t i = 0; i < slice_count_; ++i)
     if (!slices_[i].complete) return give_up();
+  if (stage_ == Stage::ordered)
+    for (const Stretch& stretch : stretches_)
+      if (!stretch.complete) return give_up();
   switch (stage_) {
     case Stage::start:
       if (query_.mode == AccuracyMode::paper) return as_in_paper(worker);
@@ -127,6 +148,10 @@ void PairSearch::next_stage(Worker& worker) {
 }
 
 void PairSearch::run(Slice& slice, Worker& worker) {
+  if (!sliced_) {
+    reserve_until_deadline(slice.names, to_find_one, worker.pair.time);
+    if (is_listing_) reserve_until_deadline(slice.near, to_find_one, worker.pair.time);
+  }
   switch (stage_) {
     case Stage::listed:
       run_listed(slice, worker);
@@ -577,7 +602,10 @@ void PairSearch::as_in_paper(Worker& worker) {
   const PaperFound found = find_as_in_paper(worker.pair, query_, worker.scratch.paper, worker.meter, names_);
   if (!found.complete) return give_up();
   stage_ = Stage::done;
-  for (const ContactName& name : names_) answer_->contacts.push_back(measure(worker.pair, name));
+  for (const ContactName& name : names_) {
+    worker.pair.check_time();
+    answer_->contacts.push_back(measure(worker.pair, name));
+  }
   set_distance(worker, worker.scratch.paper.closest.names.front());
   answer_->distance.lower = std::min(answer_->distance.lower, found.lower);
   answer_->in_contact = !names_.empty();

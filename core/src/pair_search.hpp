@@ -97,9 +97,11 @@ class PairSearch {
       std::size_t begin = 0;
       std::size_t end = 0;
     } runs;
+    bool complete = true;
   };
   class Worker;
 
+  void go_on(Worker& worker);
   void next_stage(Worker& worker);
   void run(std::size_t index, Worker& worker);
   void run(Slice& slice, Worker& worker);
@@ -122,6 +124,7 @@ class PairSearch {
   void order(Stretch& stretch, Worker& worker);
   [[nodiscard]] std::size_t sort_names(std::span<ContactName> names, Worker& worker) const;
   void begin_measuring(Worker& worker);
+  void keep_time_back(std::size_t contacts, Worker& worker);
   void run_measured(Slice& slice, Worker& worker);
   void finish_measuring(Worker& worker);
   [[nodiscard]] std::span<const ContactName> names_of(const Slice& slice) const;

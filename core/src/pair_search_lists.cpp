@@ -1,5 +1,6 @@
 // The part of a pair's search that goes by lists of near features, and makes them.
 
+#include <algorithm>
 #include <graze/room_to_spare.hpp>
 #include <memory>
 #include <span>
@@ -14,6 +15,8 @@ namespace {
 constexpr std::size_t listed_each = 1024;
 /// Of what is listed so many are one unit of the budget, as a look into two leaves is.
 constexpr std::size_t listed_in_one = 64;
+/// So many are put into a pair's list between looks at the clock.
+constexpr std::size_t kept_at_once = 1024;
 
 }  // namespace
 
@@ -46,6 +49,7 @@ void PairSearch::run_listed(Slice& slice, Worker& worker) {
   if (query_.detail == ContactDetail::vertices) {
     for (const NearParts& parts : listed) {
       const ContactName name = ContactName::of(vertex_piece(parts.a.index), vertex_piece(parts.b.index));
+      worker.pair.check_time();
       if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
     }
     return;
@@ -69,8 +73,13 @@ void PairSearch::keep_list(Worker& worker) {
   if (front_->near == nullptr) front_->near = std::make_unique<NearList>();
   NearList& near = *front_->near;
   reserve_for_one_of_many(near.pairs, count, query_.front_limit);
-  for (std::size_t i = 0; i < slice_count_; ++i)
-    near.pairs.insert(near.pairs.end(), slices_[i].near.begin(), slices_[i].near.end());
+  for (const Slice& slice : std::span(slices_).first(slice_count_))
+    for (std::size_t begin = 0; begin < slice.near.size(); begin += kept_at_once) {
+      worker.time.check_for({});
+      const auto some = std::span(slice.near).subspan(begin);
+      near.pairs.insert(near.pairs.end(), some.begin(),
+                        some.begin() + static_cast<std::ptrdiff_t>(std::min(some.size(), kept_at_once)));
+    }
   near.beyond = wanted_ * round_down;
   near.slack = query_.list_slack;
   near.travel_a = a_->travel();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <graze/cut_by_work.hpp>
 #include <graze/room_to_spare.hpp>
 #include <limits>
@@ -13,12 +14,18 @@
 #include "measure_batch.hpp"
 #include "pair_search.hpp"
 #include "pair_search_worker.hpp"
+#include "room_in_time.hpp"
 
 namespace graze {
 namespace {
 
 constexpr std::size_t names_each = 1024;
 constexpr std::size_t contacts_each = 128;
+
+// What a name and a contact take at least from here on. Where a deadline leaves less than that for all of
+// them, what is left is for other pairs.
+constexpr std::chrono::nanoseconds to_sort_one{20};
+constexpr std::chrono::nanoseconds to_measure_one{40};
 
 }  // namespace
 
@@ -28,6 +35,7 @@ void PairSearch::finish_contacts(Worker& worker) {
   if (slice_count_ > 1) return begin_ordering();
   names_.clear();
   if (slice_count_ == 1) {
+    worker.time.check_for(slices_.front().names.size() * to_sort_one);
     names_.swap(slices_.front().names);
     slices_.front().names.reserve(names_.capacity());
   }
@@ -37,7 +45,9 @@ void PairSearch::finish_contacts(Worker& worker) {
 
 /// Of one of many slices, for those that sort.
 void PairSearch::bin_names(Slice& slice, Worker& worker) const {
-  if (slice_count_ > 1) worker.scratch.binning.put_into(NameBins(a_->mesh()), slice.names, slice.runs);
+  if (slice_count_ <= 1) return;
+  worker.time.check_for(slice.names.size() * to_sort_one);
+  worker.scratch.binning.put_into(NameBins(a_->mesh()), slice.names, slice.runs);
 }
 
 /// Cuts what all slices found by bins: the runs of a stretch's bins are what it sorts.
@@ -78,6 +88,7 @@ void PairSearch::order(Stretch& stretch, Worker& worker) {
 
 /// Sorts names, and returns how many of the first are contacts.
 std::size_t PairSearch::sort_names(std::span<ContactName> names, Worker& worker) const {
+  worker.scratch.order.make_room(names.size(), worker.pair.time);
   worker.scratch.order.sort(names);
   return query_.detail == ContactDetail::features ? keep_nearest_of_each(worker.pair, names) : names.size();
 }
@@ -92,8 +103,9 @@ void PairSearch::begin_measuring(Worker& worker) {
     return;
   }
   if (count == 0) return begin_approach(worker);
+  keep_time_back(count, worker);
   stage_ = Stage::measured;
-  resize_to_overwrite(answer_->contacts, count);
+  make_room_in_time(answer_->contacts, count, worker.pair.time);
   std::size_t contact = 0;
   for (const Stretch& stretch : stretches_) {
     const std::size_t first = slice_count_;
@@ -103,6 +115,14 @@ void PairSearch::begin_measuring(Worker& worker) {
       contact += slice.end - slice.begin;
     }
   }
+}
+
+/// For what is to be done with so many contacts when they have been measured.
+void PairSearch::keep_time_back(std::size_t contacts, Worker& worker) {
+  if (!worker.time.is_set()) return;
+  query_.deadline -= contacts * query_.time_after_contact;
+  worker.time.set_deadline(query_.deadline);
+  worker.time.check_for(contacts * to_measure_one);
 }
 
 std::span<const ContactName> PairSearch::names_of(const Slice& slice) const {

@@ -14,8 +14,9 @@ class PairSearch::Worker {
  public:
   Worker(const PairSearch& search, SearchScratch& given, PairCounters& counters)
       : scratch(given),
-        pair{*search.a_, *search.b_, decisions_},
-        meter(search.query_, counters),
+        time(search.query_.deadline, decisions_),
+        pair{*search.a_, *search.b_, decisions_, time.is_set() ? &time : nullptr},
+        meter(search.query_, counters, pair.time),
         leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {
     scratch.features.begin();
   }
@@ -50,6 +51,7 @@ class PairSearch::Worker {
 
  public:
   SearchScratch& scratch;
+  TimeLimit time;
   const SurfacePair pair;
   WorkMeter meter;
   LeafPairs leaf_pairs;

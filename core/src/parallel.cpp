@@ -123,6 +123,8 @@ class ParallelContacts {
 
  private:
   void find(const ContactName& name) {
+    constexpr std::uint32_t pieces = 8;  // some hundred pairs of holders, most of which are apart at first sight
+    pair_.check_time(pieces);
     scratch_.of_name_a.find(pair_.a, name.a().feature);
     scratch_.of_name_b.find(pair_.b, name.b().feature);
   }

@@ -12,7 +12,8 @@ namespace graze {
 ///
 /// A level is cut into slices by the pairs listed in the level above. A slice tests the pairs below its own
 /// and writes what is alive to its own place, so slices may run on any threads in any order; `advance` lists
-/// it in the slices' order. How a level is cut shows nowhere.
+/// it in the slices' order. How a level is cut shows nowhere. What is below those that are listed when the
+/// query's deadline comes is not looked at.
 class RegionDistances {
  public:
   /// Both surfaces are refitted now; what is pointed to stays until all is listed. `sliced`: a level may be
@@ -40,6 +41,7 @@ class RegionDistances {
   class Test;
 
   Slice& add_slice(std::size_t begin, std::size_t end);
+  [[nodiscard]] bool is_late() const;
   void gather();
   void cut();
   [[nodiscard]] std::size_t count_below(const RegionDistance& listed) const;

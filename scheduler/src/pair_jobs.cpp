@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "look_slack.hpp"
 
@@ -22,6 +23,15 @@ std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::tim
   if (!budget || *budget >= longest) return PairQuery::no_deadline;
   return start + *budget;
 }
+
+// What is kept back of a time budget for what comes after the jobs (measured, with room to spare): rows and
+// contacts are written.
+constexpr std::chrono::nanoseconds after_each_pair{150};
+constexpr std::chrono::nanoseconds after_each_contact{60};
+constexpr std::chrono::microseconds after_all{50};
+
+/// Lists as long as these stay where they were found: what is shorter is copied, so that it lies close by.
+constexpr std::size_t long_list = 4096;
 
 /// Pairs of leaves in the fronts of all pairs of objects together, 16 bytes each.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
@@ -92,7 +102,8 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   return query;
 }
 
-void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start) {
+void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
+                   std::size_t last_contacts, ReportBuilder& report) {
   jobs_ = list.jobs;
   pair_count_ = list.pair_count;
   rules_version_ = rules_version;
@@ -101,8 +112,16 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
   large_answer_count_ = 0;
   for (Worker& worker : workers_) worker.counters = {};
   order_.clear();
-  for (std::uint32_t index = 0; index < jobs_.size(); ++index)
-    if (jobs_[index].is_looked_at()) order_.push_back(index);
+  long_jobs_.clear();
+  for (std::uint32_t index = 0; index < jobs_.size(); ++index) {
+    const PairJob& job = jobs_[index];
+    if (!job.is_looked_at()) continue;
+    order_.push_back(index);
+    if (job.last != nullptr && job.last->contact_count >= long_list && !is_large(job))
+      long_jobs_.push_back(index);
+  }
+  long_answers_.resize(std::max(long_answers_.size(), long_jobs_.size()));
+  keep_time_back(last_contacts, report);
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget) return run_within_work(*settings_.work_budget);
   settings_.time_budget ? run_by_urgency() : run_group(order_);
@@ -157,7 +176,8 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
   const Surface& a = job.a->surface();
   const Surface& b = job.b->surface();
   PairQuery query = query_of(job);
-  query.deadline = deadline_;
+  query.deadline = deadline_now();
+  query.time_after_contact = after_each_contact;
   PairAnswer& answer = answer_of_large(place);
   large.answered = is_late();
   if (large.answered) {
@@ -176,7 +196,9 @@ void PairJobs::advance_large(std::size_t place, unsigned worker) {
   Worker& own = workers_[worker];
   large.answered = large.pair.advance(own.detector, own.counters);
   if (!large.answered) return;
-  const PairAnswer& answer = answer_of_large(place);
+  PairAnswer& answer = answer_of_large(place);
+  if (!make_room_in_report(answer.contacts.size()))
+    PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job), answer);
   own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
   was_detected(job, answer);
   answers_.refer_to(large.job, answer);
@@ -203,8 +225,36 @@ void PairJobs::run_rounds_of_slices() {
   }
 }
 
+/// For what is written after the jobs: rows, and contacts that are repeated.
+void PairJobs::keep_time_back(std::size_t last_contacts, ReportBuilder& report) {
+  contacts_found_.store(0, std::memory_order_relaxed);
+  if (deadline_ == PairQuery::no_deadline) return;
+  for (const std::uint32_t index : order_)
+    if (jobs_[index].last != nullptr) last_contacts -= jobs_[index].last->contact_count;
+  deadline_ -= after_all + pair_count_ * after_each_pair + last_contacts * after_each_contact;
+  report_ = &report;
+  contacts_with_room_ = last_contacts;
+}
+
+/// For so many more. Memory that is new to a report is met before the deadline, piece by piece: it costs many
+/// times what writing to it does later. Where there is no time for it now, there will be in the next steps.
+bool PairJobs::make_room_in_report(std::size_t contacts) {
+  if (deadline_ == PairQuery::no_deadline || contacts == 0) return true;
+  const std::lock_guard lock(report_mutex_);
+  if (!report_->make_room_while(contacts_with_room_ + contacts, [&] { return !is_late(); })) return false;
+  contacts_with_room_ += contacts;
+  contacts_found_.fetch_add(contacts, std::memory_order_relaxed);
+  return true;
+}
+
+/// Contacts that pairs have found are written later, by all threads together.
+PairJobs::Clock::time_point PairJobs::deadline_now() const {
+  if (deadline_ == PairQuery::no_deadline) return deadline_;
+  return deadline_ - contacts_found_.load(std::memory_order_relaxed) * after_each_contact / workers_.size();
+}
+
 bool PairJobs::is_late() const {
-  return deadline_ != PairQuery::no_deadline && Clock::now() >= deadline_;
+  return deadline_ != PairQuery::no_deadline && Clock::now() >= deadline_now();
 }
 
 void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit) {
@@ -212,22 +262,39 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
   PairQuery query = query_of(job);
   query.work_limit = work_limit;
-  query.deadline = deadline_;
+  query.deadline = deadline_now();
+  query.time_after_contact = after_each_contact;
   const Surface& a = job.a->surface();
   const Surface& b = job.b->surface();
   Worker& own = workers_[worker];
+  PairAnswer& answer = answer_for(index, own);
   if (work_limit == 0 || is_late()) {
-    PairDetector::outer_bounds(a, b, query, own.answer);
+    PairDetector::outer_bounds(a, b, query, answer);
   } else {
     LeafFront& front = job.memory_to_write().front;
     own.front_bytes -= front.byte_count();
-    own.detector.detect(a, b, query, front, own.answer, own.counters);
+    own.detector.detect(a, b, query, front, answer, own.counters);
     own.front_bytes += front.byte_count();
-    if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, own.answer);
-    was_detected(job, own.answer);
+    if (!make_room_in_report(answer.contacts.size())) PairDetector::outer_bounds(a, b, query, answer);
+    if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, answer);
+    was_detected(job, answer);
   }
   require_write(StepData::pairs, &job);
-  answers_.keep(index, own.answer, worker);
+  take_answer(index, answer, worker);
+}
+
+/// Where the answer of a small job is to be put.
+PairAnswer& PairJobs::answer_for(std::uint32_t index, Worker& worker) {
+  const auto found = std::lower_bound(long_jobs_.begin(), long_jobs_.end(), index);
+  if (found == long_jobs_.end() || *found != index) return worker.answer;
+  return long_answers_[static_cast<std::size_t>(found - long_jobs_.begin())];
+}
+
+void PairJobs::take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker) {
+  Worker& own = workers_[worker];
+  if (&answer != &own.answer) return answers_.refer_to(index, answer);
+  if (answer.contacts.size() < long_list) return answers_.keep(index, answer, worker);
+  answers_.refer_to(index, own.too_long.emplace_back(std::exchange(answer, {})));
 }
 
 /// Remembers what the answer was about.
@@ -284,6 +351,10 @@ PairCounters PairJobs::counters() const {
 /// Which worker gets which job is chance; what one has needed all have room for.
 void PairJobs::even_out_memory() {
   answers_.even_out();
+  for (Worker& worker : workers_) {
+    for (PairAnswer& answer : worker.too_long) long_answers_.push_back(std::move(answer));
+    worker.too_long.clear();
+  }
   Worker& first = workers_.front();
   for (const Worker& worker : std::span(workers_).subspan(1)) first.reserve_as(worker);
   for (Worker& worker : std::span(workers_).subspan(1)) worker.reserve_as(first);
@@ -306,9 +377,11 @@ void PairJobs::reserve_for(const Mesh& mesh) {
 
 std::size_t PairJobs::byte_count() const {
   std::size_t bytes = answers_.byte_count() + bytes_of(order_) + bytes_of(small_jobs_) + bytes_of(large_) +
-                      bytes_of(large_answers_) + bytes_of(slices_);
+                      bytes_of(large_answers_) + bytes_of(slices_) + bytes_of(long_jobs_) +
+                      bytes_of(long_answers_);
   for (const LargeJob& large : large_) bytes += large.pair.byte_count();
-  for (const PairAnswer& answer : large_answers_) bytes += bytes_of_lists(answer);
+  for (const auto* const answers : {&large_answers_, &long_answers_})
+    for (const PairAnswer& answer : *answers) bytes += bytes_of_lists(answer);
   for (const Worker& worker : workers_) bytes += worker.front_bytes;
   return bytes;
 }

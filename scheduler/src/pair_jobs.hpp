@@ -1,14 +1,18 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <graze/large_pair.hpp>
 #include <graze/pair_query.hpp>
+#include <mutex>
 #include <span>
 #include <vector>
 
 #include "pair_answers.hpp"
 #include "pair_job.hpp"
+#include "report_builder.hpp"
 #include "task_pool.hpp"
 
 namespace graze {
@@ -20,8 +24,10 @@ class PairJobs {
 
   PairJobs(const SceneSettings& settings, TaskPool& tasks);
 
-  /// Answers every job that is looked at; budgets began at `start`.
-  void run(const PairList& list, std::uint64_t rules_version, Clock::time_point start);
+  /// Answers every job that is looked at; budgets began at `start`. The last report had so many contacts, and
+  /// those of this step will be put into `report`.
+  void run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
+           std::size_t last_contacts, ReportBuilder& report);
 
   /// Of the job at that place, where it is looked at; until `even_out_memory`.
   [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
@@ -44,7 +50,8 @@ class PairJobs {
   struct Worker {
     PairDetector detector;
     PairCounters counters;
-    PairAnswer answer;  ///< of the job at hand
+    PairAnswer answer;                ///< of the job at hand
+    std::deque<PairAnswer> too_long;  ///< of this step, not expected to be so and not to be copied
     /// That fronts have grown by since the scene began. Only the sum over all workers means something: one
     /// may shrink a front that another has made grow.
     std::size_t front_bytes = 0;
@@ -74,6 +81,11 @@ class PairJobs {
   void advance_large(std::size_t place, unsigned worker);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
   void was_detected(const PairJob& job, const PairAnswer& answer) const;
+  [[nodiscard]] PairAnswer& answer_for(std::uint32_t index, Worker& worker);
+  void take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
+  void keep_time_back(std::size_t last_contacts, ReportBuilder& report);
+  [[nodiscard]] bool make_room_in_report(std::size_t contacts);
+  [[nodiscard]] Clock::time_point deadline_now() const;
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();
   void run_by_urgency();
@@ -84,7 +96,11 @@ class PairJobs {
   std::span<const PairJob> jobs_;
   std::size_t pair_count_ = 0;  ///< of all pairs, those that rest included
   std::uint64_t rules_version_ = 0;
-  Clock::time_point deadline_ = PairQuery::no_deadline;
+  Clock::time_point deadline_ = PairQuery::no_deadline;  ///< for all but the contacts that are found
+  std::atomic<std::size_t> contacts_found_{0};           ///< where there is a deadline
+  std::mutex report_mutex_;
+  ReportBuilder* report_ = nullptr;     ///< where there is a deadline; `report_mutex_` guards it
+  std::size_t contacts_with_room_ = 0;  ///< in it; likewise
   PairAnswers answers_;
   std::vector<std::uint32_t> order_;       ///< jobs that are looked at, by urgency where there is a budget
   std::vector<std::uint32_t> small_jobs_;  ///< of one group
@@ -92,6 +108,8 @@ class PairJobs {
   std::size_t large_count_ = 0;
   std::vector<PairAnswer> large_answers_;  ///< of all groups, one after the other; kept longer likewise
   std::size_t large_answer_count_ = 0;     ///< of the groups before
+  std::vector<std::uint32_t> long_jobs_;   ///< small ones whose lists were long in the last step, ascending
+  std::vector<PairAnswer> long_answers_;   ///< of these; kept longer likewise
   std::vector<LargeSlice> slices_;         ///< of all large jobs of the group
   std::vector<Worker> workers_;
   PairRoom room_;  ///< what was reserved of the workers' memory

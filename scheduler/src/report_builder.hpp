@@ -73,6 +73,16 @@ class ReportBuilder {
     resize_to_overwrite(report_.rows_.contacts, contact_count_of_pairs());
     return report_.rows_.contacts;
   }
+  /// Makes room for so many contacts in small pieces, as long as `goes_on()`; whether there is room then.
+  template <typename GoesOn>
+  bool make_room_while(std::size_t contacts, const GoesOn& goes_on) {
+    constexpr std::size_t at_once = 128;
+    auto& rows = report_.rows_.contacts;
+    if (rows.capacity() < contacts) reserve_to_overwrite(rows, with_room_to_spare(contacts));
+    while (rows.size() < contacts && goes_on())
+      rows.resize(std::min(contacts, rows.size() + at_once), Contact{});
+    return rows.size() >= contacts;
+  }
   /// Shows the rows of another report, which must stay as it is while this one is read, in place of its own.
   void show_rows_of(const FrameReport& other) {
     report_.shown_ = other.shown_;

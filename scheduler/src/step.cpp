@@ -67,7 +67,7 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
     statistics.pairs_ms = lap();
     refit_.run(list.jobs);
     statistics.refit_ms = lap();
-    jobs_.run(list, pairs_.filter().rules_version(), start);
+    jobs_.run(list, pairs_.filter().rules_version(), start, previous.contacts().size(), builder);
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);

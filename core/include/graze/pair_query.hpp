@@ -41,10 +41,12 @@ struct PairQuery {
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
   /// Region pairs that may be tested; beyond it the answer is not complete.
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
-  /// The same in time.
+  /// The same in time. A search ends some tens of microseconds after it.
   static constexpr std::chrono::steady_clock::time_point no_deadline =
       std::chrono::steady_clock::time_point::max();
   std::chrono::steady_clock::time_point deadline = no_deadline;
+  /// What is kept back of that time for each contact, for whoever takes them.
+  std::chrono::nanoseconds time_after_contact{0};
 };
 
 /// Work done for a pair, or for many.
