@@ -20,6 +20,8 @@ class CloseFeatures {
       : pair_(pair), threshold_(threshold), scratch_(scratch), names_(names), listing_(listing) {}
 
   void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
+  /// For what is added from here on, after `finish`.
+  void set_threshold(double threshold) { threshold_ = threshold; }
   /// The features that the scratch has taken, whatever they are of.
   void add_taken();
   /// Features that were listed, in the frame of the scratch.

@@ -79,7 +79,7 @@ void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& quer
   certainly_apart_ = false;
   stage_ = Stage::start;
   slice_count_ = 0;
-  answer.in_contact = answer.listed = false;
+  answer.in_contact = answer.listed = answer.cut = false;
   answer.complete = true;
 }
 
@@ -162,9 +162,7 @@ void PairSearch::run(Slice& slice, Worker& worker) {
       run_contacts(slice, worker);
       return bin_names(slice, worker);
     case Stage::vertices:
-      slice.complete =
-          NearVertices(worker.pair, wanted_, near_blocks_, worker.scratch.vertices)
-              .name(slice.begin, slice.end, query_.threshold, worker.meter, slice.names, listing_in(slice));
+      run_vertices(slice, worker);
       return bin_names(slice, worker);
     case Stage::measured:
       return run_measured(slice, worker);
@@ -192,6 +190,7 @@ void PairSearch::reserve_as(const PairSearch& other) {
   names_.reserve(names);
   slices_.front().names.reserve(names);
   stretches_.reserve(1);
+  nearest_names_.reserve_as(other.nearest_names_);
   graze::reserve_as(near_blocks_, other.near_blocks_);
   graze::reserve_as(closest_.closest, other.closest_.closest);
 }
@@ -210,7 +209,7 @@ void PairSearch::reserve(const PairRoom& room) {
 std::size_t PairSearch::byte_count() const {
   std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
                       bytes_of(stretches_) + bytes_of(runs_) + bytes_of(near_blocks_) +
-                      bytes_of(closest_.closest);
+                      bytes_of(closest_.closest) + nearest_names_.byte_count();
   for (const Slice& slice : slices_)
     bytes += bytes_of(slice.found.leaves) + bytes_of(slice.near) + bytes_of(slice.names) +
              bytes_of(slice.runs) + bytes_of(slice.closest.closest);
@@ -228,6 +227,7 @@ PairSearch::Slice& PairSearch::add_slice() {
   slice.found.clear();
   slice.near.clear();
   slice.names.clear();
+  slice.near_is_too_long = false;
   slice.closest.clear();
   return slice;
 }
@@ -341,6 +341,7 @@ auto PairSearch::may_touch_within_slack() const {
 }
 
 void PairSearch::begin_contact(Worker& worker) {
+  if (is_limited()) nearest_names_.begin(query_.contact_limit);
   begin_listing();
   if (stage_ == Stage::listed) return;
   if (query_.detail == ContactDetail::vertices) return begin_vertices(worker);
@@ -360,6 +361,16 @@ void PairSearch::begin_vertices(Worker& worker) {
   add_slices_of(0, near_blocks_.a.count, blocks_each);
 }
 
+void PairSearch::run_vertices(Slice& slice, Worker& worker) {
+  NearVertices vertices(worker.pair, wanted_, near_blocks_, worker.scratch.vertices);
+  const std::size_t each = is_limited() ? 1 : slice.end - slice.begin;
+  for (std::size_t begin = slice.begin; begin < slice.end && slice.complete; begin += each) {
+    slice.complete = vertices.name(begin, begin + each, threshold_now(worker), worker.meter, slice.names,
+                                   listing_in(slice));
+    hand_over_if_many(slice, worker);
+  }
+}
+
 void PairSearch::run_reach(Slice& slice, Worker& worker) {
   if (from_front_) return take_front(slice, wanted_, worker);
   if (slice.start.empty()) return;
@@ -372,6 +383,12 @@ void PairSearch::begin_contacts(Worker& worker) {
   if (!from_front_) remember(wanted_, worker);
   stage_ = Stage::contacts;
   slice_count_ = 0;
+  // So that it soon is known how near those are that are kept.
+  if (is_limited())
+    std::sort(found_.leaves.begin(), found_.leaves.end(), [](const LeafPair& left, const LeafPair& right) {
+      return std::tie(left.lower, left.pair.a, left.pair.b) <
+             std::tie(right.lower, right.pair.a, right.pair.b);
+    });
   slice_leaves_in_contact();
 }
 
@@ -393,6 +410,12 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
     slice.complete = !from_front_ || worker.meter.spend();
     if (!slice.complete) return;
     if (!may_touch(leaves.lower)) continue;
+    if (is_limited()) {
+      hand_over_if_many(slice, worker);
+      const double threshold = is_listing_ ? query_.threshold : threshold_now(worker);
+      if (leaves.lower > threshold && !is_listing_) continue;
+      features.set_threshold(threshold);
+    }
     ++worker.meter.counters().leaf_pairs_tested;
     const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
     const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
@@ -602,6 +625,12 @@ void PairSearch::as_in_paper(Worker& worker) {
   const PaperFound found = find_as_in_paper(worker.pair, query_, worker.scratch.paper, worker.meter, names_);
   if (!found.complete) return give_up();
   stage_ = Stage::done;
+  if (is_limited()) {
+    nearest_names_.begin(query_.contact_limit);
+    nearest_names_.add(worker.pair, names_, worker.scratch.measure, worker.scratch.nearest_names);
+    nearest_names_.finish(worker.pair, names_, worker.scratch.lowest);
+    answer_->cut = nearest_names_.is_cut();
+  }
   for (const ContactName& name : names_) {
     worker.pair.check_time();
     answer_->contacts.push_back(measure(worker.pair, name));

@@ -13,6 +13,7 @@
 #include "name_order.hpp"
 #include "near_listing.hpp"
 #include "near_vertices.hpp"
+#include "nearest_names.hpp"
 #include "paper.hpp"
 #include "parallel.hpp"
 #include "touching_order.hpp"
@@ -31,11 +32,12 @@ struct SearchScratch {
   NameBinning binning;
   NameOrder order;
   MeasureScratch measure;
+  NearestNamesScratch nearest_names;
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_leaves, self.paper,
-                    self.lowest, self.parallel, self.binning, self.order, self.measure);
+                    self.lowest, self.parallel, self.binning, self.order, self.measure, self.nearest_names);
   }
 };
 
@@ -84,6 +86,7 @@ class PairSearch {
     bool complete = true;
     LeafPairList found;
     std::vector<NearParts> near;
+    bool near_is_too_long = false;  ///< and was forgotten
     std::vector<ContactName> names;
     std::vector<BinRun> runs;  ///< of `names`, where there are many slices
     double nearest = 0;        ///< of the contacts that were measured
@@ -108,6 +111,12 @@ class PairSearch {
   void give_up();
   void as_in_paper(Worker& worker);
 
+  [[nodiscard]] bool is_limited() const { return query_.contact_limit > 0; }
+  [[nodiscard]] double threshold_now(Worker& worker);
+  void hand_over(Slice& slice, Worker& worker);
+  void hand_over_if_many(Slice& slice, Worker& worker);
+  void run_vertices(Slice& slice, Worker& worker);
+
   void begin_contact(Worker& worker);
   void begin_listing();
   [[nodiscard]] NearListing listing_in(Slice& slice) const;
@@ -119,7 +128,8 @@ class PairSearch {
   void run_contacts(Slice& slice, Worker& worker);
   void add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const;
   void finish_contacts(Worker& worker);
-  void bin_names(Slice& slice, Worker& worker) const;
+  void bin_names(Slice& slice, Worker& worker);
+  void finish_nearest(Worker& worker);
   void begin_ordering();
   void order(Stretch& stretch, Worker& worker);
   [[nodiscard]] std::size_t sort_names(std::span<ContactName> names, Worker& worker) const;
@@ -190,6 +200,8 @@ class PairSearch {
   LeafPairList found_;
   NearBlocks near_blocks_;
   std::vector<ContactName> names_;
+  NearestNames nearest_names_;                      ///< of all slices, where contacts are limited
+  ContactName lowest_;                              ///< likewise, the nearest of all
   std::vector<Stretch> stretches_;                  ///< of these
   std::vector<std::span<const ContactName>> runs_;  ///< of the slices' names, by bins
   ClosestFound closest_;

@@ -56,7 +56,12 @@ void PairSearch::run_listed(Slice& slice, Worker& worker) {
   }
   worker.begin_listed();
   CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
-  features.add_listed(listed);
+  const std::size_t each = is_limited() ? listed_each : std::max<std::size_t>(1, listed.size());
+  for (std::size_t begin = 0; begin < listed.size(); begin += each) {
+    features.add_listed(listed.subspan(begin, std::min(each, listed.size() - begin)));
+    hand_over_if_many(slice, worker);
+    features.set_threshold(threshold_now(worker));
+  }
   features.finish();
 }
 
@@ -64,8 +69,11 @@ void PairSearch::run_listed(Slice& slice, Worker& worker) {
 void PairSearch::keep_list(Worker& worker) {
   front_->forget_list();
   std::size_t count = 0;
-  for (std::size_t i = 0; i < slice_count_; ++i) count += slices_[i].near.size();
-  front_->list_is_too_long = count > query_.front_limit;
+  for (std::size_t i = 0; i < slice_count_; ++i) {
+    count += slices_[i].near.size();
+    front_->list_is_too_long = front_->list_is_too_long || slices_[i].near_is_too_long;
+  }
+  front_->list_is_too_long = front_->list_is_too_long || count > query_.front_limit;
   if (front_->list_is_too_long) {
     ++worker.meter.counters().fronts_left_out;
     return;

@@ -21,6 +21,8 @@ namespace {
 
 constexpr std::size_t names_each = 1024;
 constexpr std::size_t contacts_each = 128;
+/// Names that a slice finds before it hands them over, where contacts are limited.
+constexpr std::size_t handed_over_at_once = 8192;
 
 // What a name and a contact take at least from here on. Where a deadline leaves less than that for all of
 // them, what is left is for other pairs.
@@ -32,6 +34,7 @@ constexpr std::chrono::nanoseconds to_measure_one{40};
 void PairSearch::finish_contacts(Worker& worker) {
   if (stage_ == Stage::listed) ++worker.meter.counters().pairs_by_list;
   if (is_listing_) keep_list(worker);
+  if (is_limited()) return finish_nearest(worker);
   if (slice_count_ > 1) return begin_ordering();
   names_.clear();
   if (slice_count_ == 1) {
@@ -43,8 +46,40 @@ void PairSearch::finish_contacts(Worker& worker) {
   begin_measuring(worker);
 }
 
+/// Where contacts are limited: what the slices have handed over.
+void PairSearch::finish_nearest(Worker& worker) {
+  nearest_names_.finish(worker.pair, names_, worker.scratch.lowest);
+  answer_->cut = nearest_names_.is_cut();
+  if (!names_.empty()) lowest_ = worker.scratch.lowest.names.front();
+  stretches_.assign(1, {0, names_.size(), {}});
+  begin_measuring(worker);
+}
+
+/// How near contacts are that may be among those that are kept.
+double PairSearch::threshold_now(Worker& worker) {
+  return is_limited() ? std::min(query_.threshold, nearest_names_.limit(worker.pair)) : query_.threshold;
+}
+
+/// What a slice has found goes to those of all, so that it need not keep it.
+void PairSearch::hand_over(Slice& slice, Worker& worker) {
+  if (slice.names.empty()) return;
+  const std::size_t count = sort_names(slice.names, worker);
+  nearest_names_.add(worker.pair, std::span(slice.names).first(count), worker.scratch.measure,
+                     worker.scratch.nearest_names);
+  slice.names.clear();
+}
+
+void PairSearch::hand_over_if_many(Slice& slice, Worker& worker) {
+  if (!is_limited()) return;
+  if (slice.names.size() >= handed_over_at_once) hand_over(slice, worker);
+  if (slice.near.size() <= query_.front_limit) return;
+  slice.near.clear();
+  slice.near_is_too_long = true;
+}
+
 /// Of one of many slices, for those that sort.
-void PairSearch::bin_names(Slice& slice, Worker& worker) const {
+void PairSearch::bin_names(Slice& slice, Worker& worker) {
+  if (is_limited()) return hand_over(slice, worker);
   if (slice_count_ <= 1) return;
   worker.time.check_for(slice.names.size() * to_sort_one);
   worker.scratch.binning.put_into(NameBins(a_->mesh()), slice.names, slice.runs);
@@ -141,7 +176,7 @@ void PairSearch::run_measured(Slice& slice, Worker& worker) {
 }
 
 void PairSearch::finish_measuring(Worker& worker) {
-  set_distance(worker, lowest_measured(worker));
+  set_distance(worker, is_limited() ? lowest_ : lowest_measured(worker));
   answer_->in_contact = answer_->listed = true;
   slice_count_ = 0;
   stage_ = Stage::done;

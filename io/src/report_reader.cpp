@@ -96,6 +96,7 @@ ReportedPair read_pair(const json& value) {
   pair.b = read_whole<std::uint32_t>(value.at("b"));
   pair.phase = named(phases, value.at("phase"));
   pair.complete = value.value("complete", true);
+  pair.contacts_cut = value.value("contacts_cut", false);
   pair.stale = value.value("stale", false);
   pair.distance = {read_real(value.at("distance").at(0)), read_real(value.at("distance").at(1))};
   const json& witness = value.at("witness");
@@ -161,6 +162,10 @@ SceneSettings read_settings(const json& value) {
     settings.time_budget = std::chrono::microseconds(read_whole<std::int64_t>(value.at("time_budget_us")));
   if (value.contains("work_budget"))
     settings.work_budget = read_whole<std::uint64_t>(value.at("work_budget"));
+  if (value.contains("max_contacts"))
+    settings.max_contacts = read_whole<std::size_t>(value.at("max_contacts"));
+  if (value.contains("max_contacts_per_pair"))
+    settings.max_contacts_per_pair = read_whole<std::size_t>(value.at("max_contacts_per_pair"));
   return settings;
 }
 

@@ -37,6 +37,9 @@ void write_settings(JsonText& json, const SceneSettings& settings) {
   if (settings.time_budget)
     json.key("time_budget_us").whole(static_cast<std::uint64_t>(settings.time_budget->count()));
   if (settings.work_budget) json.key("work_budget").whole(*settings.work_budget);
+  if (settings.max_contacts) json.key("max_contacts").whole(*settings.max_contacts);
+  if (settings.max_contacts_per_pair)
+    json.key("max_contacts_per_pair").whole(*settings.max_contacts_per_pair);
   json.close('}');
 }
 
@@ -132,6 +135,7 @@ void ReportWriter::State::write_pair(const FrameReport& report, const PairReport
   const Mesh& mesh_b = *objects[b].mesh;
   json.open('{').key("a").whole(a).key("b").whole(b).key("phase").text(to_string(pair.phase));
   if (!pair.complete) json.key("complete").flag(false);
+  if (pair.contacts_cut) json.key("contacts_cut").flag(true);
   if (pair.stale) json.key("stale").flag(true);
   json.key("distance").open('[').real(pair.distance.lower).real(pair.distance.upper).close(']');
   json.key("witness");

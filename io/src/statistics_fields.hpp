@@ -9,7 +9,7 @@ namespace graze::io {
 
 /// The counters and times of a step by the names they have in a report, in the order in which they are
 /// written. `regions_expanded` is an array and stands between the two.
-inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 31> counter_fields{{
+inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatistics::*>, 33> counter_fields{{
     {"objects", &StepStatistics::objects},
     {"objects_unread", &StepStatistics::objects_unread},
     {"objects_surveyed", &StepStatistics::objects_surveyed},
@@ -29,6 +29,8 @@ inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatis
     {"pairs_near", &StepStatistics::pairs_near},
     {"pairs_in_contact", &StepStatistics::pairs_in_contact},
     {"contacts", &StepStatistics::contacts},
+    {"pairs_cut", &StepStatistics::pairs_cut},
+    {"contacts_left_out", &StepStatistics::contacts_left_out},
     {"region_pairs_tested", &StepStatistics::region_pairs_tested},
     {"leaf_pairs_tested", &StepStatistics::leaf_pairs_tested},
     {"discarded_in_float", &StepStatistics::discarded_in_float},

@@ -12,6 +12,7 @@ namespace graze {
 /// A PairAnswer whose lists are elsewhere.
 struct KeptAnswer : PairFinding {
   std::span<const Contact> contacts;
+  std::size_t contacts_left_out = 0;  ///< by the limit of all pairs
   std::span<const RegionDistance> region_distances;
 };
 
@@ -26,6 +27,12 @@ class PairAnswers {
   void begin(std::size_t count);
   /// Takes a copy of a job's answer. The calls of one worker do not overlap.
   void keep(std::size_t job, const PairAnswer& answer, unsigned worker);
+  /// The same but for the contacts: how many there are, until it is known which of them are kept.
+  void keep_without_contacts(std::size_t job, const PairAnswer& answer, unsigned worker);
+  /// The same of a job that is not looked at, with so many contacts.
+  void repeat_without_contacts(std::size_t job, std::size_t contacts);
+  /// Says which are kept, for a job of which some are.
+  void take_contacts(std::size_t job, std::span<const Contact> contacts);
   /// Takes an answer whose lists stay where they are.
   void refer_to(std::size_t job, const PairAnswer& answer);
   /// Of a job that was answered in this step; until `even_out`.

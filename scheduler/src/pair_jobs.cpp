@@ -30,6 +30,8 @@ constexpr std::chrono::nanoseconds after_each_pair{150};
 constexpr std::chrono::nanoseconds after_each_contact{60};
 constexpr std::chrono::microseconds after_all{50};
 
+constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
 /// Lists as long as these stay where they were found: what is shorter is copied, so that it lies close by.
 constexpr std::size_t long_list = 4096;
 
@@ -95,6 +97,13 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.list_slack =
       (is_about_vertices(query.detail) ? list_slack_of_vertices : list_slack_of_features).of(motion, leaf);
   query.front_limit = front_pairs_of_all / pair_count_;
+  query.contact_limit =
+      std::min(settings_.max_contacts.value_or(no_limit), settings_.max_contacts_per_pair.value_or(no_limit));
+  if (query.contact_limit == no_limit) query.contact_limit = 0;
+  // A list of features is only of use where all of them may be contacts, and never longer than need be.
+  const bool may_be_cut =
+      job.last == nullptr || job.last->contacts_cut || job.last->contact_count > query.contact_limit / 2;
+  if (query.contact_limit > 0 && may_be_cut) query.list_slack = 0;
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
     if (!is_about_vertices(query.detail)) query.detail = ContactDetail::none;
@@ -103,7 +112,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
 }
 
 void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
-                   std::size_t last_contacts, ReportBuilder& report) {
+                   const FrameReport& previous, ReportBuilder& report) {
   jobs_ = list.jobs;
   pair_count_ = list.pair_count;
   rules_version_ = rules_version;
@@ -117,14 +126,36 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
     const PairJob& job = jobs_[index];
     if (!job.is_looked_at()) continue;
     order_.push_back(index);
-    if (job.last != nullptr && job.last->contact_count >= long_list && !is_large(job))
+    if (!settings_.max_contacts && job.last != nullptr && job.last->contact_count >= long_list &&
+        !is_large(job))
       long_jobs_.push_back(index);
   }
   long_answers_.resize(std::max(long_answers_.size(), long_jobs_.size()));
-  keep_time_back(last_contacts, report);
+  keep_time_back(previous.contacts().size(), report);
+  nearest_.begin(settings_.max_contacts.value_or(0));
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
-  if (settings_.work_budget) return run_within_work(*settings_.work_budget);
-  settings_.time_budget ? run_by_urgency() : run_group(order_);
+  if (settings_.work_budget)
+    run_within_work(*settings_.work_budget);
+  else
+    settings_.time_budget ? run_by_urgency() : run_group(order_);
+  if (settings_.max_contacts) share_contacts(previous);
+}
+
+/// Which of all contacts are kept. Those of jobs that are not looked at have been found before. A pair that
+/// does not keep all of its own is to be looked at again, though it may not move: others may have less then.
+void PairJobs::share_contacts(const FrameReport& previous) {
+  for (std::uint32_t index = 0; index < jobs_.size(); ++index) {
+    const PairJob& job = jobs_[index];
+    if (job.is_looked_at()) continue;
+    const auto contacts = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
+    answers_.repeat_without_contacts(index, contacts.size());
+    nearest_.add(index, contacts);
+  }
+  nearest_.finish([&](std::uint32_t index, std::span<const Contact> contacts) {
+    answers_.take_contacts(index, contacts);
+  });
+  for (std::uint32_t index = 0; index < jobs_.size(); ++index)
+    if (answers_[index].contacts_left_out > 0) jobs_[index].memory->version_a = 0;
 }
 
 bool PairJobs::is_large(const PairJob& job) {
@@ -182,7 +213,7 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
   large.answered = is_late();
   if (large.answered) {
     PairDetector::outer_bounds(a, b, query, answer);
-    return answers_.refer_to(large.job, answer);
+    return refer_to(large.job, answer, worker);
   }
   LeafFront& front = job.memory_to_write().front;
   large.front_bytes = front.byte_count();
@@ -201,7 +232,7 @@ void PairJobs::advance_large(std::size_t place, unsigned worker) {
     PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job), answer);
   own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
   was_detected(job, answer);
-  answers_.refer_to(large.job, answer);
+  refer_to(large.job, answer, worker);
 }
 
 /// The slices of all large pairs as one list, until every pair is answered.
@@ -241,6 +272,8 @@ void PairJobs::keep_time_back(std::size_t last_contacts, ReportBuilder& report) 
 bool PairJobs::make_room_in_report(std::size_t contacts) {
   if (deadline_ == PairQuery::no_deadline || contacts == 0) return true;
   const std::lock_guard lock(report_mutex_);
+  const std::size_t most = settings_.max_contacts.value_or(std::numeric_limits<std::size_t>::max());
+  contacts = std::min(contacts, most - std::min(most, contacts_with_room_));
   if (!report_->make_room_while(contacts_with_room_ + contacts, [&] { return !is_late(); })) return false;
   contacts_with_room_ += contacts;
   contacts_found_.fetch_add(contacts, std::memory_order_relaxed);
@@ -290,7 +323,15 @@ PairAnswer& PairJobs::answer_for(std::uint32_t index, Worker& worker) {
   return long_answers_[static_cast<std::size_t>(found - long_jobs_.begin())];
 }
 
+/// Takes an answer that stays where it is in this step.
+void PairJobs::refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker) {
+  if (!settings_.max_contacts) return answers_.refer_to(index, answer);
+  nearest_.add(index, answer.contacts);
+  answers_.keep_without_contacts(index, answer, worker);
+}
+
 void PairJobs::take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker) {
+  if (settings_.max_contacts) return refer_to(index, answer, worker);
   Worker& own = workers_[worker];
   if (&answer != &own.answer) return answers_.refer_to(index, answer);
   if (answer.contacts.size() < long_list) return answers_.keep(index, answer, worker);
@@ -378,7 +419,7 @@ void PairJobs::reserve_for(const Mesh& mesh) {
 std::size_t PairJobs::byte_count() const {
   std::size_t bytes = answers_.byte_count() + bytes_of(order_) + bytes_of(small_jobs_) + bytes_of(large_) +
                       bytes_of(large_answers_) + bytes_of(slices_) + bytes_of(long_jobs_) +
-                      bytes_of(long_answers_);
+                      bytes_of(long_answers_) + nearest_.byte_count();
   for (const LargeJob& large : large_) bytes += large.pair.byte_count();
   for (const auto* const answers : {&large_answers_, &long_answers_})
     for (const PairAnswer& answer : *answers) bytes += bytes_of_lists(answer);

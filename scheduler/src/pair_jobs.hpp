@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "nearest_contacts.hpp"
 #include "pair_answers.hpp"
 #include "pair_job.hpp"
 #include "report_builder.hpp"
@@ -24,12 +25,12 @@ class PairJobs {
 
   PairJobs(const SceneSettings& settings, TaskPool& tasks);
 
-  /// Answers every job that is looked at; budgets began at `start`. The last report had so many contacts, and
-  /// those of this step will be put into `report`.
+  /// Answers every job that is looked at; budgets began at `start`. `report` is where contacts will be put.
   void run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
-           std::size_t last_contacts, ReportBuilder& report);
+           const FrameReport& previous, ReportBuilder& report);
 
-  /// Of the job at that place, where it is looked at; until `even_out_memory`.
+  /// Of the job at that place, where it is looked at; until `even_out_memory`. Where all contacts are
+  /// limited, of the others the contacts.
   [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
   [[nodiscard]] PairCounters counters() const;
 
@@ -83,7 +84,9 @@ class PairJobs {
   void was_detected(const PairJob& job, const PairAnswer& answer) const;
   [[nodiscard]] PairAnswer& answer_for(std::uint32_t index, Worker& worker);
   void take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
+  void refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker);
   void keep_time_back(std::size_t last_contacts, ReportBuilder& report);
+  void share_contacts(const FrameReport& previous);
   [[nodiscard]] bool make_room_in_report(std::size_t contacts);
   [[nodiscard]] Clock::time_point deadline_now() const;
   [[nodiscard]] bool is_late() const;
@@ -98,6 +101,7 @@ class PairJobs {
   std::uint64_t rules_version_ = 0;
   Clock::time_point deadline_ = PairQuery::no_deadline;  ///< for all but the contacts that are found
   std::atomic<std::size_t> contacts_found_{0};           ///< where there is a deadline
+  NearestContacts nearest_;                              ///< of all jobs, where contacts are limited
   std::mutex report_mutex_;
   ReportBuilder* report_ = nullptr;     ///< where there is a deadline; `report_mutex_` guards it
   std::size_t contacts_with_room_ = 0;  ///< in it; likewise

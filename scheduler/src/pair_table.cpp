@@ -11,7 +11,8 @@ constexpr std::size_t ahead = 12;
 
 }  // namespace
 
-PairTable::PairTable(const SceneSettings& settings, ObjectStore& store) : store_(store), filter_(settings) {}
+PairTable::PairTable(const SceneSettings& settings, ObjectStore& store)
+    : store_(store), filter_(settings), may_rest_(!settings.max_contacts) {}
 
 PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
                          StepStatistics& statistics) {
@@ -145,7 +146,7 @@ void PairTable::add(PairJob job, const SelectedPair& selected) {
   job.memory = &selection_.memory_of(selected);
   if (job.task == PairJob::Task::detect && is_unchanged(job)) {
     job.task = PairJob::Task::unchanged;
-    if (selected.kind == SelectedPair::Kind::looked_at) selection_.let_rest(selected);
+    if (may_rest_ && selected.kind == SelectedPair::Kind::looked_at) selection_.let_rest(selected);
   }
   jobs_.push_back(job);
 }

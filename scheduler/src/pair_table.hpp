@@ -53,6 +53,7 @@ class PairTable {
 
   ObjectStore& store_;
   PairFilter filter_;
+  const bool may_rest_;  ///< a pair may stand as it was without being looked at; not where all share contacts
   ObjectSummaries summaries_;
   BroadPhase broad_phase_;
   PairSelection selection_;

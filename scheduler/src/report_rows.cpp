@@ -18,7 +18,8 @@ std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer) {
   PairReport row;
   row.a = job.a->id;
   row.b = job.b->id;
-  row.complete = answer.complete;
+  row.contacts_cut = answer.cut || answer.contacts_left_out > 0;
+  row.complete = answer.complete && !row.contacts_cut;
   row.distance = answer.distance;
   row.witness = answer.witness;
   if (job.task == PairJob::Task::end)

@@ -67,7 +67,7 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
     statistics.pairs_ms = lap();
     refit_.run(list.jobs);
     statistics.refit_ms = lap();
-    jobs_.run(list, pairs_.filter().rules_version(), start, previous.contacts().size(), builder);
+    jobs_.run(list, pairs_.filter().rules_version(), start, previous, builder);
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
@@ -166,7 +166,9 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   const KeptAnswer& answer = jobs_.answer(index);
   const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
   std::span<const Contact> contacts;
-  if (in_contact) contacts = repeats ? last : answer.contacts;
+  if (in_contact) contacts = repeats && !settings_.max_contacts ? last : answer.contacts;
+  if (settings_.max_contacts && answer.contacts_left_out > 0) row->contacts_cut = true;
+  if (row->contacts_cut) row->complete = false;
   repeats ? contacts_.add_again(contacts) : contacts_.add(contacts, last);
   const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
   builder.add(*row, contacts.size(), regions);
@@ -176,6 +178,10 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   ++statistics.pairs_near;
   if (in_contact) ++statistics.pairs_in_contact;
   statistics.contacts += contacts.size();
+  if (!row->contacts_cut) return;
+  ++statistics.pairs_cut;
+  const std::size_t left_out = settings_.max_contacts ? answer.contacts_left_out : 0;
+  statistics.contacts_left_out += std::max<std::size_t>(left_out, 1);
 }
 
 /// Rows of the last report, with all that belongs to them.
@@ -196,8 +202,12 @@ void Step::repeat_pairs(const RestingRows& resting, const FrameReport& previous,
   statistics.pairs_near += rows.size();
   statistics.contacts += contacts.size();
   statistics.region_distances += regions.size();
-  for (const PairReport& row : rows)
+  for (const PairReport& row : rows) {
     if (is_contact(row.phase)) ++statistics.pairs_in_contact;
+    if (!row.contacts_cut) continue;
+    ++statistics.pairs_cut;
+    ++statistics.contacts_left_out;
+  }
 }
 
 /// The rows of the last report again, which looked at no pair.

@@ -48,7 +48,9 @@ std::string problem_of(const FrameReport& report, const PairReport& pair) {
     return "bounds";
   if (!pair.witness.point_a.allFinite() || !pair.witness.point_b.allFinite()) return "witness";
   const auto contacts = report.contacts(pair);
-  if (!contacts.empty() && (!in_contact(pair) || !pair.complete)) return "contacts without being in contact";
+  if (!contacts.empty() && (!in_contact(pair) || (!pair.complete && !pair.contacts_cut)))
+    return "contacts without being in contact";
+  if (pair.contacts_cut && (!in_contact(pair) || pair.complete)) return "cut, but not in contact or complete";
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
     if (!std::isfinite(contact.distance) || !contact.point_a.allFinite() || !contact.point_b.allFinite() ||

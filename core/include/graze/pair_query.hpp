@@ -33,6 +33,9 @@ struct PairQuery {
   double list_slack = 0;
   /// A front of more pairs of leaves than this is not kept, nor a list of more pairs of features.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
+  /// So many contacts are kept at most, the nearest; 0: all are. Which of those that are as near, their names
+  /// say. Where contacts are so many, no features are listed for the next steps.
+  std::size_t contact_limit = 0;
   /// How many distances of regions are listed at most; 0: none are looked for.
   std::size_t region_distance_limit = 0;
   /// Regions are listed that may be nearer than this; in AccuracyMode::paper, those that pass its test.
@@ -89,6 +92,7 @@ struct PairFinding {
   bool in_contact = false;
   bool listed = false;   ///< in contact, or nearer than the reach; otherwise nothing below means anything
   bool complete = true;  ///< false where the work limit was reached: the bounds hold, contacts are empty
+  bool cut = false;      ///< there were more contacts than PairQuery::contact_limit; all else is said of all
   DistanceBounds distance;
   Witness witness;
   std::uint64_t region_distances_left_out = 0;  ///< at least so many more were not listed

@@ -23,8 +23,12 @@ struct PairReport {
   ObjectId a;
   ObjectId b;
   PairPhase phase = PairPhase::near;
-  bool complete = true;  ///< false: a budget ran out; bounds hold, the phase is the last one, no contacts
-  bool stale = false;    ///< one of the objects could not be read: these are the last values
+  /// False: a budget ran out; bounds hold, the phase is the last one, no contacts. Or `contacts_cut`.
+  bool complete = true;
+  bool stale = false;  ///< one of the objects could not be read: these are the last values
+  /// There are more contacts than SceneSettings::max_contacts or max_contacts_per_pair let be listed: the
+  /// nearest are. All else is said of all.
+  bool contacts_cut = false;
   DistanceBounds distance;
   Witness witness;
   std::size_t first_contact = 0;  ///< into FrameReport::contacts()
@@ -83,6 +87,9 @@ struct StepStatistics {
   std::uint64_t pairs_near = 0;     ///< listed in the report
   std::uint64_t pairs_in_contact = 0;
   std::uint64_t contacts = 0;
+  std::uint64_t pairs_cut = 0;  ///< of which contacts had no place within SceneSettings' limits,
+  /// and at least how many. What a pair's own limit leaves out is not looked for, and counts as one.
+  std::uint64_t contacts_left_out = 0;
   std::uint64_t region_distances = 0;
   /// At least so many more had no place within SceneSettings::region_distances.
   std::uint64_t region_distances_left_out = 0;
@@ -139,7 +146,7 @@ class GRAZE_API FrameReport {
   }
   [[nodiscard]] std::span<const Diagnostic> diagnostics() const { return diagnostics_; }
   [[nodiscard]] const StepStatistics& statistics() const { return statistics_; }
-  /// Whether no budget cut any pair short.
+  /// Whether no budget cut any pair short, and no limit its contacts.
   [[nodiscard]] bool complete() const { return complete_; }
 
  private:

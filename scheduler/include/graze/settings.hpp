@@ -54,6 +54,13 @@ struct SceneSettings {
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;
   /// The same in region pairs, reproducibly.
   std::optional<std::uint64_t> work_budget = std::nullopt;
+  /// At most so many contacts a report has, of all pairs together: the nearest, by (distance as reported, order
+  /// of the pairs, kind and features). A pair that has more than are kept of it is reported with these,
+  /// `complete == false` and `contacts_cut`; its phase, distance and witness are those of all its contacts.
+  /// Memory follows what is kept. At least 1.
+  std::optional<std::size_t> max_contacts = std::nullopt;
+  /// The same of each pair: its nearest, by (distance as reported, kind and features).
+  std::optional<std::size_t> max_contacts_per_pair = std::nullopt;
   /// How many distances of regions (the paper's cd and its red, green and blue lines) reports list, of all
   /// pairs together; 0: none are looked for. Each pair looked at has an equal share of it, filled level by
   /// level; what has no place is counted in StepStatistics::region_distances_left_out.

@@ -64,6 +64,7 @@ struct ReportedPair {
   std::uint32_t b = 0;
   PairPhase phase = PairPhase::near;
   bool complete = true;
+  bool contacts_cut = false;
   bool stale = false;
   DistanceBounds distance;
   Witness witness;

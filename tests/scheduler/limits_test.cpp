@@ -1,0 +1,214 @@
+// Limits of contacts: what is kept are the nearest of all, whoever finds them in whichever order; all else is
+// said of all contacts.
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "scheduler/moving_scene.hpp"
+#include "scheduler/report_text.hpp"
+#include "support/catch.hpp"
+
+namespace graze::tests {
+namespace {
+
+using Limit = std::optional<std::size_t>;
+
+constexpr std::array details{ContactDetail::regions, ContactDetail::vertices, ContactDetail::features};
+
+auto features_of(const Contact& contact) {
+  return std::tuple(contact.kind, contact.feature_a, contact.feature_b);
+}
+
+/// The contacts that a report is to keep, by the number of their pair, from one without limits.
+std::map<std::size_t, std::vector<Contact>> kept_of(const FrameReport& whole, Limit of_all, Limit of_pair) {
+  std::vector<std::pair<std::size_t, Contact>> all;
+  for (std::size_t pair = 0; pair < whole.pairs().size(); ++pair) {
+    const auto given = whole.contacts(whole.pairs()[pair]);
+    std::vector<Contact> contacts(given.begin(), given.end());
+    std::sort(contacts.begin(), contacts.end(), [](const Contact& left, const Contact& right) {
+      return std::tuple(left.distance, features_of(left)) < std::tuple(right.distance, features_of(right));
+    });
+    contacts.resize(std::min(contacts.size(), of_pair.value_or(contacts.size())));
+    for (const Contact& contact : contacts) all.emplace_back(pair, contact);
+  }
+  std::sort(all.begin(), all.end(), [](const auto& left, const auto& right) {
+    return std::tuple(left.second.distance, left.first, features_of(left.second)) <
+           std::tuple(right.second.distance, right.first, features_of(right.second));
+  });
+  all.resize(std::min(all.size(), of_all.value_or(all.size())));
+  std::map<std::size_t, std::vector<Contact>> kept;
+  for (const auto& [pair, contact] : all) kept[pair].push_back(contact);
+  for (auto& [pair, contacts] : kept)
+    std::sort(contacts.begin(), contacts.end(), [](const Contact& left, const Contact& right) {
+      return features_of(left) < features_of(right);
+    });
+  return kept;
+}
+
+bool are_same(const Contact& left, const Contact& right) {
+  return features_of(left) == features_of(right) && left.distance == right.distance &&
+         left.point_a == right.point_a && left.point_b == right.point_b && left.normal == right.normal &&
+         left.side_a == right.side_a && left.side_b == right.side_b;
+}
+
+/// Compares a report with what it would be without limits; returns how many pairs are cut.
+std::size_t compare(const FrameReport& report, const FrameReport& whole, Limit of_all, Limit of_pair) {
+  const auto kept = kept_of(whole, of_all, of_pair);
+  REQUIRE(report.pairs().size() == whole.pairs().size());
+  CHECK(inconsistency_of(report) == "");
+  std::size_t cut = 0;
+  for (std::size_t i = 0; i < report.pairs().size(); ++i) {
+    const PairReport& pair = report.pairs()[i];
+    const PairReport& expected = whole.pairs()[i];
+    REQUIRE(pair.a == expected.a);
+    REQUIRE(pair.b == expected.b);
+    CHECK(pair.phase == expected.phase);
+    CHECK(pair.distance.lower == expected.distance.lower);
+    CHECK(pair.distance.upper == expected.distance.upper);
+    CHECK(pair.witness.feature_a == expected.witness.feature_a);
+    CHECK(pair.witness.feature_b == expected.witness.feature_b);
+    CHECK(pair.witness.point_a == expected.witness.point_a);
+    const auto contacts = report.contacts(pair);
+    const auto found = kept.find(i);
+    const std::vector<Contact> wanted = found == kept.end() ? std::vector<Contact>() : found->second;
+    REQUIRE(std::equal(contacts.begin(), contacts.end(), wanted.begin(), wanted.end(), are_same));
+    const bool is_cut = wanted.size() < expected.contact_count;
+    CHECK(pair.contacts_cut == is_cut);
+    CHECK(pair.complete == !is_cut);
+    cut += is_cut ? 1U : 0U;
+  }
+  const StepStatistics& statistics = report.statistics();
+  CHECK(statistics.contacts == report.contacts().size());
+  CHECK(statistics.pairs_cut == cut);
+  CHECK(statistics.contacts_left_out >= cut);
+  CHECK(statistics.contacts_left_out <= whole.contacts().size() - report.contacts().size());
+  if (!of_pair && !of_all) CHECK(statistics.contacts_left_out == 0);
+  CHECK(report.complete() == (cut == 0));
+  return cut;
+}
+
+}  // namespace
+
+TEST_CASE("limits: the nearest contacts of each pair and of all are kept, step by step, by any threads") {
+  const MovingScene moving;
+  constexpr std::size_t frames = 10;
+  for (const ContactDetail detail : details) {
+    SceneSettings settings = settings_of(0.08, 0.25, detail);
+    const auto whole = moving.play(settings, frames);
+    for (const auto& [of_all, of_pair] : {std::pair<Limit, Limit>(std::nullopt, 1),
+                                          {std::nullopt, 7},
+                                          {1, std::nullopt},
+                                          {40, std::nullopt},
+                                          {40, 7},
+                                          {100000, 100000}}) {
+      settings.max_contacts = of_all;
+      settings.max_contacts_per_pair = of_pair;
+      std::size_t cut = 0;
+      for (const unsigned threads : {1U, 3U}) {
+        settings.threads = threads;
+        const auto limited = moving.play(settings, frames);
+        for (std::size_t frame = 0; frame < frames; ++frame)
+          cut += compare(*limited[frame], *whole[frame], of_all, of_pair);
+      }
+      CHECK((cut > 0) == (of_all != Limit(100000)));
+    }
+  }
+}
+
+TEST_CASE("limits: of contacts that are as near, names say which are kept") {
+  // Flat grids on each other and a little apart: all distances are the same.
+  const auto sheet = mesh_of(models::sheet(40, 40, 1, 1));
+  for (const ContactDetail detail : details)
+    for (const double gap : {0.0, 0.0625}) {
+      SceneSettings settings = settings_of(0.125, 0.125, detail);
+      const auto step = [&] {
+        Scene scene(settings);
+        scene.add(sheet);
+        scene.set_positions(scene.add(sheet), moved(sheet->rest(), {0, 0, gap}));
+        return scene.step();
+      };
+      settings.max_contacts = settings.max_contacts_per_pair = std::nullopt;
+      const ReportHandle whole = step();
+      REQUIRE(whole->contacts().size() > 50);
+      for (const std::size_t limit : {1, 50, 3000}) {
+        settings.max_contacts_per_pair = limit;
+        compare(*step(), *whole, {}, limit);
+        std::swap(settings.max_contacts, settings.max_contacts_per_pair);
+        compare(*step(), *whole, limit, {});
+        std::swap(settings.max_contacts, settings.max_contacts_per_pair);
+      }
+    }
+}
+
+TEST_CASE("limits: of large pairs, that are cut into slices") {
+  const auto ball = mesh_of(models::sphere(80, 56));
+  for (const ContactDetail detail : details) {
+    SceneSettings settings = settings_of(0.1, 0.2, detail);
+    const auto step = [&] {
+      Scene scene(settings);
+      scene.add(ball);
+      const ObjectId other = scene.add(ball);
+      std::vector<ReportHandle> reports;
+      for (int frame = 0; frame < 3; ++frame) {
+        scene.set_positions(other, moved(ball->rest(), {1.9 + 0.01 * frame, 0.01, 0.02}));
+        reports.push_back(scene.step());
+      }
+      return reports;
+    };
+    settings.threads = 2;
+    const auto whole = step();
+    settings.max_contacts_per_pair = 200;
+    for (const unsigned threads : {1U, 2U}) {
+      settings.threads = threads;
+      const auto limited = step();
+      for (std::size_t frame = 0; frame < limited.size(); ++frame)
+        CHECK(compare(*limited[frame], *whole[frame], {}, 200) == (detail == ContactDetail::regions ? 0 : 1));
+    }
+  }
+}
+
+TEST_CASE("limits: pairs that do not move get what others leave") {
+  SceneSettings settings = settings_of(0.5, 4);
+  const auto sheet = mesh_of(models::sheet(6, 6, 1, 1));
+  const std::size_t limit = 30;
+  const auto play = [&](Limit of_all) {
+    settings.max_contacts = of_all;
+    Scene scene(settings);
+    std::vector<ObjectId> ids;
+    for (int i = 0; i < 4; ++i) ids.push_back(scene.add(sheet));
+    std::vector<ReportHandle> reports;
+    for (int frame = 0; frame < 9; ++frame) {
+      // Two far from the other two; the second pair is nearer in some frames and away in others.
+      if (frame == 0) {
+        scene.set_positions(ids[1], moved(sheet->rest(), {0, 0, 0.25}));
+        scene.set_positions(ids[2], moved(sheet->rest(), {9, 0, 0}));
+      }
+      if (frame % 3 != 2)
+        scene.set_positions(ids[3], moved(sheet->rest(), {9, 0, frame % 3 == 0 ? 0.125 : 3.0}));
+      reports.push_back(scene.step());
+    }
+    return reports;
+  };
+  const auto whole = play({});
+  const auto limited = play(limit);
+  std::size_t cut = 0;
+  for (std::size_t frame = 0; frame < whole.size(); ++frame) {
+    INFO("frame " << frame);
+    cut += compare(*limited[frame], *whole[frame], limit, {});
+    CHECK(limited[frame]->contacts().size() == std::min(limit, whole[frame]->contacts().size()));
+  }
+  CHECK(cut > 9);
+}
+
+TEST_CASE("limits: of no contacts are refused") {
+  SceneSettings settings = settings_of(0.5, 4);
+  settings.max_contacts = 0;
+  CHECK_THROWS_AS(Scene(settings), Error);
+  settings.max_contacts.reset();
+  settings.max_contacts_per_pair = 0;
+  CHECK_THROWS_AS(Scene(settings), Error);
+}
+
+}  // namespace graze::tests
