@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "check_failed.hpp"
+#include "stress/budgets.hpp"
 #include "stress/determinism.hpp"
 #include "stress/objects.hpp"
 #include "stress/reader.hpp"
@@ -19,11 +20,12 @@ namespace graze::tools {
 namespace {
 
 struct StressOptions {
-  bool reader = false, soak = false, determinism = false;
+  bool reader = false, soak = false, determinism = false, budgets = false;
   double seconds = 60;
   ObjectsOptions objects;
   SoakOptions soaking;
   DeterminismOptions playing;
+  BudgetsOptions budgeted;
   std::size_t frames = 0;
   std::filesystem::path out;
 };
@@ -40,6 +42,9 @@ void run(StressOptions options) {
   } else if (options.determinism) {
     if (options.frames > 0) options.playing.frames = options.frames;
     result = run_determinism_study(options.playing);
+  } else if (options.budgets) {
+    if (options.frames > 0) options.budgeted.frames = options.frames;
+    result = run_budgets_study(options.budgeted);
   } else {
     options.objects.frames = options.frames;
     result = run_objects_study(options.objects);
@@ -59,7 +64,7 @@ void run(StressOptions options) {
 
 void add_stress_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "stress", "Puts graze under load: one of --reader, --objects, --soak and --determinism.");
+      "stress", "Puts graze under load: one of --reader, --objects, --soak, --determinism and --budgets.");
   const auto options = std::make_shared<StressOptions>();
   auto* const studies = command->add_option_group("studies")->require_option(1);
   studies->add_flag("--reader", options->reader,
@@ -72,6 +77,10 @@ void add_stress_command(CLI::App& app) {
   studies->add_flag("--soak", options->soak, "A long run of everything, bad input included");
   studies->add_flag("--determinism", options->determinism,
                     "The same bits from 1 to 16 threads, again and again");
+  studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
+  command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--seconds", options->seconds, "How long --reader reads")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -82,8 +91,9 @@ void add_stress_command(CLI::App& app) {
   command
       ->add_option(
           "--frames", options->frames,
-          "How many frames --objects times and --determinism plays; by default 20 of the latter, and "
-          "more of smaller scenes. --soak takes as many in place of --minutes")
+          "How many frames --objects times, --determinism plays and --budgets steps each scene; by default "
+          "20 and 100 of the latter two, and more of smaller scenes. --soak takes as many in place of "
+          "--minutes")
       ->check(CLI::PositiveNumber);
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
       ->check(CLI::PositiveNumber)
