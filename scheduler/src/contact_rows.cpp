@@ -57,6 +57,14 @@ std::span<const Contact> from(std::span<const Contact> contacts, const Contact& 
 
 }  // namespace
 
+void ContactRows::take(std::vector<Contact>& list, ReportBuilder& report) {
+  const auto pair = std::find_if(pairs_.begin(), pairs_.end(),
+                                 [&](const Pair& each) { return each.contacts.data() == list.data(); });
+  if (pair == pairs_.end() || 2 * pair->contacts.size() < count_) return;
+  report.take(list, pair->first);
+  pair->contacts = report.contacts().subspan(pair->first, pair->contacts.size());
+}
+
 /// A task writes a range of rows of its own, whichever pairs they are of.
 void ContactRows::write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const {
   const std::size_t each = tasks.worker_count() > 1 ? contacts_each : std::max<std::size_t>(count_, 1);

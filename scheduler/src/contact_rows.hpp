@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "report_builder.hpp"
 #include "task_pool.hpp"
 
 namespace graze {
@@ -27,6 +28,8 @@ class ContactRows {
   void add_again(std::span<const Contact> contacts) { append({contacts, {}, true, count_}); }
   /// Of all pairs.
   [[nodiscard]] std::size_t count() const { return count_; }
+  /// Has the report take a list that is one of those added, where it is most of all: it is not copied then.
+  void take(std::vector<Contact>& list, ReportBuilder& report);
   /// Writes them into `rows`, of which there are `count()`, and since which frame they have been there.
   void write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const;
 

@@ -32,6 +32,10 @@ constexpr std::chrono::microseconds after_all{50};
 
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
+/// Of lists as long as these the report takes the longest as it is, and a job that is expected to have such a
+/// one finds it in the report's memory: otherwise there would be as much memory once more.
+constexpr std::size_t longest_copied = 65536;
+
 /// Lists as long as these stay where they were found: what is shorter is copied, so that it lies close by.
 constexpr std::size_t long_list = 4096;
 
@@ -132,6 +136,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
   }
   long_answers_.resize(std::max(long_answers_.size(), long_jobs_.size()));
   keep_time_back(previous.contacts().size(), report);
+  lend_memory(report);
   nearest_.begin(settings_.max_contacts.value_or(0));
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget)
@@ -139,6 +144,33 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
   else
     settings_.time_budget ? run_by_urgency() : run_group(order_);
   if (settings_.max_contacts) share_contacts(previous);
+}
+
+void PairJobs::lend_memory(ReportBuilder& report) {
+  lent_ = nullptr;
+  if (settings_.max_contacts || settings_.time_budget) return;
+  std::size_t longest = longest_copied;
+  for (const std::uint32_t index : order_) {
+    const PairReport* const last = jobs_[index].last;
+    if (last == nullptr || last->contact_count < longest) continue;
+    longest = last->contact_count;
+    lent_ = &report.contact_memory();
+    lent_to_ = index;
+  }
+}
+
+std::vector<Contact>* PairJobs::longest_list() {
+  if (settings_.max_contacts || settings_.time_budget) return nullptr;
+  std::vector<Contact>* longest = nullptr;
+  const auto look_at = [&](PairAnswer& answer) {
+    if (answer.contacts.size() >= (longest == nullptr ? longest_copied : longest->size()))
+      longest = &answer.contacts;
+  };
+  for (std::size_t i = 0; i < large_answer_count_; ++i) look_at(large_answers_[i]);
+  for (std::size_t i = 0; i < long_jobs_.size(); ++i) look_at(long_answers_[i]);
+  for (Worker& worker : workers_)
+    for (PairAnswer& answer : worker.too_long) look_at(answer);
+  return longest;
 }
 
 /// Which of all contacts are kept. Those of jobs that are not looked at have been found before. A pair that
@@ -215,6 +247,7 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
     PairDetector::outer_bounds(a, b, query, answer);
     return refer_to(large.job, answer, worker);
   }
+  if (lent_ != nullptr && large.job == lent_to_) answer.contacts.swap(*lent_);
   LeafFront& front = job.memory_to_write().front;
   large.front_bytes = front.byte_count();
   large.pair.begin(a, b, query, front, answer);
@@ -301,6 +334,7 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
   const Surface& b = job.b->surface();
   Worker& own = workers_[worker];
   PairAnswer& answer = answer_for(index, own);
+  if (lent_ != nullptr && index == lent_to_) answer.contacts.swap(*lent_);
   if (work_limit == 0 || is_late()) {
     PairDetector::outer_bounds(a, b, query, answer);
   } else {

@@ -32,6 +32,9 @@ class PairJobs {
   /// Of the job at that place, where it is looked at; until `even_out_memory`. Where all contacts are
   /// limited, of the others the contacts.
   [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
+  /// The longest list of contacts that was not copied, where it is so long that it better never is; otherwise
+  /// null.
+  [[nodiscard]] std::vector<Contact>* longest_list();
   [[nodiscard]] PairCounters counters() const;
 
   /// Makes room, so that a step like the last takes no memory, whichever worker gets what. The answers are
@@ -84,6 +87,7 @@ class PairJobs {
   void was_detected(const PairJob& job, const PairAnswer& answer) const;
   [[nodiscard]] PairAnswer& answer_for(std::uint32_t index, Worker& worker);
   void take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
+  void lend_memory(ReportBuilder& report);
   void refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker);
   void keep_time_back(std::size_t last_contacts, ReportBuilder& report);
   void share_contacts(const FrameReport& previous);
@@ -101,6 +105,8 @@ class PairJobs {
   std::uint64_t rules_version_ = 0;
   Clock::time_point deadline_ = PairQuery::no_deadline;  ///< for all but the contacts that are found
   std::atomic<std::size_t> contacts_found_{0};           ///< where there is a deadline
+  std::vector<Contact>* lent_ = nullptr;                 ///< the report's, for the answer of a job
+  std::uint32_t lent_to_ = 0;                            ///< that job
   NearestContacts nearest_;                              ///< of all jobs, where contacts are limited
   std::mutex report_mutex_;
   ReportBuilder* report_ = nullptr;     ///< where there is a deadline; `report_mutex_` guards it

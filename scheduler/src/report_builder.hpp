@@ -73,6 +73,21 @@ class ReportBuilder {
     resize_to_overwrite(report_.rows_.contacts, contact_count_of_pairs());
     return report_.rows_.contacts;
   }
+  /// The memory of its contacts, which may be used for something else until they are written.
+  std::vector<Contact>& contact_memory() { return report_.rows_.contacts; }
+  /// Takes a list of contacts together with its memory, when all pairs are there, and puts it where it
+  /// belongs, which begins at `first`. The list gets the memory that the report's contacts had.
+  void take(std::vector<Contact>& list, std::size_t first) {
+    auto& rows = report_.rows_.contacts;
+    rows.swap(list);
+    const auto end = static_cast<std::ptrdiff_t>(rows.size());
+    if (rows.capacity() < contact_count_of_pairs())
+      rows.reserve(with_room_to_spare(contact_count_of_pairs()));
+    rows.resize(contact_count_of_pairs(), Contact{});
+    if (first > 0)
+      std::move_backward(rows.begin(), rows.begin() + end,
+                         rows.begin() + static_cast<std::ptrdiff_t>(first) + end);
+  }
   /// Makes room for so many contacts in small pieces, as long as `goes_on()`; whether there is room then.
   template <typename GoesOn>
   bool make_room_while(std::size_t contacts, const GoesOn& goes_on) {

@@ -150,6 +150,7 @@ void Step::write_pairs(const PairList& list, const FrameReport& previous, Report
     write_pair(list.jobs[index], index, previous, builder);
   }
   for (; resting != list.resting.end(); ++resting) repeat_pairs(*resting, previous, builder);
+  if (std::vector<Contact>* const longest = jobs_.longest_list()) contacts_.take(*longest, builder);
   contacts_.write(tasks_, builder.contacts(), builder.frame());
   is_settled_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
 }
