@@ -140,7 +140,7 @@ StressResult run_budgets_study(const BudgetsOptions& options) {
                                    " vertices, threshold " + std::to_string(threshold) + ", budget " +
                                    std::to_string(budget);
           const double allowed = 1.1 * budget + 0.5;
-          const double longest = options.threads == 1 ? cpu.quantile(1) : wall.quantile(0.99);
+          const double longest = (options.threads == 1 ? cpu : wall).quantile(0.99);
           if (longest > allowed)
             result.violations.push_back(name + ": a step took " + std::to_string(longest) + " ms");
           if (measured.dishonest > 0)
