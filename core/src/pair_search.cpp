@@ -104,11 +104,14 @@ void PairSearch::go_on(Worker& worker) {
 
 void PairSearch::run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters) {
   Worker worker(*this, scratch, counters);
+  bool& complete = stage_ == Stage::ordered ? stretches_[index].complete : slices_[index].complete;
+  // Of those that come too late none need be begun, and none throws.
+  complete = !worker.time.is_set() || worker.time.left() > std::chrono::nanoseconds(0);
+  if (!complete) return;
   try {
-    worker.time.check();
     run(index, worker);
   } catch (const TimeIsUp&) {
-    (stage_ == Stage::ordered ? stretches_[index].complete : slices_[index].complete) = false;
+    complete = false;
   }
 }
 

@@ -19,6 +19,9 @@ void AllocationCount::end() {}
 std::uint64_t AllocationCount::by_tbb() {
   return 0;
 }
+std::uint64_t AllocationCount::by_exceptions() {
+  return 0;
+}
 std::uint64_t AllocationCount::by_others() {
   return 0;
 }
@@ -46,27 +49,42 @@ namespace {
 
 std::atomic<bool> is_counting{false};
 std::atomic<std::uint64_t> count_of_tbb{0};
+std::atomic<std::uint64_t> count_of_exceptions{0};
 std::atomic<std::uint64_t> count_of_others{0};
-std::uintptr_t tbb_begin = 0;
-std::uintptr_t tbb_end = 0;
+
+/// Where a library lies in memory.
+struct Library {
+  const char* name;
+  std::uintptr_t begin = 0;
+  std::uintptr_t end = 0;
+
+  [[nodiscard]] bool has(std::uintptr_t address) const { return address >= begin && address < end; }
+};
+Library tbb{"libtbb.so"};
+/// Its exceptions alone call malloc: all else in it calls operator new, which is replaced.
+Library standard{"libstdc++.so"};
 std::array<void*, 24> first_calls;
 int first_call_count = 0;
 
-/// Where oneTBB's library lies in memory.
-int find_tbb(dl_phdr_info* info, std::size_t, void*) {
-  if (std::strstr(info->dlpi_name, "libtbb.so") == nullptr) return 0;
-  tbb_begin = info->dlpi_addr;
-  for (int i = 0; i < info->dlpi_phnum; ++i)
-    if (info->dlpi_phdr[i].p_type == PT_LOAD)
-      tbb_end = std::max(tbb_end, info->dlpi_addr + info->dlpi_phdr[i].p_vaddr + info->dlpi_phdr[i].p_memsz);
-  return 1;
+int find(dl_phdr_info* info, std::size_t, void*) {
+  for (Library* const library : {&tbb, &standard}) {
+    if (std::strstr(info->dlpi_name, library->name) == nullptr) continue;
+    library->begin = info->dlpi_addr;
+    for (int i = 0; i < info->dlpi_phnum; ++i)
+      if (info->dlpi_phdr[i].p_type == PT_LOAD)
+        library->end =
+            std::max(library->end, info->dlpi_addr + info->dlpi_phdr[i].p_vaddr + info->dlpi_phdr[i].p_memsz);
+  }
+  return 0;
 }
 
 void count(const void* caller) {
   if (!is_counting.load(std::memory_order_relaxed)) return;
   const auto address = std::uintptr_t(caller);
-  if (address >= tbb_begin && address < tbb_end)
+  if (tbb.has(address))
     ++count_of_tbb;
+  else if (standard.has(address))
+    ++count_of_exceptions;
   else if (count_of_others.fetch_add(1) == 0)
     first_call_count = backtrace(first_calls.data(), static_cast<int>(first_calls.size()));
 }
@@ -79,9 +97,10 @@ bool AllocationCount::is_possible() {
 
 void AllocationCount::begin() {
   backtrace(first_calls.data(), 1);  // the first call of all loads a library
-  dl_iterate_phdr(find_tbb, nullptr);
+  dl_iterate_phdr(find, nullptr);
   first_call_count = 0;
   count_of_tbb = 0;
+  count_of_exceptions = 0;
   count_of_others = 0;
   is_counting = true;
 }
@@ -92,6 +111,10 @@ void AllocationCount::end() {
 
 std::uint64_t AllocationCount::by_tbb() {
   return count_of_tbb;
+}
+
+std::uint64_t AllocationCount::by_exceptions() {
+  return count_of_exceptions;
 }
 
 std::uint64_t AllocationCount::by_others() {

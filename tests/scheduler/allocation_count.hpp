@@ -16,8 +16,9 @@ class AllocationCount {
   static void begin();
   static void end();
 
-  /// What was counted: by oneTBB's library, and by all others.
+  /// What was counted: by oneTBB's library, for exceptions that were thrown, and by all others.
   static std::uint64_t by_tbb();
+  static std::uint64_t by_exceptions();
   static std::uint64_t by_others();
   /// Bytes that the allocator has given out now, to all the program; it need not be counting.
   static std::uint64_t held_bytes();
