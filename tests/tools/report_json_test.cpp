@@ -246,6 +246,8 @@ TEST_CASE("settings of every accuracy are kept") {
     settings.accuracy = accuracy;
     settings.work_budget = 12;
     settings.time_budget = std::chrono::microseconds(34);
+    settings.max_contacts = 56;
+    settings.max_contacts_per_pair = 7;
     ReportWriter(folder / "r.jsonl", {}, settings).close();
     const ReportReader reader(folder / "r.jsonl");
     CHECK(reader.settings().accuracy.mode() == accuracy.mode());
@@ -255,6 +257,8 @@ TEST_CASE("settings of every accuracy are kept") {
     CHECK(reader.settings().detail == settings.detail);
     CHECK(reader.settings().work_budget == settings.work_budget);
     CHECK(reader.settings().time_budget == settings.time_budget);
+    CHECK(reader.settings().max_contacts == settings.max_contacts);
+    CHECK(reader.settings().max_contacts_per_pair == settings.max_contacts_per_pair);
   }
 }
 
