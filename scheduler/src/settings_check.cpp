@@ -44,7 +44,8 @@ std::optional<std::string> problem_of(const SceneSettings& settings) {
     return "scene: paper accuracy goes with the details `regions` and `vertices` only";
   if (settings.time_budget && settings.time_budget->count() < 0) return "scene: time_budget is negative";
   if (settings.max_contacts == 0 || settings.max_contacts_per_pair == 0)
-    return "scene: max_contacts and max_contacts_per_pair are at least 1; ContactDetail::none lists no contacts";
+    return "scene: max_contacts and max_contacts_per_pair are at least 1; ContactDetail::none lists no "
+           "contacts";
   return std::nullopt;
 }
 

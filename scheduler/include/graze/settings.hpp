@@ -54,8 +54,8 @@ struct SceneSettings {
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;
   /// The same in region pairs, reproducibly.
   std::optional<std::uint64_t> work_budget = std::nullopt;
-  /// At most so many contacts a report has, of all pairs together: the nearest, by (distance as reported, order
-  /// of the pairs, kind and features). A pair that has more than are kept of it is reported with these,
+  /// At most so many contacts a report has, of all pairs together: the nearest, by (distance as reported,
+  /// order of the pairs, kind and features). A pair that has more than are kept of it is reported with these,
   /// `complete == false` and `contacts_cut`; its phase, distance and witness are those of all its contacts.
   /// Memory follows what is kept. At least 1.
   std::optional<std::size_t> max_contacts = std::nullopt;
