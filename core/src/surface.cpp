@@ -110,13 +110,16 @@ Surface::ReadResult Surface::take(const PartSeen& all) {
   return result;
 }
 
-/// Has memory for all positions in a precision.
+/// Has memory for all positions in a precision. Where there is none, nothing has changed.
 void Surface::own_positions(bool in_double) {
   const std::size_t count = mesh_->vertex_count();
+  if ((in_double ? in_double_.size() : in_float_.size()) != count) {
+    std::vector<Eigen::Vector3d> doubles(in_double ? count : 0, Eigen::Vector3d::Zero());
+    std::vector<Eigen::Vector3f> floats(in_double ? 0 : count, Eigen::Vector3f::Zero());
+    in_double_.swap(doubles);
+    in_float_.swap(floats);
+  }
   viewed_ = {};
-  if ((in_double ? in_double_.size() : in_float_.size()) == count) return;
-  in_double_ = std::vector<Eigen::Vector3d>(in_double ? count : 0, Eigen::Vector3d::Zero());
-  in_float_ = std::vector<Eigen::Vector3f>(in_double ? 0 : count, Eigen::Vector3f::Zero());
 }
 
 void Surface::end_view() {
@@ -430,6 +433,17 @@ void Surface::make_stretches() {
   if (has_stretches()) return;
   stretches_.make(positions());
   stretches_version_ = version_;
+}
+
+void Surface::forget_bounds() noexcept {
+  radii_ = {};
+  level_radii_ = {};
+  vertex_boxes_ = {};
+  face_boxes_ = {};
+  refits_ = {};
+  blocks_ = {};
+  stretches_ = {};
+  blocks_version_ = stretches_version_ = 0;
 }
 
 std::size_t Surface::byte_count() const {

@@ -31,7 +31,7 @@ constexpr std::array diagnostic_kinds{
     DiagnosticKind::stale_id,   DiagnosticKind::wrong_count,  DiagnosticKind::null_memory,
     DiagnosticKind::bad_pose,   DiagnosticKind::wrong_motion, DiagnosticKind::misaligned_memory,
     DiagnosticKind::not_finite, DiagnosticKind::too_large,    DiagnosticKind::broken_promise,
-    DiagnosticKind::bad_pair,   DiagnosticKind::bad_rule};
+    DiagnosticKind::bad_pair,   DiagnosticKind::bad_rule,     DiagnosticKind::out_of_memory};
 
 /// The enumerator whose name a JSON text is.
 template <typename Enumerators>

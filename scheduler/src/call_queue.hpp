@@ -27,7 +27,7 @@ class CallQueue {
     Chain(const Chain&) = delete;
     Chain& operator=(const Chain&) = delete;
 
-    /// Allocates where more calls wait than ever before, or were reserved.
+    /// Allocates where more calls wait than ever before, or were reserved. Where it throws nothing was added.
     template <typename OneCall>
     void add(OneCall&& call) {
       const std::uint32_t added = queue_.calls_.take();
@@ -62,18 +62,21 @@ class CallQueue {
       calls_.link(newest_taken_).store(oldest, std::memory_order_relaxed);
     newest_taken_ = newest;
   }
-  /// Calls `visit` with each call taken and not yet visited, in their order, and forgets it. One thread at a
-  /// time.
+  /// Calls `visit` with each call taken and not yet visited, in their order, and forgets it. Where a visit
+  /// throws, that call and those after it are the first of the next time. One thread at a time.
   template <typename Visitor>
   void visit_taken(const Visitor& visit) {
-    if (newest_taken_ == none) return;
-    const std::uint32_t newest = std::exchange(newest_taken_, none);
-    for (std::uint32_t call = oldest_taken_; call != none;
-         call = calls_.link(call).load(std::memory_order_relaxed)) {
+    Visited visited(calls_, oldest_taken_);
+    while (newest_taken_ != none) {
+      const std::uint32_t call = oldest_taken_;
       std::visit(visit, calls_[call]);
       calls_[call] = RemoveObject{};
+      visited.end_at(call);
+      if (call == newest_taken_)
+        newest_taken_ = none;
+      else
+        oldest_taken_ = calls_.link(call).load(std::memory_order_relaxed);
     }
-    calls_.give_back(oldest_taken_, newest);
   }
 
   /// Makes room for that many calls that wait at once.
@@ -82,6 +85,23 @@ class CallQueue {
 
  private:
   static constexpr std::uint32_t none = IndexPool<Call>::none;
+
+  /// The calls that have been visited, from the first on; gives them back together when it goes.
+  class Visited {
+   public:
+    Visited(IndexPool<Call>& calls, std::uint32_t first) : calls_(calls), first_(first) {}
+    ~Visited() {
+      if (last_ != none) calls_.give_back(first_, last_);
+    }
+    Visited(const Visited&) = delete;
+    Visited& operator=(const Visited&) = delete;
+    void end_at(std::uint32_t last) { last_ = last; }
+
+   private:
+    IndexPool<Call>& calls_;
+    std::uint32_t first_;
+    std::uint32_t last_ = none;
+  };
 
   void push(std::uint32_t newest, std::uint32_t oldest) noexcept {
     std::uint32_t seen = newest_.load(std::memory_order_relaxed);

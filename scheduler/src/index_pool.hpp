@@ -21,7 +21,8 @@ class IndexPool {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  /// Lends an element, as it was given back or, a new one, default-constructed.
+  /// Lends an element, as it was given back or, a new one, default-constructed. Where there is no memory for
+  /// that (std::bad_alloc), no index is used up.
   [[nodiscard]] std::uint32_t take() {
     std::uint64_t head = free_.load(std::memory_order_acquire);
     while (index_of(head) != none) {
@@ -33,8 +34,9 @@ class IndexPool {
       if (free_.compare_exchange_weak(head, head_of(next, tag_of(head) + 1), std::memory_order_acquire))
         return index_of(head);
     }
-    const std::uint32_t index = made_.fetch_add(1, std::memory_order_relaxed);
-    entries_.make(index);
+    std::uint32_t index = made_.load(std::memory_order_relaxed);
+    do entries_.make(index);
+    while (!made_.compare_exchange_weak(index, index + 1, std::memory_order_relaxed));
     return index;
   }
 
@@ -47,6 +49,8 @@ class IndexPool {
                                         std::memory_order_relaxed));
   }
 
+  /// Indices that were lent once are below this.
+  [[nodiscard]] std::uint32_t made_count() const noexcept { return made_.load(std::memory_order_relaxed); }
   /// An element that was lent once.
   [[nodiscard]] Element& operator[](std::uint32_t index) const noexcept { return entries_[index].element; }
   /// The same of any index: null where no element was made.

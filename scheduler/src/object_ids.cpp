@@ -1,6 +1,7 @@
 #include "object_ids.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace graze {
 namespace {
@@ -25,17 +26,22 @@ bool is_present(std::uint64_t state, std::uint32_t generation) {
 
 }  // namespace
 
-ObjectId ObjectIds::give(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+ObjectId ObjectIds::give(std::shared_ptr<const Mesh> mesh, ObjectSettings settings) {
   const std::uint32_t index = places_.take();
   Place& place = places_[index];
-  place.named.mesh = std::move(mesh);
-  place.named.settings = settings;
   const std::uint32_t generation = generation_of(place.state.load(std::memory_order_relaxed)) + 1;
   const std::uint64_t kind = settings.motion == Motion::deformable ? deformable : 0;
+  place.named.mesh = std::move(mesh);
+  place.named.settings = std::move(settings);
   // Nobody pins what is coming, so a plain store takes nothing away.
   place.state.store(std::uint64_t{generation} << 32 | coming | kind, std::memory_order_relaxed);
   count_.fetch_add(1, std::memory_order_relaxed);
   return {index, generation};
+}
+
+void ObjectIds::take_back(ObjectId object) noexcept {
+  count_.fetch_sub(1, std::memory_order_relaxed);
+  empty(object.index, object.generation);
 }
 
 void ObjectIds::publish(ObjectId object) noexcept {
@@ -85,15 +91,53 @@ void ObjectIds::unpin(std::uint32_t index) noexcept {
   // Release: what this thread read of the place was read before it is emptied; acquire, should it be the
   // last: so was what the others read.
   const std::uint64_t before = place.state.fetch_sub(1, std::memory_order_acq_rel);
-  if ((before & phase_mask) != gone || (before & pin_mask) != 1) return;
+  if ((before & phase_mask) == gone && (before & pin_mask) == 1) empty(index, generation_of(before));
+}
+
+/// Of a place that nobody else knows any more.
+void ObjectIds::empty(std::uint32_t index, std::uint32_t generation) noexcept {
+  Place& place = places_[index];
   place.named.mesh.reset();
   place.named.settings = {};
   place.named.spare_positions.clear(position_bytes_);
   place.named.binding.stands = false;
-  const std::uint32_t generation = generation_of(before);
+  place.lost.store(0, std::memory_order_relaxed);
   place.state.store(std::uint64_t{generation} << 32 | absent, std::memory_order_relaxed);
   // An index whose generations are used up is never given again.
   if (generation != std::numeric_limits<std::uint32_t>::max()) places_.give_back(index);
+}
+
+void ObjectIds::lose(std::uint32_t index, std::uint8_t lost) noexcept {
+  places_[index].lost.fetch_or(lost, std::memory_order_relaxed);
+  some_lost_.store(true, std::memory_order_release);
+}
+
+void ObjectIds::take_lost() noexcept {
+  if (!some_lost_.load(std::memory_order_relaxed) || !some_lost_.exchange(false, std::memory_order_acquire))
+    return;
+  for (std::uint32_t index = 0; index < places_.made_count(); ++index) {
+    Place* const place = places_.find(index);
+    if (place == nullptr) continue;
+    std::uint8_t lost = place->lost.exchange(0, std::memory_order_relaxed);
+    if (place->named.binding.stands) lost &= static_cast<std::uint8_t>(~LostCalls::binding);
+    if (lost == 0) continue;
+    place->taken = lost;
+    place->taken_generation = generation_of(place->state.load(std::memory_order_relaxed));
+    some_taken_ = true;
+  }
+}
+
+void ObjectIds::give_lost_back() noexcept {
+  if (!std::exchange(some_taken_, false)) return;
+  for (std::uint32_t index = 0; index < places_.made_count(); ++index) {
+    Place* const place = places_.find(index);
+    if (place == nullptr) continue;
+    const std::uint8_t taken = std::exchange(place->taken, std::uint8_t{0});
+    // What was lost of an object that has gone is of no account; one whose removal was lost is there still.
+    const bool is_there =
+        generation_of(place->state.load(std::memory_order_relaxed)) == place->taken_generation;
+    if (taken != 0 && is_there) lose(index, taken);
+  }
 }
 
 }  // namespace graze

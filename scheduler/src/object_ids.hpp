@@ -32,6 +32,15 @@ struct NamedObject {
   Binding binding;
 };
 
+/// What became of calls about an object for which there was no memory: bits of a number, which take none.
+struct LostCalls {
+  static constexpr std::uint8_t any = 1;      ///< one that is not taken up as it was made
+  static constexpr std::uint8_t motion = 2;   ///< its positions may have changed: no promise about it holds
+  static constexpr std::uint8_t binding = 4;  ///< the end of its binding
+  static constexpr std::uint8_t removal =
+      8;  ///< its removal; the place stays pinned until a step knows of it
+};
+
 /// Which ids name objects, answered and changed from any thread without a lock.
 ///
 /// Each index has a place that never moves. Its `state` holds, in one atomic word, the generation that uses
@@ -53,6 +62,8 @@ class ObjectIds {
     [[nodiscard]] explicit operator bool() const { return ids_ != nullptr; }
     [[nodiscard]] NamedObject& operator*() const { return ids_->places_[index_].named; }
     [[nodiscard]] NamedObject* operator->() const { return &**this; }
+    /// Leaves it pinned until its lost removal has been visited.
+    void keep() noexcept { ids_ = nullptr; }
 
    private:
     ObjectIds* ids_ = nullptr;
@@ -60,7 +71,9 @@ class ObjectIds {
   };
 
   /// A new id, which is not yet good.
-  [[nodiscard]] ObjectId give(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
+  [[nodiscard]] ObjectId give(std::shared_ptr<const Mesh> mesh, ObjectSettings settings);
+  /// Takes an id back that was not made good: nobody knows it.
+  void take_back(ObjectId object) noexcept;
   /// Makes it good; nothing where it is or was already.
   void publish(ObjectId object) noexcept;
   /// Ends it. False where another call did so first. The caller has it pinned.
@@ -71,6 +84,28 @@ class ObjectIds {
   /// What pin would say, for less.
   enum class Standing : std::uint8_t { stale, deformable, posed };
   [[nodiscard]] Standing standing(ObjectId object) const noexcept;
+
+  /// Notes what was lost about an object that is pinned.
+  void lose(std::uint32_t index, std::uint8_t lost) noexcept;
+  /// Takes what was lost until now for a step: it comes after the calls that the step takes up. As for
+  /// bindings Staging's lock is held, as it is where the end of one is lost: one that stands again is in a
+  /// later call.
+  void take_lost() noexcept;
+  /// Has the next step take that again.
+  void give_lost_back() noexcept;
+  /// Calls `visit(object, lost)` for what was taken of each object, and forgets it. Where a visit throws, it
+  /// is there still. Stepping thread only.
+  template <typename Visit>
+  void visit_lost(const Visit& visit) {
+    if (!some_taken_) return;
+    for (std::uint32_t index = 0; index < places_.made_count(); ++index) {
+      Place* const place = places_.find(index);
+      if (place == nullptr || place->taken == 0) continue;
+      visit(ObjectId{index, place->taken_generation}, place->taken);
+      if ((std::exchange(place->taken, std::uint8_t{0}) & LostCalls::removal) != 0) unpin(index);
+    }
+    some_taken_ = false;
+  }
 
   /// Ids given and not removed.
   [[nodiscard]] std::size_t count() const noexcept { return count_.load(std::memory_order_relaxed); }
@@ -88,13 +123,19 @@ class ObjectIds {
  private:
   struct Place {
     std::atomic<std::uint64_t> state{0};
+    std::atomic<std::uint8_t> lost{0};   ///< LostCalls about the object that is there
+    std::uint8_t taken = 0;              ///< and for the step at hand: the stepping thread's, as what follows
+    std::uint32_t taken_generation = 0;  ///< of the object of which that was lost
     NamedObject named;
   };
   void unpin(std::uint32_t index) noexcept;
+  void empty(std::uint32_t index, std::uint32_t generation) noexcept;
 
   SparePositions::ByteCount position_bytes_{0};  ///< goes after the places, whose buffers are counted in it
   IndexPool<Place> places_;
   std::atomic<std::size_t> count_{0};
+  std::atomic<bool> some_lost_{false};
+  bool some_taken_ = false;
 };
 
 }  // namespace graze

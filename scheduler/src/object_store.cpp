@@ -4,6 +4,8 @@
 #include <cmath>
 #include <graze/bytes_of.hpp>
 #include <graze/number_text.hpp>
+#include <new>
+#include <span>
 #include <utility>
 
 #include "look_slack.hpp"
@@ -25,21 +27,35 @@ std::string coordinates(const Eigen::Vector3d& point) {
   return text;
 }
 
+/// A diagnostic with what `message` makes, or without a message where there is no memory for it: what was
+/// taken of an object has to be read to its end.
+template <typename Message>
+Diagnostic diagnostic_of(const Object& object, DiagnosticKind kind, const Message& message) noexcept {
+  Diagnostic diagnostic{object.id, kind, {}};
+  try {
+    diagnostic.message = message();
+  } catch (const std::bad_alloc&) {
+    diagnostic.message.clear();
+  }
+  return diagnostic;
+}
+
 Diagnostic bad_vertex(const Object& object, const Surface::ReadResult& result, const char* consequence) {
   const bool finite = result.bad_position.allFinite();
-  return {object.id, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
-          name_of(object.id, object) + ": vertex " + std::to_string(result.bad_vertex) + " is at " +
-              coordinates(result.bad_position) + (finite ? ", beyond 2^120" : "") + "; " + consequence};
+  return diagnostic_of(object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite, [&] {
+    return name_of(object.id, object) + ": vertex " + std::to_string(result.bad_vertex) + " is at " +
+           coordinates(result.bad_position) + (finite ? ", beyond 2^120" : "") + "; " + consequence;
+  });
 }
 
 /// Says so where a vertex that moved so far, or further, broke a promise.
 std::optional<Diagnostic> check_promise(const Object& object, double displacement) {
   // The displacement is rounded; a promise kept to the last bit is not called broken.
   if (!(displacement > object.promised * round_up)) return std::nullopt;
-  return Diagnostic{object.id, DiagnosticKind::broken_promise,
-                    name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
-                        ", further than the " + number_text(object.promised) +
-                        " promised; all positions were read"};
+  return diagnostic_of(object, DiagnosticKind::broken_promise, [&] {
+    return name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
+           ", further than the " + number_text(object.promised) + " promised; all positions were read";
+  });
 }
 
 bool is_read_in_every_step(const Object& object) {
@@ -84,6 +100,12 @@ void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
   Surface& surface = object.surface_to_write();
   if (object.pose) return surface.write_pose(*object.pose, begin, end);
   surface.write_positions(object.positions ? PositionView(*object.positions) : *object.bound, begin, end);
+}
+
+/// Has room for one more, so that adding it does not throw.
+template <typename Element>
+void make_room_for_one(std::vector<Element>& elements) {
+  if (elements.size() == elements.capacity()) elements.reserve(2 * elements.size() + 1);
 }
 
 bool is_same(const Box& left, const Box& right) {
@@ -186,10 +208,10 @@ void finish_read(Object& object) {
 void view_memory(Object& object) {
   Surface& surface = object.surface_to_write();
   surface.view(*object.bound, object.box);
-  if (!object.in_parts) surface.make_blocks();
   object.unread = object.surveyed = object.to_view = false;
   object.viewed = true;
   object.version = surface.version();
+  if (!object.in_parts) surface.make_blocks();
 }
 
 Looked read_whole(Object& object) {
@@ -200,10 +222,7 @@ Looked read_whole(Object& object) {
   const std::uint32_t count = object.mesh->vertex_count();
   Looked looked = take_seen(object, look_at_part(object, 0, count));
   if (looked.to_write) write_part(object, 0, count);
-  if (object.to_survey && object.to_block && !object.frozen)
-    view_memory(object);
-  else if (object.to_block)
-    object.surface_to_write().make_blocks();
+  if (object.to_survey && object.to_block && !object.frozen) view_memory(object);
   finish_read(object);
   return looked;
 }
@@ -224,6 +243,10 @@ Object* ObjectStore::find(ObjectId id) {
 
 void ObjectStore::apply(AddObject& call) {
   auto object = std::make_unique<Object>();
+  make_room_for_one(serials_);
+  make_room_for_one(objects_);
+  if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
+  // From here on nothing throws.
   object->id = call.object;
   object->serial = next_serial_++;
   object->settings = std::move(call.settings);
@@ -233,7 +256,6 @@ void ObjectStore::apply(AddObject& call) {
   object->mesh = &object->surface().mesh();
   object->in_parts = object->mesh->vertex_count() > vertices_each;
   count_bytes(*object);
-  if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
   by_index_[call.object.index] = object.get();
   serials_.push_back(object->serial);
   objects_.push_back(std::move(object));
@@ -243,6 +265,7 @@ void ObjectStore::apply(AddObject& call) {
 void ObjectStore::apply(const RemoveObject& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
+  make_room_for_one(removed_);
   by_index_[call.object.index] = nullptr;
   surface_bytes_ -= object->counted_bytes;
   object->removed = true;
@@ -254,23 +277,24 @@ void ObjectStore::apply(const RemoveObject& call) {
 void ObjectStore::apply(const SetPose& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
-  object->pose = call.rows;
   expect_input(*object);
+  object->pose = call.rows;
 }
 
 void ObjectStore::apply(SetPositions& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
+  expect_input(*object);
   object->bound.reset();
   object->positions = std::move(call.positions);
   object->is_new = true;
   object->promise = call.max_displacement;
-  expect_input(*object);
 }
 
 void ObjectStore::apply(const BindPositions& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
+  expect_input(*object);
   object->positions.reset();
   object->bound = call.view;
   object->moved = true;  // it may be anywhere
@@ -279,13 +303,13 @@ void ObjectStore::apply(const BindPositions& call) {
   object->is_new = true;
   object->promise = std::numeric_limits<double>::infinity();
   object->promises = false;
-  expect_input(*object);
 }
 
 void ObjectStore::apply(UnbindPositions& call) {
   Object* const object = find(call.object);
   if (object == nullptr || !object->bound) return;
   if (call.positions) {
+    expect_input(*object);
     SetPositions last{call.object, std::move(call.positions)};
     return apply(last);
   }
@@ -303,12 +327,17 @@ void ObjectStore::apply(UnbindPositions& call) {
 
 void ObjectStore::apply(const PositionsChanged& call) {
   Object* const object = find(call.object);
-  if (object == nullptr || !object->bound) return;
+  if (object == nullptr) return;
+  if (!object->bound) {
+    // A call with positions may have been lost, so that what is promised later is not of those seen last.
+    if (std::isinf(call.max_displacement)) object->promised = call.max_displacement;
+    return;
+  }
+  expect_input(*object);
   object->told = true;
   object->is_new = true;
   object->promise = call.max_displacement;
   object->promises = object->promises || std::isfinite(call.max_displacement);
-  expect_input(*object);
 }
 
 void ObjectStore::reserve(std::size_t count) {
@@ -333,7 +362,26 @@ std::size_t ObjectStore::byte_count() const {
 }
 
 void ObjectStore::expect_input(Object& object) {
-  if (!std::exchange(object.may_have_input, true)) with_input_.push_back(&object);
+  if (object.may_have_input) return;
+  with_input_.push_back(&object);
+  object.may_have_input = true;
+}
+
+void ObjectStore::forget() noexcept {
+  for (const auto& object : objects_) {
+    if (object == nullptr) continue;
+    if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
+    object->surface_to_write().forget_bounds();
+    object->looked_at = object->asked_for_blocks = object->goes_by_lists = object->wanted = false;
+    object->to_block = object->to_view = object->to_survey = false;
+    object->asked = {};
+    object->promised = std::numeric_limits<double>::infinity();  // of which step is a promise made now?
+    object->may_have_input = false;
+    count_bytes(*object);
+  }
+  // Where the list was being gone through, some are in it twice; none is missing that has something to read.
+  std::erase_if(with_input_, [](Object* object) { return std::exchange(object->may_have_input, true); });
+  will_have_changed_ = true;
 }
 
 void ObjectStore::drop_removed() {
@@ -352,6 +400,7 @@ void ObjectStore::drop_removed() {
 }
 
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
+  tell_problems(diagnostics);  // those of a step that came to no end
   changed_ = std::exchange(will_have_changed_, false);
   drop_removed();
   begin_list();
@@ -430,9 +479,12 @@ void ObjectStore::read_small(std::size_t place) {
   const AccessScope access({AccessRight::write(&object), {}});
   Looked looked = read_whole(object);
   if (looked.changed) changed_.store(true, std::memory_order_relaxed);
-  if (!looked.problem) return;
-  read_problems_[place] = std::move(looked.problem);
-  some_problems_.store(true, std::memory_order_relaxed);
+  if (looked.problem) {
+    read_problems_[place] = std::move(looked.problem);
+    some_problems_.store(true, std::memory_order_relaxed);
+  }
+  // Last, since there may be no memory for it.
+  if (object.to_block && !object.viewed) object.surface_to_write().make_blocks();
 }
 
 void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
@@ -452,41 +504,67 @@ void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnost
       for (std::size_t place = begin; place < end; ++place) read_small(place);
     }
   });
-  problems_.clear();
-  const std::size_t looked_through = some_problems_.exchange(false) ? to_read_.size() : 0;
-  for (std::size_t place = 0; place < looked_through; ++place)
-    if (auto& problem = read_problems_[place]) {
-      problems_.emplace_back(to_read_[place]->serial, std::move(*problem));
-      problem.reset();
-    }
   take_large(tasks);
+  tell_problems(diagnostics);
+}
+
+/// Appends what the last read found wrong, in the objects' order. Where there is no memory for it, it is to
+/// be told still.
+void ObjectStore::tell_problems(std::vector<Diagnostic>& diagnostics) {
+  if (!some_problems_) return;
+  const auto gather = [&](const Object& object, std::optional<Diagnostic>& problem) {
+    if (!problem) return;
+    problems_.emplace_back(object.serial, std::move(*problem));
+    problem.reset();
+  };
+  for (std::size_t place = 0; place < std::min(to_read_.size(), read_problems_.size()); ++place)
+    gather(*to_read_[place], read_problems_[place]);
+  for (LargeObject& large : large_) gather(*large.object, large.problem);
   std::sort(problems_.begin(), problems_.end(),
             [](const auto& left, const auto& right) { return left.first < right.first; });
+  diagnostics.reserve(diagnostics.size() + problems_.size());
   for (auto& [serial, problem] : problems_) diagnostics.push_back(std::move(problem));
+  problems_.clear();
+  some_problems_ = false;
 }
 
 /// Takes what was seen of the large objects' parts, and writes those of the objects that changed.
 void ObjectStore::take_large(TaskPool& tasks) {
-  std::size_t part = 0;
+  std::size_t taken = 0;
   std::size_t to_write = 0;
-  for (const auto& [object, end] : large_) {
-    Surface::PartSeen all;
-    const std::size_t begin = part;
-    for (; part < end; ++part) all.add(parts_[part].seen);
-    Looked looked = take_seen(*object, all);
-    if (object->to_survey && object->to_block && !object->frozen) view_memory(*object);
-    if (looked.changed) changed_ = true;
-    if (looked.problem) problems_.emplace_back(object->serial, std::move(*looked.problem));
-    if (!looked.to_write) continue;
-    for (std::size_t place = begin; place < end; ++place) parts_[to_write++] = parts_[place];
+  const auto write_taken = [&] {
+    tasks.run(to_write, [&](unsigned, std::size_t item) {
+      // The last ones first, which are still in a cache.
+      const auto& [object, begin, count, seen] = parts_[to_write - 1 - item];
+      const AccessScope access({AccessRight::write(object), {}});
+      write_part(*object, begin, begin + count);
+    });
+    for (const LargeObject& large : std::span(large_).first(taken)) finish_read(*large.object);
+  };
+  try {
+    for (; taken < large_.size(); ++taken) take_parts(taken, to_write);
+  } catch (...) {
+    write_taken();  // what was taken has to be written, though there is no memory for the rest
+    throw;
   }
-  tasks.run(to_write, [&](unsigned, std::size_t item) {
-    // The last ones first, which are still in a cache.
-    const auto& [object, begin, count, seen] = parts_[to_write - 1 - item];
-    const AccessScope access({AccessRight::write(object), {}});
-    write_part(*object, begin, begin + count);
-  });
-  for (const auto& [object, end] : large_) finish_read(*object);
+  write_taken();
+}
+
+/// Takes what was seen of one of them, and lists its parts before `to_write` if they are to be written.
+void ObjectStore::take_parts(std::size_t place, std::size_t& to_write) {
+  auto& [object, end, problem] = large_[place];
+  const std::size_t begin = place == 0 ? 0 : large_[place - 1].end;
+  Surface::PartSeen all;
+  for (std::size_t part = begin; part < end; ++part) all.add(parts_[part].seen);
+  Looked looked = take_seen(*object, all);
+  if (object->to_survey && object->to_block && !object->frozen) view_memory(*object);
+  if (looked.changed) changed_ = true;
+  if (looked.problem) {
+    problem = std::move(looked.problem);
+    some_problems_ = true;
+  }
+  if (!looked.to_write) return;
+  for (std::size_t part = begin; part < end; ++part) parts_[to_write++] = parts_[part];
 }
 
 }  // namespace graze

@@ -94,6 +94,7 @@ class ObjectStore {
   /// as what is near something is read, and memory that is read in every step is viewed in place of that.
   explicit ObjectStore(bool with_blocks) : with_blocks_(with_blocks) {}
 
+  // Where one throws nothing has changed, and the call is as it was.
   void apply(AddObject& call);
   void apply(const RemoveObject& call);
   void apply(const SetPose& call);
@@ -111,6 +112,10 @@ class ObjectStore {
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
+
+  /// Forgets what steps have remembered of the objects, after one that came to no end, wherever that was.
+  /// What was read stays read, what was not is read in the next step.
+  void forget() noexcept;
 
   /// Whether anything may be otherwise than the step before saw it: which objects there are, where one is,
   /// and whether it is frozen or unread. After `read_positions`.
@@ -139,6 +144,7 @@ class ObjectStore {
   struct LargeObject {
     Object* object;
     std::size_t end;  ///< of its parts
+    std::optional<Diagnostic> problem = std::nullopt;
   };
 
   /// Has the object looked at in the next read.
@@ -151,6 +157,8 @@ class ObjectStore {
   void read_small(std::size_t place);
   void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   void take_large(TaskPool& tasks);
+  void take_parts(std::size_t place, std::size_t& to_write);
+  void tell_problems(std::vector<Diagnostic>& diagnostics);
 
   bool with_blocks_;
   std::vector<std::unique_ptr<Object>> objects_;  ///< null in the place of one removed, until the next read
@@ -161,14 +169,14 @@ class ObjectStore {
   std::vector<Object*> to_read_;     ///< small ones
   std::vector<LargeObject> large_;   ///< large ones
   std::vector<Part> parts_;          ///< of `large_`, one after the other
-  std::vector<std::optional<Diagnostic>> read_problems_;        ///< of `to_read_`; empty between reads
-  std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial
+  std::vector<std::optional<Diagnostic>> read_problems_;        ///< of `to_read_`; empty when they were told
+  std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial; likewise
   std::uint64_t next_serial_ = 0;
   std::uint64_t first_unseen_ = 0;  ///< the serial of the first object that no step has seen
   std::size_t surface_bytes_ = 0;
   std::size_t unread_count_ = 0;
   std::size_t surveyed_count_ = 0;
-  std::atomic<bool> some_problems_ = false;  ///< among `read_problems_`
+  std::atomic<bool> some_problems_ = false;  ///< were not told yet
   std::atomic<bool> changed_ = false;
   bool will_have_changed_ = false;  ///< at the next `read_positions`, whatever that sees
 };

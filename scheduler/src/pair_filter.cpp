@@ -39,6 +39,7 @@ void PairFilter::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule r
   if (rule_of_.empty()) rule_of_.assign(std::size_t{kind_count} * kind_count, 0);
   std::uint16_t& index = rule_of_[place_of(kind_a, kind_b)];
   if (index == 0) {
+    distances_.reserve(distances_.size() + 1);  // rules are few; after both there is no more to throw
     rules_.emplace_back();
     distances_.emplace_back();
     index = rule_of_[place_of(kind_b, kind_a)] = static_cast<std::uint16_t>(rules_.size());

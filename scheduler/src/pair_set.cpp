@@ -38,8 +38,9 @@ void PairSet::erase(const Pair& pair) {
 
 void PairSet::grow() {
   constexpr std::size_t least = 16;
+  std::vector<Pair> grown(std::max(least, 2 * places_.size()), nothing);
   kept_.swap(places_);
-  places_.assign(std::max(least, 2 * kept_.size()), nothing);
+  places_.swap(grown);
   for (const Pair& pair : kept_)
     if (pair != nothing) places_[find(pair)] = pair;
 }

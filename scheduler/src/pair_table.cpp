@@ -11,9 +11,6 @@ constexpr std::size_t ahead = 12;
 
 }  // namespace
 
-PairTable::PairTable(const SceneSettings& settings, ObjectStore& store)
-    : store_(store), filter_(settings), may_rest_(!settings.max_contacts) {}
-
 PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
                          StepStatistics& statistics) {
   const auto objects = store_.objects();
@@ -34,7 +31,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
 
 /// The pairs that the last report lists, by the places that their objects have now.
 void PairTable::find_listed(const FrameReport& previous) {
-  // Of another report where a step did not go through the pairs, or came to no end.
+  // Of another report where a step did not go through the pairs, or after one that came to no end.
   if (rows_frame_ != previous.frame()) return look_up_listed(previous);
   listed_.swap(rows_);
   const auto moves = summaries_.moves();

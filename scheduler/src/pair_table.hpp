@@ -18,7 +18,8 @@ namespace graze {
 /// numcd). Stepping thread only.
 class PairTable {
  public:
-  PairTable(const SceneSettings& settings, ObjectStore& store);
+  PairTable(const SceneSettings& settings, PairFilter& filter, ObjectStore& store)
+      : store_(store), filter_(filter), may_rest_(!settings.max_contacts) {}
 
   [[nodiscard]] PairFilter& filter() { return filter_; }
 
@@ -52,7 +53,7 @@ class PairTable {
   void add_row(PlacePair pair) { rows_.push_back({pair, static_cast<std::uint32_t>(rows_.size())}); }
 
   ObjectStore& store_;
-  PairFilter filter_;
+  PairFilter& filter_;
   const bool may_rest_;  ///< a pair may stand as it was without being looked at; not where all share contacts
   ObjectSummaries summaries_;
   BroadPhase broad_phase_;

@@ -44,6 +44,8 @@ std::string_view to_string(DiagnosticKind kind) {
       return "bad_pair";
     case DiagnosticKind::bad_rule:
       return "bad_rule";
+    case DiagnosticKind::out_of_memory:
+      return "out_of_memory";
   }
   return "unknown";
 }

@@ -113,6 +113,11 @@ class ReportBuilder {
     reserve_to_overwrite(report_.rows_.contacts, room.contacts);
     reserve_to_overwrite(report_.rows_.region_distances, room.region_distances);
   }
+  /// Lets go of its rows and their memory.
+  void release() noexcept {
+    report_.shown_ = &report_.rows_;
+    report_.rows_ = {};
+  }
   [[nodiscard]] ReportRoom room() const {
     return {report_.rows_.pairs.capacity(), report_.rows_.contacts.capacity(),
             report_.rows_.region_distances.capacity()};

@@ -32,15 +32,25 @@ FrameReport& ReportPool::begin() {
   if (found == slot_limit && slot_count_ == slot_limit)
     throw Error("scene: " + std::to_string(slot_count_) +
                 " reports are held by handles; let some go before the next step");
-  if (found == slot_limit) {
-    filling_ = add_slot();
-  } else {
-    free_count_.fetch_sub(1, std::memory_order_relaxed);
-    filling_ = found;
-    end_loan(found);  // its last reader may have let it go just now
+  const std::uint32_t free = found == slot_limit ? add_slot() : found;
+  make_room(free);
+  // From here on nothing throws.
+  filling_ = free;
+  free_count_.fetch_sub(1, std::memory_order_relaxed);
+  end_loan(free);  // its last reader may have let it go just now
+  return slot(free).report;
+}
+
+void ReportPool::cancel() noexcept {
+  end_loan(filling_);
+  free_count_.fetch_add(1, std::memory_order_relaxed);
+  room_ = {};
+  all_have_room_ = true;
+  for (std::uint32_t index = 0; index < slot_count_; ++index) {
+    if (!is_free(index)) continue;
+    ReportBuilder(slot(index).report).release();
+    count_bytes(index);
   }
-  make_room(filling_);
-  return slot(filling_).report;
 }
 
 void ReportPool::repeat_rows() {
@@ -95,11 +105,13 @@ bool ReportPool::has_room(std::uint32_t index) {
   return ReportBuilder(slot(index).report).room().covers(room_);
 }
 
+/// A free one.
 std::uint32_t ReportPool::add_slot() {
   if (slot_count_ % chunk_size == 0) {
     chunks_[slot_count_ / chunk_size] = std::make_unique<Chunk>();
     byte_count_ += sizeof(Chunk);
   }
+  free_count_.fetch_add(1, std::memory_order_relaxed);
   return slot_count_++;
 }
 
@@ -120,11 +132,12 @@ void ReportPool::even_out() {
   room_.include(needed);
   count_bytes(filling_);
   if (all_have_room_) return;
-  all_have_room_ = true;
+  bool all_have_room = true;
   for (std::uint32_t index = 0; index < slot_count_; ++index) {
     if (index != filling_ && is_free(index)) make_room(index);
-    all_have_room_ = all_have_room_ && has_room(index);
+    all_have_room = all_have_room && has_room(index);
   }
+  all_have_room_ = all_have_room;
 }
 
 void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
@@ -137,10 +150,7 @@ void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
   }
   // One is published and one is filled while the others are held.
   const std::size_t wanted = std::min<std::size_t>(held, slot_limit - 2) + 2;
-  for (; with_room < wanted && slot_count_ < slot_limit; ++with_room) {
-    make_room(add_slot());
-    free_count_.fetch_add(1, std::memory_order_relaxed);
-  }
+  for (; with_room < wanted && slot_count_ < slot_limit; ++with_room) make_room(add_slot());
 }
 
 ReportHandle ReportPool::publish() noexcept {

@@ -34,8 +34,11 @@ class ReportPool {
   /// The published report. Wait-free, from any thread while the scene lives.
   [[nodiscard]] ReportHandle latest() noexcept;
 
-  /// A report that nobody reads, to be filled. Stepping thread only. Throws Error when all slots are held.
+  /// A report that nobody reads, to be filled. Stepping thread only. Throws Error when all slots are held,
+  /// and std::bad_alloc; nothing has begun then.
   [[nodiscard]] FrameReport& begin();
+  /// Gives up filling the report of the last `begin`, and lets go of the memory of all that nobody reads.
+  void cancel() noexcept;
   /// Has the report of the last `begin` show the rows of the published one. Stepping thread only, as is all
   /// that follows.
   void repeat_rows();

@@ -1,14 +1,14 @@
 #include <atomic>
 #include <exception>
 #include <graze/error.hpp>
-#include <graze/floating_point_scope.hpp>
 #include <graze/scene.hpp>
+#include <memory>
 #include <utility>
 
 #include "report_pool.hpp"
 #include "settings_check.hpp"
 #include "staging.hpp"
-#include "step.hpp"
+#include "stepper.hpp"
 
 namespace graze {
 namespace {
@@ -31,14 +31,22 @@ class SteppingEnd {
  public:
   explicit SteppingEnd(Stepping stepping) : stepping_(std::move(stepping)) {}
   ~SteppingEnd() {
+    if (stepping_ == nullptr) return;
     stepping_->store(false, std::memory_order_release);
     stepping_->notify_all();
   }
   SteppingEnd(const SteppingEnd&) = delete;
   SteppingEnd& operator=(const SteppingEnd&) = delete;
+  /// Leaves it to another.
+  void leave() noexcept { stepping_ = nullptr; }
 
  private:
   Stepping stepping_;
+};
+
+/// The pool deletes itself when its scene and all handles are gone.
+struct PoolCloser {
+  void operator()(ReportPool* pool) const { pool->close(); }
 };
 
 }  // namespace
@@ -46,28 +54,16 @@ class SteppingEnd {
 class Scene::State {
  public:
   explicit State(const SceneSettings& given)
-      : settings(checked(given)), reports(ReportPool::create()), step(settings, staging, *reports) {}
-  ~State() {
-    stepping->wait(true, std::memory_order_acquire);
-    reports->close();
-  }
+      : settings(checked(given)), reports(ReportPool::create()), stepper(settings, staging, *reports) {}
+  ~State() { stepping->wait(true, std::memory_order_acquire); }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  ReportHandle run_step() {
-    const FloatingPointScope scope;
-    FrameReport& report = reports->begin();
-    const ReportHandle previous = reports->latest();
-    step.run(++frame, *previous, report);
-    return reports->publish();
-  }
-
   const SceneSettings settings;
   Staging staging;
-  ReportPool* const reports;  ///< deletes itself when the scene and all handles are gone
-  Step step;                  ///< goes before `staging`, to which its objects give buffers back
+  const std::unique_ptr<ReportPool, PoolCloser> reports;
+  Stepper stepper;  ///< goes before `staging`, to which its objects give buffers back
   const Stepping stepping = std::make_shared<std::atomic<bool>>(false);
-  std::uint64_t frame = 0;
   std::exception_ptr problem;  ///< of the last step_async
 };
 
@@ -149,24 +145,26 @@ void Scene::reserve(const SceneCapacity& capacity) {
 ReportHandle Scene::step() {
   begin_stepping(state_->stepping);
   const SteppingEnd end(state_->stepping);
-  state_->step.take_calls();
-  return state_->run_step();
+  state_->stepper.take_calls();
+  return state_->stepper.run();
 }
 
 void Scene::step_async() {
   begin_stepping(state_->stepping);
+  SteppingEnd unless_started(state_->stepping);
   State* const state = state_.get();
-  state->step.take_calls();
-  state->step.tasks().start([state] {
+  state->stepper.take_calls();
+  state->stepper.start([state] {
     // After this the scene may be gone.
     const SteppingEnd end(state->stepping);
     state->problem = nullptr;
     try {
-      (void)state->run_step();
+      (void)state->stepper.run();
     } catch (...) {
       state->problem = std::current_exception();
     }
   });
+  unless_started.leave();
 }
 
 bool Scene::is_stepping() const {

@@ -39,11 +39,12 @@ class SharedRoom {
   void even_out() {
     const std::size_t used = used_.exchange(0, std::memory_order_relaxed);
     if (used <= size_) return;
-    reserve(with_room_to_spare(used));
     for (auto& lists : beyond_) lists = {};
+    reserve(with_room_to_spare(used));
   }
   void reserve(std::size_t count) {
     if (size_ >= count) return;
+    size_ = 0;
     room_ = nullptr;  // first, so that both are never there at once
     room_ = std::make_unique_for_overwrite<std::byte[]>(count * sizeof(Element));
     size_ = count;

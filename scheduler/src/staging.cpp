@@ -26,16 +26,6 @@ void add_stale(CallQueue::Chain& calls, ObjectId object, const char* what) {
                   std::to_string(object.generation) + " names no object of this scene");
 }
 
-/// Whether there are as many `things` as objects; a diagnostic where not.
-bool check_sizes(CallQueue::Chain& calls, std::size_t objects, std::size_t things, const char* what,
-                 const char* name_of_things) {
-  if (objects == things) return true;
-  add_problem(calls, {}, DiagnosticKind::wrong_count,
-              std::string(what) + ": got " + std::to_string(objects) + " objects and " +
-                  std::to_string(things) + " " + name_of_things + "; none was taken");
-  return false;
-}
-
 /// Whether a view can be the positions of an object; a diagnostic where not.
 bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const PositionView& view,
                 const char* what) {
@@ -75,14 +65,62 @@ std::array<double, 12> rows_of(std::span<const double, 16> matrix) {
 
 }  // namespace
 
+// ---- What is lost
+
+void Staging::lose(ObjectId object, std::uint8_t lost) noexcept {
+  if (const ObjectIds::Pin pinned = ids_.pin(object))
+    ids_.lose(object.index, lost);
+  else
+    unnamed_lost_.store(true, std::memory_order_relaxed);
+}
+
+template <typename Make>
+void Staging::make_or_lose(ObjectId object, std::uint8_t lost, const Make& make) noexcept {
+  try {
+    make();
+  } catch (...) {
+    lose(object, lost);
+  }
+}
+
+void Staging::lose_binding(ObjectId object) noexcept {
+  if (const ObjectIds::Pin named = ids_.pin(object)) named->binding.stands = false;
+  lose(object, LostCalls::any | LostCalls::motion | LostCalls::binding);
+}
+
+Diagnostic Staging::lost_call(ObjectId object) {
+  const bool has_object = contains(object);
+  return {object, DiagnosticKind::out_of_memory,
+          (has_object ? name(object) + ": there was" : std::string("there was")) +
+              " no memory for a call, which was not taken up as it was made"};
+}
+
+void Staging::step_failed() noexcept {
+  const std::lock_guard lock(bindings_);
+  ids_.give_lost_back();
+  if (failed_ + 1 != steps_) failed_after_ = steps_ - 1;
+  failed_ = steps_;
+}
+
+bool Staging::has_step_read(const Binding& binding) const {
+  return binding.steps_before < (failed_ == steps_ ? failed_after_ : steps_);
+}
+
+// ---- Calls
+
 ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
   if (mesh == nullptr) throw Error("object '" + settings.name + "': there is no mesh");
   if (const auto problem = problem_of(settings)) throw Error(*problem);
   const FloatingPointScope scope;
-  auto surface = std::make_unique<Surface>(mesh);
-  const ObjectId object = ids_.give(std::move(mesh), settings);
+  AddObject call{{}, std::make_unique<Surface>(mesh), settings};
+  const ObjectId object = call.object = ids_.give(std::move(mesh), settings);
   Calls calls(queue_);
-  calls.add(AddObject{object, std::move(surface), settings});
+  try {
+    calls.add(std::move(call));
+  } catch (...) {
+    ids_.take_back(object);
+    throw;
+  }
   // The id becomes good when the object's addition is queued, so that nothing said of it comes before.
   calls.push();
   ids_.publish(object);
@@ -90,18 +128,25 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
 }
 
 void Staging::remove(ObjectId object) {
-  const ObjectIds::Pin pinned = ids_.pin(object);
+  ObjectIds::Pin pinned = ids_.pin(object);
   Calls calls(queue_);
-  if (!pinned || !ids_.remove(object)) return add_stale(calls, object, "remove");
+  if (!pinned || !ids_.remove(object))
+    return make_or_lose(object, LostCalls::any, [&] { add_stale(calls, object, "remove"); });
   end_binding(*pinned);
   // Queued while pinned, and so before the index is given again: the removal comes before its next addition.
-  calls.add(RemoveObject{object});
+  try {
+    calls.add(RemoveObject{object});
+  } catch (...) {
+    const std::lock_guard lock(bindings_);  // so that a step which takes this has taken the addition
+    ids_.lose(object.index, LostCalls::removal);
+    pinned.keep();
+  }
 }
 
 void Staging::set_pose(ObjectId object, const std::array<double, 12>& rows) {
   const FloatingPointScope scope;
   Calls calls(queue_);
-  add_pose(calls, object, rows);
+  make_or_lose(object, LostCalls::any, [&] { add_pose(calls, object, rows); });
 }
 
 void Staging::set_poses(std::span<const ObjectId> objects, std::span<const double> matrices) {
@@ -109,7 +154,8 @@ void Staging::set_poses(std::span<const ObjectId> objects, std::span<const doubl
   Calls calls(queue_);
   if (!check_sizes(calls, objects.size(), matrices.size() / 16, "set_poses", "poses")) return;
   for (std::size_t i = 0; i < objects.size(); ++i)
-    add_pose(calls, objects[i], rows_of(matrices.subspan(16 * i).first<16>()));
+    make_or_lose(objects[i], LostCalls::any,
+                 [&] { add_pose(calls, objects[i], rows_of(matrices.subspan(16 * i).first<16>())); });
 }
 
 void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows) {
@@ -127,7 +173,7 @@ void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 1
 void Staging::set_positions(ObjectId object, const PositionView& positions, double max_displacement) {
   const FloatingPointScope scope;
   Calls calls(queue_);
-  add_positions(calls, object, positions, max_displacement);
+  try_positions(calls, object, positions, max_displacement);
 }
 
 void Staging::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
@@ -136,7 +182,17 @@ void Staging::set_positions(std::span<const ObjectId> objects, std::span<const P
   Calls calls(queue_);
   if (!check_sizes(calls, objects.size(), positions.size(), "set_positions", "views of positions")) return;
   for (std::size_t i = 0; i < objects.size(); ++i)
-    add_positions(calls, objects[i], positions[i], max_displacement);
+    try_positions(calls, objects[i], positions[i], max_displacement);
+}
+
+void Staging::try_positions(Calls& calls, ObjectId object, const PositionView& positions,
+                            double max_displacement) noexcept {
+  try {
+    add_positions(calls, object, positions, max_displacement);
+  } catch (...) {
+    const std::lock_guard lock(bindings_);
+    lose_binding(object);
+  }
 }
 
 void Staging::add_positions(Calls& calls, ObjectId object, const PositionView& positions,
@@ -167,7 +223,7 @@ SparePositions::Loan Staging::copy_good(Calls& calls, ObjectId object, NamedObje
 void Staging::bind_positions(ObjectId object, const PositionView& positions, BindPolicy policy) {
   const std::lock_guard lock(bindings_);
   Calls calls(queue_);
-  add_binding(calls, object, positions, policy);
+  try_binding(calls, object, positions, policy);
 }
 
 void Staging::bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
@@ -175,7 +231,16 @@ void Staging::bind_positions(std::span<const ObjectId> objects, std::span<const 
   const std::lock_guard lock(bindings_);
   Calls calls(queue_);
   if (!check_sizes(calls, objects.size(), positions.size(), "bind_positions", "views of positions")) return;
-  for (std::size_t i = 0; i < objects.size(); ++i) add_binding(calls, objects[i], positions[i], policy);
+  for (std::size_t i = 0; i < objects.size(); ++i) try_binding(calls, objects[i], positions[i], policy);
+}
+
+void Staging::try_binding(Calls& calls, ObjectId object, const PositionView& positions,
+                          BindPolicy policy) noexcept {
+  try {
+    add_binding(calls, object, positions, policy);
+  } catch (...) {
+    lose_binding(object);
+  }
 }
 
 void Staging::add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy) {
@@ -183,24 +248,32 @@ void Staging::add_binding(Calls& calls, ObjectId object, const PositionView& pos
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "bind_positions");
   if (!check_view(calls, object, *named, positions, "bind_positions")) return;
+  calls.add(BindPositions{object, positions, policy});
   named->binding.view = positions;
   named->binding.policy = policy;
   named->binding.steps_before = steps_;
   named->binding.stands = true;
-  calls.add(BindPositions{object, positions, policy});
 }
 
 void Staging::unbind_positions(ObjectId object) {
   const FloatingPointScope scope;
   const std::lock_guard lock(bindings_);
   Calls calls(queue_);
+  try {
+    add_unbinding(calls, object);
+  } catch (...) {
+    lose_binding(object);
+  }
+}
+
+void Staging::add_unbinding(Calls& calls, ObjectId object) {
   if (!check_deformable(calls, object, "unbind_positions")) return;
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "unbind_positions");
   UnbindPositions call{object, {}};
   Binding& binding = named->binding;
   // What the next step would have read.
-  const bool is_due = binding.policy == BindPolicy::every_step || binding.steps_before == steps_;
+  const bool is_due = binding.policy == BindPolicy::every_step || !has_step_read(binding);
   if (binding.stands.exchange(false) && is_due) {
     call.positions =
         copy_good(calls, object, *named, binding.view, "it stands still until it is given good positions");
@@ -217,29 +290,36 @@ void Staging::end_binding(NamedObject& object) {
 
 void Staging::positions_changed(ObjectId object, double max_displacement) {
   Calls calls(queue_);
-  add_change(calls, object, max_displacement);
+  try_change(calls, object, max_displacement);
 }
 
 void Staging::positions_changed(std::span<const ObjectId> objects, double max_displacement) {
   Calls calls(queue_);
-  for (const ObjectId object : objects) add_change(calls, object, max_displacement);
+  for (const ObjectId object : objects) try_change(calls, object, max_displacement);
 }
 
 void Staging::positions_changed(std::span<const ObjectId> objects,
                                 std::span<const double> max_displacements) {
   Calls calls(queue_);
   if (!check_sizes(calls, objects.size(), max_displacements.size(), "positions_changed", "promises")) return;
-  for (std::size_t i = 0; i < objects.size(); ++i) add_change(calls, objects[i], max_displacements[i]);
+  for (std::size_t i = 0; i < objects.size(); ++i) try_change(calls, objects[i], max_displacements[i]);
 }
 
-void Staging::add_change(Calls& calls, ObjectId object, double max_displacement) {
-  if (check_deformable(calls, object, "positions_changed"))
-    calls.add(PositionsChanged{object, promise_of(calls, object, max_displacement, "positions_changed")});
+/// Where there is no memory for it, the positions are read all the same.
+void Staging::try_change(Calls& calls, ObjectId object, double max_displacement) noexcept {
+  make_or_lose(object, LostCalls::any | LostCalls::motion, [&] {
+    if (check_deformable(calls, object, "positions_changed"))
+      calls.add(PositionsChanged{object, promise_of(calls, object, max_displacement, "positions_changed")});
+  });
 }
 
 void Staging::set_ignored(ObjectId a, ObjectId b, bool ignored) {
-  const char* const what = ignored ? "ignore" : "watch";
   Calls calls(queue_);
+  make_or_lose(a, LostCalls::any, [&] { add_ignored(calls, a, b, ignored); });
+}
+
+void Staging::add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored) {
+  const char* const what = ignored ? "ignore" : "watch";
   for (const ObjectId object : {a, b})
     if (!contains(object)) return add_stale(calls, object, what);
   if (a == b)
@@ -250,9 +330,12 @@ void Staging::set_ignored(ObjectId a, ObjectId b, bool ignored) {
 
 void Staging::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
   Calls calls(queue_);
-  if (const auto problem = problem_of(kind_a, kind_b, rule))
-    return add_problem(calls, {}, DiagnosticKind::bad_rule, *problem + "; the rule was not taken");
-  calls.add(SetRule{kind_a, kind_b, rule});
+  make_or_lose({}, LostCalls::any, [&] {
+    if (const auto problem = problem_of(kind_a, kind_b, rule))
+      add_problem(calls, {}, DiagnosticKind::bad_rule, *problem + "; the rule was not taken");
+    else
+      calls.add(SetRule{kind_a, kind_b, rule});
+  });
 }
 
 void Staging::reserve(const SceneCapacity& capacity) {
@@ -260,6 +343,17 @@ void Staging::reserve(const SceneCapacity& capacity) {
   queue_.reserve(capacity.calls_per_step);
   Calls calls(queue_);
   calls.add(Reserve{capacity});
+}
+
+bool Staging::check_sizes(Calls& calls, std::size_t objects, std::size_t things, const char* what,
+                          const char* name_of_things) noexcept {
+  if (objects == things) return true;
+  make_or_lose({}, LostCalls::any, [&] {
+    add_problem(calls, {}, DiagnosticKind::wrong_count,
+                std::string(what) + ": got " + std::to_string(objects) + " objects and " +
+                    std::to_string(things) + " " + name_of_things + "; none was taken");
+  });
+  return false;
 }
 
 bool Staging::check_deformable(Calls& calls, ObjectId object, const char* what) {

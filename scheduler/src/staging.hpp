@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <graze/mesh.hpp>
@@ -8,6 +9,7 @@
 #include <graze/position_view.hpp>
 #include <graze/report.hpp>
 #include <graze/settings.hpp>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -26,9 +28,13 @@ namespace graze {
 ///
 /// The forms for many objects mean the same as single calls in the order of the spans, of which no other
 /// thread's calls come in between; spans that do not fit together are a diagnostic and nothing is taken.
+///
+/// Calls other than `add` and `reserve` never throw. Where there is no memory for one, a bit is set that
+/// takes none (LostCalls), and the next step says so; nothing is read through a binding that such a call was
+/// to end.
 class Staging {
  public:
-  /// Throws Error for no mesh or bad settings.
+  /// Throws Error for no mesh or bad settings, and std::bad_alloc; nothing has changed then.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
   void remove(ObjectId object);
   void set_pose(ObjectId object, const std::array<double, 12>& rows);
@@ -61,9 +67,13 @@ class Staging {
   void take() {
     const std::lock_guard lock(bindings_);
     queue_.take();
+    ids_.take_lost();
     ++steps_;
   }
-  /// Calls `visit` with each call taken and not yet visited, in their order. Stepping thread only.
+  /// The step that took calls last came to no end: those it has not visited are for the next one.
+  void step_failed() noexcept;
+  /// Calls `visit` with each call taken and not yet visited, in their order. Where a visit throws, that call
+  /// is the first of the next time. Stepping thread only.
   template <typename Visitor>
   void visit_taken(const Visitor& visit) {
     queue_.visit_taken([&](auto& call) {
@@ -71,20 +81,57 @@ class Staging {
       if constexpr (std::is_same_v<decltype(call), AddObject&>) ids_.publish(call.object);
       visit(call);
     });
+    ids_.visit_lost([&](ObjectId object, std::uint8_t lost) { visit_lost(visit, object, lost); });
+    if (unnamed_lost_.load(std::memory_order_relaxed)) {
+      visit_made(visit, lost_call({}));
+      unnamed_lost_.store(false, std::memory_order_relaxed);
+    }
   }
 
  private:
   using Calls = CallQueue::Chain;
 
-  // Each checks one call and adds it, or a diagnostic in its place, to `calls`.
+  /// What stands for lost calls about an object.
+  template <typename Visitor>
+  void visit_lost(const Visitor& visit, ObjectId object, std::uint8_t lost) {
+    if ((lost & LostCalls::any) != 0) visit_made(visit, lost_call(object));
+    if ((lost & LostCalls::motion) != 0)
+      visit_made(visit, PositionsChanged{object, std::numeric_limits<double>::infinity()});
+    if ((lost & LostCalls::binding) != 0) visit_made(visit, UnbindPositions{object, {}, true});
+    if ((lost & LostCalls::removal) != 0) visit_made(visit, RemoveObject{object});
+  }
+  template <typename Visitor, typename OneCall>
+  static void visit_made(const Visitor& visit, OneCall call) {
+    visit(call);
+  }
+  /// Says that a call about an object, or about none, was lost.
+  [[nodiscard]] Diagnostic lost_call(ObjectId object);
+  /// Does `make`, or notes what is lost where there is no memory for it.
+  template <typename Make>
+  void make_or_lose(ObjectId object, std::uint8_t lost, const Make& make) noexcept;
+  void lose(ObjectId object, std::uint8_t lost) noexcept;
+  /// The same of a call that ends the binding of an object: nothing is read through it any more.
+  void lose_binding(ObjectId object) noexcept;
+  [[nodiscard]] bool has_step_read(const Binding& binding) const;
+
+  // Each checks one call and adds it, or a diagnostic in its place, to `calls`; those that try note what is
+  // lost where there is no memory for that.
   void add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows);
   void add_positions(Calls& calls, ObjectId object, const PositionView& positions, double max_displacement);
+  void try_positions(Calls& calls, ObjectId object, const PositionView& positions,
+                     double max_displacement) noexcept;
   /// A copy of positions; none, and a diagnostic, where one is not finite or beyond 2^120.
   SparePositions::Loan copy_good(Calls& calls, ObjectId object, NamedObject& named, const PositionView& view,
                                  const char* consequence);
   void add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy);
-  void add_change(Calls& calls, ObjectId object, double max_displacement);
+  void try_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy) noexcept;
+  void add_unbinding(Calls& calls, ObjectId object);
+  void try_change(Calls& calls, ObjectId object, double max_displacement) noexcept;
+  void add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored);
 
+  /// Whether there are as many `things` as objects; a diagnostic where not.
+  bool check_sizes(Calls& calls, std::size_t objects, std::size_t things, const char* what,
+                   const char* name_of_things) noexcept;
   /// Whether an id names a deformable object; a diagnostic where not. `what` is the call's name.
   bool check_deformable(Calls& calls, ObjectId object, const char* what);
   /// `max_displacement`, or no promise and a diagnostic where it is none.
@@ -100,6 +147,10 @@ class Staging {
   /// Held until the calls that bind or unbind have entered the queue, and while calls are taken out of it.
   std::mutex bindings_;
   std::uint64_t steps_ = 0;  ///< that have taken calls
+  // Of the last steps, those after `failed_after_` up to `failed_` came to no end.
+  std::uint64_t failed_after_ = 0;
+  std::uint64_t failed_ = 0;
+  std::atomic<bool> unnamed_lost_{false};  ///< calls about no object
 };
 
 }  // namespace graze

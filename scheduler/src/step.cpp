@@ -1,6 +1,7 @@
 #include "step.hpp"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "report_rows.hpp"
@@ -38,23 +39,34 @@ class Lap {
   std::chrono::steady_clock::time_point last_;
 };
 
+bool is_nothing(const SceneCapacity& capacity) {
+  return capacity.objects == 0 && capacity.near_pairs == 0 && capacity.contacts == 0 && capacity.reports == 0;
+}
+
+/// The largest of each number.
+SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
+  return {std::max(left.objects, right.objects), std::max(left.calls_per_step, right.calls_per_step),
+          std::max(left.near_pairs, right.near_pairs), std::max(left.contacts, right.contacts),
+          std::max(left.reports, right.reports)};
+}
+
 }  // namespace
 
-Step::Step(const SceneSettings& settings, Staging& staging, ReportPool& reports)
+Step::Step(const SceneSettings& settings, SceneContent& content, Staging& staging, ReportPool& reports)
     : settings_(settings),
+      content_(content),
       staging_(staging),
       reports_(reports),
-      tasks_(settings.threads, settings.arena),
-      store_(wants_blocks(settings.detail, settings.accuracy.mode()) && settings.region_distances == 0),
-      pairs_(settings, store_),
+      tasks_(content.tasks),
+      store_(content.store),
+      pairs_(settings, content.filter, store_),
       refit_(settings, tasks_),
       jobs_(settings, tasks_) {}
 
-void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& report) {
+void Step::run(const FrameReport& previous, FrameReport& report) {
   const Clock::time_point start = Clock::now();
   Lap lap(start);
   ReportBuilder builder(report);
-  builder.begin(frame);
   StepStatistics& statistics = builder.statistics();
 
   take_up_calls(builder.diagnostics());
@@ -71,8 +83,7 @@ void Step::run(std::uint64_t frame, const FrameReport& previous, FrameReport& re
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
-    jobs_.even_out_memory();
-    reports_.even_out();
+    even_out();
     count_bytes_of_pairs(list.jobs, statistics);
   }
   statistics.objects_unread = store_.unread_count();
@@ -103,7 +114,8 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
                  },
                  [&](Reserve& call) {
                    is_settled_ = false;  // a step that repeats rows does not count what is made room for
-                   reserve(call.capacity);
+                   // Where there is no memory for it, it is not tried again: the scene may do without.
+                   reserve(std::exchange(call.capacity, {}));
                  },
                  [&](AddObject& added) {
                    if (is_reserved_) make_ready(*added.surface);
@@ -113,10 +125,15 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
 }
 
 void Step::reserve(const SceneCapacity& capacity) {
+  if (is_nothing(capacity)) return;
   store_.reserve(capacity.objects);
   reports_.reserve(capacity.reports, {capacity.near_pairs, capacity.contacts,
                                       capacity.near_pairs > 0 ? settings_.region_distances : 0});
-  if (capacity.near_pairs == 0) return;
+  if (capacity.near_pairs > 0) reserve_for_pairs(capacity);
+  content_.reserved = both(content_.reserved, capacity);
+}
+
+void Step::reserve_for_pairs(const SceneCapacity& capacity) {
   is_reserved_ = true;
   pairs_.reserve(std::max(capacity.objects, store_.objects().size()), capacity.near_pairs,
                  room_for(capacity, settings_.detail));
@@ -221,6 +238,17 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
   // Of objects without pairs.
   statistics.boxes_tested = statistics.objects_in_slack = 0;
   is_settled_ = true;
+}
+
+/// Makes room for steps like this one. It is complete without: where there is no memory for that, later steps
+/// take some.
+void Step::even_out() {
+  try {
+    jobs_.even_out_memory();
+    reports_.even_out();
+  } catch (const std::bad_alloc&) {
+    return;
+  }
 }
 
 void Step::sum_counters(StepStatistics& statistics) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <graze/floating_point_scope.hpp>
 #include <utility>
 
@@ -43,22 +44,33 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
   // Each task is a worker that takes the next item until none is left. Items write to places of their own, so
   // which worker takes which does not show in the result.
   std::atomic<std::size_t> next{0};
-  const auto run_workers = [&] {
-    oneapi::tbb::parallel_for(
-        0U, workers,
-        [&](unsigned worker) {
-          const FloatingPointScope scope;
-          const AccessScope nothing({});
-          for (std::size_t item = next.fetch_add(1, std::memory_order_relaxed); item < count;
-               item = next.fetch_add(1, std::memory_order_relaxed))
-            work(worker, item);
-        },
-        oneapi::tbb::simple_partitioner());
+  std::atomic<bool> has_failed{false};
+  std::exception_ptr problem;
+  // What an item throws goes past oneTBB, which would need memory to pass it on.
+  const auto run_worker = [&](unsigned worker) {
+    const FloatingPointScope scope;
+    const AccessScope nothing({});
+    try {
+      for (std::size_t item = next.fetch_add(1, std::memory_order_relaxed);
+           item < count && !has_failed.load(std::memory_order_relaxed);
+           item = next.fetch_add(1, std::memory_order_relaxed))
+        work(worker, item);
+    } catch (...) {
+      if (!has_failed.exchange(true)) problem = std::current_exception();
+    }
   };
-  if (arena_) return arena_->arena.execute(run_workers);
-  // In the caller's arena a thread that waits must not take up the caller's own tasks in the middle of a
-  // step.
-  oneapi::tbb::this_task_arena::isolate(run_workers);
+  const auto run_workers = [&] {
+    oneapi::tbb::parallel_for(0U, workers, run_worker, oneapi::tbb::simple_partitioner());
+  };
+  try {
+    // In the caller's arena a thread that waits must not take up the caller's own tasks in the middle of a
+    // step.
+    arena_ ? arena_->arena.execute(run_workers) : oneapi::tbb::this_task_arena::isolate(run_workers);
+  } catch (...) {
+    // oneTBB could not get memory for its tasks. Those that it began have ended; this thread does the rest.
+    run_worker(0);
+  }
+  if (problem) std::rethrow_exception(problem);
 }
 
 void TaskPool::start(std::function<void()> work) {

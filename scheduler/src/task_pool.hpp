@@ -22,10 +22,11 @@ class TaskPool {
 
   /// Calls `work(worker, item)` for every item below `count`, each once. Items are begun in ascending order;
   /// the calls of one worker never overlap. Every worker computes in a FloatingPointScope, and
-  /// with no AccessRights but those that `work` declares.
+  /// with no AccessRights but those that `work` declares. Throws what a call throws; then some items may not
+  /// have been begun. Where oneTBB has no memory for tasks, the calling thread does all that is left.
   void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work);
 
-  /// Calls `work` on another thread, once; it must not throw.
+  /// Calls `work` on another thread, once; it must not throw. Throws where oneTBB cannot begin it.
   void start(std::function<void()> work);
 
  private:

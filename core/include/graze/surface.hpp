@@ -72,7 +72,8 @@ class GRAZE_API Surface {
   /// How ReadResult::displacement is found: a bound of the sort takes one quick pass, and is at most √3 times
   /// too large, or infinite where positions come in another precision than before.
   enum class Displacement : std::uint8_t { exact, bound };
-  /// Takes all of `view`, which has one position for each vertex, or nothing. Unused vertices are not read.
+  /// Takes all of `view`, which has one position for each vertex, or nothing, also where there is no memory
+  /// for it (std::bad_alloc). Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
   /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
   ReadResult set_pose(const std::array<double, 12>& rows);
@@ -157,6 +158,9 @@ class GRAZE_API Surface {
   void make_stretches();
   [[nodiscard]] const VertexStretches& stretches() const { return stretches_; }
   [[nodiscard]] bool has_stretches() const { return stretches_version_ == version_; }
+
+  /// Lets go of all bounds, blocks and stretches, and of their memory: those of now are made anew.
+  void forget_bounds() noexcept;
 
   /// Of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }

@@ -49,6 +49,7 @@ enum class DiagnosticKind : std::uint8_t {
   broken_promise,     ///< a vertex moved further than max_displacement
   bad_pair,           ///< a pair of an object with itself
   bad_rule,           ///< a kind above 255, or a threshold that is negative or NaN
+  out_of_memory,      ///< there was no memory for a call
 };
 
 /// The enumerator's own name.

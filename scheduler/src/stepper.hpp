@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <graze/report.hpp>
+#include <graze/settings.hpp>
+#include <memory>
+#include <vector>
+
+#include "report_pool.hpp"
+#include "scene_content.hpp"
+#include "staging.hpp"
+#include "step.hpp"
+
+namespace graze {
+
+/// Takes the steps of a scene, one after the other. Stepping thread only.
+///
+/// A step that throws, wherever that is, leaves the last report published and the scene's content whole:
+/// calls it has taken up are done, the others and what it had to say of input are for the next step. All that
+/// steps remember of pairs and bounds is forgotten at once, with its memory; the next step makes it anew from
+/// where the objects are and from the published report.
+class Stepper {
+ public:
+  Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports);
+
+  /// Takes the calls made so far for the next `run`.
+  void take_calls() { staging_.take(); }
+  /// Fills and publishes the report that follows the published one.
+  ReportHandle run();
+  /// Begins what calls `run`, after `take_calls`, on another thread; it must not throw.
+  void start(std::function<void()> work);
+
+ private:
+  [[nodiscard]] std::unique_ptr<Step> begun_afresh();
+  void fill(FrameReport& report);
+
+  const SceneSettings& settings_;
+  Staging& staging_;
+  ReportPool& reports_;
+  SceneContent content_;
+  std::unique_ptr<Step> step_;      ///< null after a step that failed
+  std::vector<Diagnostic> untold_;  ///< by a step that failed
+};
+
+}  // namespace graze

@@ -1,0 +1,176 @@
+// A step that cannot get its memory throws, leaves the last report published, and the next step says what a
+// scene built afresh says; calls for which there is no memory throw or leave a diagnostic. Every allocation
+// of a frame fails in turn, in ten small scenes.
+//
+// By default each configuration takes every so many places only (GRAZE_FAILURE_STRIDE), from another one on
+// than the others; with 1 in the environment variable of that name each takes all.
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <new>
+#include <optional>
+
+#include "scheduler/failing_allocator.hpp"
+#include "scheduler/failure_scene.hpp"
+#include "scheduler/report_text.hpp"
+#include "support/catch.hpp"
+
+namespace graze::tests {
+namespace {
+
+using Lack = FailingAllocator::Lack;
+
+/// Played, and compared, after the one in which memory runs out.
+constexpr std::size_t frames_after = 2;
+
+std::uint64_t stride() {
+  const char* const given = std::getenv("GRAZE_FAILURE_STRIDE");
+  return given == nullptr ? GRAZE_FAILURE_STRIDE : std::strtoull(given, nullptr, 10);
+}
+
+bool says_so(const FrameReport& report) {
+  return std::any_of(
+      report.diagnostics().begin(), report.diagnostics().end(),
+      [](const Diagnostic& diagnostic) { return diagnostic.kind == DiagnosticKind::out_of_memory; });
+}
+
+/// What came of all failures of a test.
+struct Tally {
+  std::uint64_t places = 0;
+  std::uint64_t thrown_by_calls = 0;
+  std::uint64_t thrown_by_steps = 0;
+  std::uint64_t diagnostics = 0;
+  std::uint64_t compared = 0;
+};
+
+/// One story with one detail and number of threads: its frames up to `event` are played, and then that one
+/// without memory for some of it.
+class Failures {
+ public:
+  Failures(const FailureScene& story, ContactDetail detail, unsigned threads, Tally& tally)
+      : story_(story), settings_(story.settings(detail, threads)), tally_(tally) {}
+
+  void fail_all(std::uint64_t first, std::uint64_t each, Lack lack) {
+    for (std::uint64_t place = first; fail_at(place, lack); place += each) ++tally_.places;
+  }
+
+ private:
+  const FreshReport& fresh(std::size_t frame) {
+    auto& report = fresh_[frame];
+    if (!report) report.emplace(story_, settings_, frame);
+    return *report;
+  }
+  void compare(const FailurePlay& play, std::size_t frame, const FrameReport& report,
+               const FrameReport& before) {
+    const std::string difference = fresh(frame).difference_from(play, report, before);
+    if (!difference.empty()) FAIL("frame " << frame << ": " << difference);
+    ++tally_.compared;
+  }
+
+  /// False where the frame takes less than that.
+  bool fail_at(std::uint64_t place, Lack lack) {
+    CAPTURE(place);
+    FailurePlay play(story_, settings_);
+    ReportHandle last = play.scene().latest_report();
+    for (std::size_t frame = 0; frame < story_.event(); ++frame) {
+      play.tell(frame);
+      last = play.step(frame);
+    }
+    bool call_has_thrown = false;
+    bool step_has_thrown = false;
+    ReportHandle report;
+    FailingAllocator::begin(place, lack);
+    try {
+      play.tell(story_.event());
+    } catch (const std::bad_alloc&) {
+      call_has_thrown = true;
+    }
+    try {
+      report = play.step(story_.event());
+    } catch (const std::bad_alloc&) {
+      step_has_thrown = true;
+    } catch (const Error&) {
+      step_has_thrown = true;
+    }
+    if (FailingAllocator::end() <= place) return false;
+    tally_.thrown_by_calls += call_has_thrown ? 1 : 0;
+    tally_.thrown_by_steps += step_has_thrown ? 1 : 0;
+    if (play.scene().is_stepping()) FAIL("it says that it is stepping");
+    const ReportHandle latest = play.scene().latest_report();
+    bool has_said_so = false;
+    if (step_has_thrown) {
+      if (latest.get() != last.get()) FAIL("another report is the latest");
+      if (place % 5 == 4) {  // the scene may go at once, and its reports stay
+        play.end();
+        if (!inconsistency_of(*last).empty()) FAIL("a report has changed");
+        return true;
+      }
+    } else {
+      if (latest.get() != report.get() || report->frame() != last->frame() + 1) FAIL("it is not the latest");
+      if (!inconsistency_of(*report).empty()) FAIL(inconsistency_of(*report));
+      has_said_so = says_so(*report);
+      if (!has_said_so && !call_has_thrown) compare(play, story_.event(), *report, *last);
+      last = report;
+    }
+    for (std::size_t frame = story_.event() + 1; frame <= story_.event() + frames_after; ++frame) {
+      play.tell(frame);
+      report = play.step(frame);
+      if (report->frame() != last->frame() + 1) FAIL("frames do not follow one another");
+      if (!inconsistency_of(*report).empty()) FAIL(inconsistency_of(*report));
+      has_said_so = has_said_so || says_so(*report);
+      compare(play, frame, *report, *last);
+      last = report;
+    }
+    tally_.diagnostics += has_said_so ? 1 : 0;
+    return true;
+  }
+
+  const FailureScene& story_;
+  SceneSettings settings_;
+  Tally& tally_;
+  std::map<std::size_t, std::optional<FreshReport>> fresh_;
+};
+
+constexpr std::array details{ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
+                             ContactDetail::vertices, ContactDetail::features};
+
+void fail_in(FailureStory story, std::size_t event, Lack lack, std::uint64_t each, Tally& tally) {
+  const FailureScene scene(story, event);
+  std::uint64_t configuration = static_cast<std::uint64_t>(story) + event;
+  for (const ContactDetail detail : details)
+    for (const unsigned threads : {1U, 2U}) {
+      CAPTURE(static_cast<int>(story), event, static_cast<int>(detail), threads, static_cast<int>(lack));
+      Failures(scene, detail, threads, tally).fail_all(configuration * 7 % each, each, lack);
+      configuration += story_count;
+    }
+}
+
+void fail_in_all(std::size_t event, Lack lack, std::uint64_t each) {
+  Tally tally;
+  for (std::size_t story = 0; story < story_count; ++story)
+    fail_in(static_cast<FailureStory>(story), event, lack, each, tally);
+  std::cout << tally.places << " places: " << tally.thrown_by_steps << " steps and " << tally.thrown_by_calls
+            << " calls have thrown, " << tally.diagnostics << " calls left a diagnostic; " << tally.compared
+            << " reports compared with a scene built afresh\n";
+  CHECK(tally.thrown_by_steps > 0);
+  CHECK(tally.compared > tally.places);
+}
+
+}  // namespace
+
+TEST_CASE("memory failure: any allocation of the first frame") {
+  fail_in_all(0, Lack::once, stride());
+}
+
+TEST_CASE("memory failure: any allocation of a later frame") {
+  fail_in_all(2, Lack::once, stride());
+}
+
+TEST_CASE("memory failure: all allocations from any one on until the frame ends") {
+  fail_in_all(0, Lack::from_then_on, 2 * stride());
+  fail_in_all(2, Lack::from_then_on, 2 * stride());
+}
+
+}  // namespace graze::tests
