@@ -93,16 +93,17 @@ class ObjectIds {
   void take_lost() noexcept;
   /// Has the next step take that again.
   void give_lost_back() noexcept;
-  /// Calls `visit(object, lost)` for what was taken of each object, and forgets it. Where a visit throws, it
-  /// is there still. Stepping thread only.
+  /// Calls `visit(object, lost)` for what was taken of each object; it clears the bits that are done with.
+  /// Where a visit throws, the others are there still. Stepping thread only.
   template <typename Visit>
   void visit_lost(const Visit& visit) {
     if (!some_taken_) return;
     for (std::uint32_t index = 0; index < places_.made_count(); ++index) {
       Place* const place = places_.find(index);
       if (place == nullptr || place->taken == 0) continue;
+      const bool is_removed = (place->taken & LostCalls::removal) != 0;
       visit(ObjectId{index, place->taken_generation}, place->taken);
-      if ((std::exchange(place->taken, std::uint8_t{0}) & LostCalls::removal) != 0) unpin(index);
+      if (is_removed) unpin(index);
     }
     some_taken_ = false;
   }

@@ -81,24 +81,28 @@ class Staging {
       if constexpr (std::is_same_v<decltype(call), AddObject&>) ids_.publish(call.object);
       visit(call);
     });
-    ids_.visit_lost([&](ObjectId object, std::uint8_t lost) { visit_lost(visit, object, lost); });
-    if (unnamed_lost_.load(std::memory_order_relaxed)) {
-      visit_made(visit, lost_call({}));
-      unnamed_lost_.store(false, std::memory_order_relaxed);
-    }
+    ids_.visit_lost([&](ObjectId object, std::uint8_t& lost) { visit_lost(visit, object, lost); });
+    if (unnamed_lost_.load(std::memory_order_relaxed) && unnamed_lost_.exchange(false)) unnamed_taken_ = true;
+    if (unnamed_taken_) visit_made(visit, lost_call({}));
+    unnamed_taken_ = false;
   }
 
  private:
   using Calls = CallQueue::Chain;
 
-  /// What stands for lost calls about an object.
+  /// Visits what stands for lost calls about an object, and clears their bits.
   template <typename Visitor>
-  void visit_lost(const Visitor& visit, ObjectId object, std::uint8_t lost) {
-    if ((lost & LostCalls::any) != 0) visit_made(visit, lost_call(object));
-    if ((lost & LostCalls::motion) != 0)
-      visit_made(visit, PositionsChanged{object, std::numeric_limits<double>::infinity()});
-    if ((lost & LostCalls::binding) != 0) visit_made(visit, UnbindPositions{object, {}, true});
-    if ((lost & LostCalls::removal) != 0) visit_made(visit, RemoveObject{object});
+  void visit_lost(const Visitor& visit, ObjectId object, std::uint8_t& lost) {
+    const auto visit_one = [&](std::uint8_t bit, const auto& make) {
+      if ((lost & bit) != 0) visit_made(visit, make());
+      lost &= static_cast<std::uint8_t>(~bit);
+    };
+    visit_one(LostCalls::any, [&] { return lost_call(object); });
+    visit_one(LostCalls::motion, [&] {
+      return PositionsChanged{object, std::numeric_limits<double>::infinity()};
+    });
+    visit_one(LostCalls::binding, [&] { return UnbindPositions{object, {}, true}; });
+    visit_one(LostCalls::removal, [&] { return RemoveObject{object}; });
   }
   template <typename Visitor, typename OneCall>
   static void visit_made(const Visitor& visit, OneCall call) {
@@ -151,6 +155,7 @@ class Staging {
   std::uint64_t failed_after_ = 0;
   std::uint64_t failed_ = 0;
   std::atomic<bool> unnamed_lost_{false};  ///< calls about no object
+  bool unnamed_taken_ = false;             ///< and for the step at hand: the stepping thread's
 };
 
 }  // namespace graze

@@ -297,8 +297,7 @@ FreshReport::Row FreshReport::row_of(const FrameReport& report, const PairReport
   return row;
 }
 
-FreshReport::FreshReport(const FailureScene& story, SceneSettings settings, std::size_t frame)
-    : range_(settings.range) {
+FreshReport::FreshReport(const FailureScene& story, SceneSettings settings, std::size_t frame) {
   settings.threads = 1;
   Scene scene(settings);
   std::vector<std::size_t> bodies;

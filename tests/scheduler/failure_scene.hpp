@@ -127,7 +127,6 @@ class FreshReport {
   };
   static Row row_of(const FrameReport& report, const PairReport& pair, std::size_t a, std::size_t b);
 
-  double range_;
   std::vector<Row> rows_;
 };
 

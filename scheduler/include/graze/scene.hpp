@@ -22,8 +22,14 @@ namespace graze {
 /// Threads: every call but `step` may come from any thread at any time and is taken up by the next step, in
 /// the order in which the calls were made; `step` runs on one thread at a time. No call but `wait` waits for
 /// another thread, other than binding, unbinding and the beginning of a step for each other. After
-/// construction only `add` and `step` throw; what is wrong with any other call is a Diagnostic in the next
-/// report.
+/// construction only `add` and `step` throw Error; what is wrong with any other call is a Diagnostic in the
+/// next report.
+///
+/// Without memory `add`, `reserve`, `object_settings` and steps throw std::bad_alloc. After `add` and
+/// `reserve` the scene is as before. After a step the last report is still the latest, calls are taken up by
+/// it or by the next one, and the next one begins afresh from where the objects are. Other calls never throw:
+/// one for which there is no memory leaves a Diagnostic `out_of_memory`, and ends a binding all the same
+/// (docs/embedding.md).
 ///
 /// Memory: `add`, `set_rule`, `object_settings` and what makes a Diagnostic allocate. The other calls do
 /// where more of them wait for a step than ever did or were reserved, and `set_positions` and
@@ -117,11 +123,11 @@ class GRAZE_API Scene {
   void reserve(const SceneCapacity& capacity);
 
   /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
-  /// of this scene is running, or when 65,536 reports are held by handles.
+  /// of this scene is running, or when 65,536 reports are held by handles; std::bad_alloc without memory.
   ReportHandle step();
   /// Begins a step on another thread and returns; it takes up the calls made until now. Throws Error when a
-  /// step is running. Calls made meanwhile are for the step after; bound memory stays as it is until `wait`
-  /// has returned.
+  /// step is running, and std::bad_alloc where it cannot begin. Calls made meanwhile are for the step after;
+  /// bound memory stays as it is until `wait` has returned.
   void step_async();
   /// Whether a step is running.
   [[nodiscard]] bool is_stepping() const;

@@ -127,9 +127,15 @@ class Soak {
       std::vector<std::jthread> threads;
       const Ending ending(*this);  // also where a step throws: before the threads are waited for
       for (std::size_t writer = 0; writer < SoakWorld::writer_count; ++writer)
-        threads.emplace_back([this, writer] { write(writer); });
+        threads.emplace_back([this, writer] {
+          begin_thread();
+          write(writer);
+        });
       for (Holder& holder : holders_)
-        threads.emplace_back([this, &holder] { holder.run(world_, scene_lock_, done_); });
+        threads.emplace_back([this, &holder] {
+          begin_thread();
+          holder.run(world_, scene_lock_, done_);
+        });
       step_until_the_end();
     }
     return judge();
@@ -151,6 +157,18 @@ class Soak {
     Soak& soak_;
   };
 
+  void begin_thread() const {
+    if (options_.begin_thread) options_.begin_thread();
+  }
+
+  void step() {
+    const ReportHandle report = options_.step ? options_.step(world_.scene()) : world_.scene().step();
+    if (report)
+      interval_.add(*report);
+    else
+      ++failed_steps_;
+  }
+
   /// Between the two barriers of a frame, while the step runs.
   void write(std::size_t writer) {
     for (;;) {
@@ -168,7 +186,7 @@ class Soak {
     for (std::uint64_t frame = 1; intervals_.size() < intervals; ++frame) {
       world_.change_between_steps(true);
       barrier_.arrive_and_wait();
-      interval_.add(*world_.scene().step());
+      step();
       barrier_.arrive_and_wait();
       if (frame % check_every == 0) check(frame);
       if (frame % remake_every == 0) remake();
@@ -262,6 +280,7 @@ class Soak {
     result_.figures["frames"] = all.frames;
     result_.figures["checks"] = all.checks;
     result_.figures["reports_held"] = taken;
+    result_.figures["failed_steps"] = failed_steps_;
     if (resident_memory_is_ours) judge_growth("resident memory", &Interval::resident);
     judge_growth("counted memory", &Interval::statistics);
     if (changed > 0) result_.violations.push_back(format("%" PRIu64 " held reports changed", changed));
@@ -277,6 +296,7 @@ class Soak {
   std::array<Holder, 2> holders_ = {Holder(11, 10), Holder(12, 100)};
   std::vector<Interval> intervals_;
   Interval interval_;
+  std::uint64_t failed_steps_ = 0;
   StressResult result_;
 };
 

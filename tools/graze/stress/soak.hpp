@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <graze/graze.hpp>
 
 #include "stress/result.hpp"
 
@@ -10,6 +12,11 @@ struct SoakOptions {
   double minutes = 30;
   std::uint64_t frames = 0;  ///< above 0: as many instead, however long they take
   std::uint64_t seed = 1;
+  /// Takes a step in place of Scene::step, and gives no report where the step has thrown for lack of memory.
+  /// Not asked for steps that are compared with a scene built afresh.
+  std::function<ReportHandle(Scene&)> step = nullptr;
+  /// Called first on each thread that the soak starts.
+  std::function<void()> begin_thread = nullptr;
 };
 
 /// Treats a scene badly: bodies come and go, jump, hold NaN; calls are wrong; pairs and rules
