@@ -94,7 +94,7 @@ void ObjectIds::unpin(std::uint32_t index) noexcept {
   if ((before & phase_mask) == gone && (before & pin_mask) == 1) empty(index, generation_of(before));
 }
 
-/// Of a place that nobody else knows any more.
+/// Nobody else knows the place any more.
 void ObjectIds::empty(std::uint32_t index, std::uint32_t generation) noexcept {
   Place& place = places_[index];
   place.named.mesh.reset();
@@ -133,7 +133,7 @@ void ObjectIds::give_lost_back() noexcept {
     Place* const place = places_.find(index);
     if (place == nullptr) continue;
     const std::uint8_t taken = std::exchange(place->taken, std::uint8_t{0});
-    // What was lost of an object that has gone is of no account; one whose removal was lost is there still.
+    // An object that has gone loses nothing more. One whose removal was lost is there still.
     const bool is_there =
         generation_of(place->state.load(std::memory_order_relaxed)) == place->taken_generation;
     if (taken != 0 && is_there) lose(index, taken);

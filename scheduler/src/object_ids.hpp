@@ -32,7 +32,7 @@ struct NamedObject {
   Binding binding;
 };
 
-/// What became of calls about an object for which there was no memory: bits of a number, which take none.
+/// Says which calls about an object were lost for lack of memory. The bits themselves take none.
 struct LostCalls {
   static constexpr std::uint8_t any = 1;      ///< one that is not taken up as it was made
   static constexpr std::uint8_t motion = 2;   ///< its positions may have changed: no promise about it holds
@@ -87,11 +87,10 @@ class ObjectIds {
 
   /// Notes what was lost about an object that is pinned.
   void lose(std::uint32_t index, std::uint8_t lost) noexcept;
-  /// Takes what was lost until now for a step: it comes after the calls that the step takes up. As for
-  /// bindings Staging's lock is held, as it is where the end of one is lost: one that stands again is in a
-  /// later call.
+  /// Takes what was lost until now for a step, which visits it after the calls that it takes up. Staging's
+  /// lock is held, as it is where the end of a binding is lost: a binding that stands now was made later.
   void take_lost() noexcept;
-  /// Has the next step take that again.
+  /// The next step takes again what was not visited.
   void give_lost_back() noexcept;
   /// Calls `visit(object, lost)` for what was taken of each object; it clears the bits that are done with.
   /// Where a visit throws, the others are there still. Stepping thread only.

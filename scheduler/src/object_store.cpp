@@ -27,8 +27,8 @@ std::string coordinates(const Eigen::Vector3d& point) {
   return text;
 }
 
-/// A diagnostic with what `message` makes, or without a message where there is no memory for it: what was
-/// taken of an object has to be read to its end.
+/// A diagnostic with what `message` makes, or without a message where there is no memory for it. It does not
+/// throw, since an object of which something was taken has to be read to its end.
 template <typename Message>
 Diagnostic diagnostic_of(const Object& object, DiagnosticKind kind, const Message& message) noexcept {
   Diagnostic diagnostic{object.id, kind, {}};
@@ -375,11 +375,11 @@ void ObjectStore::forget() noexcept {
     object->looked_at = object->asked_for_blocks = object->goes_by_lists = object->wanted = false;
     object->to_block = object->to_view = object->to_survey = false;
     object->asked = {};
-    object->promised = std::numeric_limits<double>::infinity();  // of which step is a promise made now?
+    object->promised = std::numeric_limits<double>::infinity();  // no promise holds
     object->may_have_input = false;
     count_bytes(*object);
   }
-  // Where the list was being gone through, some are in it twice; none is missing that has something to read.
+  // The step may have been going through this list. Then some objects are in it twice, and none is missing.
   std::erase_if(with_input_, [](Object* object) { return std::exchange(object->may_have_input, true); });
   will_have_changed_ = true;
 }

@@ -94,7 +94,7 @@ class ObjectStore {
   /// as what is near something is read, and memory that is read in every step is viewed in place of that.
   explicit ObjectStore(bool with_blocks) : with_blocks_(with_blocks) {}
 
-  // Where one throws nothing has changed, and the call is as it was.
+  // A call that throws has changed nothing, itself included.
   void apply(AddObject& call);
   void apply(const RemoveObject& call);
   void apply(const SetPose& call);
@@ -113,8 +113,8 @@ class ObjectStore {
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
-  /// Forgets what steps have remembered of the objects, after one that came to no end, wherever that was.
-  /// What was read stays read, what was not is read in the next step.
+  /// Forgets what steps have remembered of the objects, after one that came to no end at any point. What was
+  /// read stays read; the next step reads the rest.
   void forget() noexcept;
 
   /// Whether anything may be otherwise than the step before saw it: which objects there are, where one is,

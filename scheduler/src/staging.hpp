@@ -29,9 +29,8 @@ namespace graze {
 /// The forms for many objects mean the same as single calls in the order of the spans, of which no other
 /// thread's calls come in between; spans that do not fit together are a diagnostic and nothing is taken.
 ///
-/// Calls other than `add` and `reserve` never throw. Where there is no memory for one, a bit is set that
-/// takes none (LostCalls), and the next step says so; nothing is read through a binding that such a call was
-/// to end.
+/// Only `add` and `reserve` throw. Where there is no memory for another call, a bit is set that takes none
+/// (LostCalls), and the next step says so. Nothing is read through a binding that such a call was to end.
 class Staging {
  public:
   /// Throws Error for no mesh or bad settings, and std::bad_alloc; nothing has changed then.
@@ -70,7 +69,7 @@ class Staging {
     ids_.take_lost();
     ++steps_;
   }
-  /// The step that took calls last came to no end: those it has not visited are for the next one.
+  /// The step that took calls last came to no end. The next one takes up those that it has not visited.
   void step_failed() noexcept;
   /// Calls `visit` with each call taken and not yet visited, in their order. Where a visit throws, that call
   /// is the first of the next time. Stepping thread only.

@@ -15,9 +15,9 @@ namespace graze {
 
 /// Takes the steps of a scene, one after the other. Stepping thread only.
 ///
-/// A step that throws, wherever that is, leaves the last report published and the scene's content whole:
-/// calls it has taken up are done, the others and what it had to say of input are for the next step. All that
-/// steps remember of pairs and bounds is forgotten at once, with its memory; the next step makes it anew from
+/// A step that throws leaves the last report published and the scene's content whole, wherever it throws.
+/// Calls that it has taken up are done. The others wait for the next step, as do its diagnostics. All that
+/// steps remember of pairs and bounds is forgotten at once, with its memory. The next step makes it anew from
 /// where the objects are and from the published report.
 class Stepper {
  public:
