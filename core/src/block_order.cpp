@@ -38,13 +38,12 @@ std::vector<std::uint32_t> block_order_of(const Mesh& mesh) {
   return order;
 }
 
-void list_stretch_groups(const Mesh& mesh, std::vector<std::uint32_t>& groups,
+void list_stretch_groups(std::span<const std::uint32_t> order, std::vector<std::uint32_t>& groups,
                          std::vector<std::uint32_t>& begin) {
-  const std::uint32_t count = mesh.vertex_count();
-  if (!mesh.uses_all_vertices() || count <= VertexStretches::vertices_without) return;
+  const auto count = static_cast<std::uint32_t>(order.size());
   std::vector<std::uint32_t> group_of(count);
   for (std::uint32_t place = 0; place < count; ++place)
-    group_of[mesh.block_order()[place]] = place / VertexBlocks::group_vertices;
+    group_of[order[place]] = place / VertexBlocks::group_vertices;
   begin.push_back(0);
   for (std::uint32_t first = 0; first < count; first += VertexStretches::stretch_size) {
     const auto from = group_of.begin() + first;

@@ -29,6 +29,7 @@ std::uint64_t next_serial() {
 Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), serial_(next_serial()) {
   if (mesh_ == nullptr) throw Error("surface: there is no mesh");
   viewed_ = mesh_->rest();
+  pose_ = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   box_ = survey(*mesh_, viewed_, 0, mesh_->vertex_count()).box;
   version_ = 1;
 }
@@ -93,20 +94,42 @@ void Surface::write(std::uint32_t begin, std::uint32_t end, const PositionOf& po
   }
 }
 
-Surface::ReadResult Surface::take(const PartSeen& all) {
+Surface::ReadResult Surface::result_of(const PartSeen& all) const {
   ReadResult result;
   result.bad_vertex = all.bad_vertex;
   result.bad_position = all.bad_position;
   if (!result.taken()) return result;
   result.changed = all.changed || is_behind_;
-  if (result.changed) {
-    own_positions(all.in_double);
-    const bool is_jump = std::exchange(is_behind_, false);
-    result.displacement = is_jump ? std::numeric_limits<double>::infinity()
-                                  : std::sqrt(std::max(all.furthest_squared, all.furthest.squaredNorm()));
-    count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, all.box));
-  }
+  if (result.changed)
+    result.displacement = is_behind_ ? std::numeric_limits<double>::infinity()
+                                     : std::sqrt(std::max(all.furthest_squared, all.furthest.squaredNorm()));
+  return result;
+}
+
+/// Of good positions.
+void Surface::count_read(const ReadResult& result, const Box& now) {
+  is_behind_ = false;
   displacement_ = result.displacement;
+  if (result.changed) pose_.reset();
+  if (result.changed)
+    count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, now));
+}
+
+Surface::ReadResult Surface::take(const PartSeen& all) {
+  const ReadResult result = result_of(all);
+  if (result.changed) own_positions(all.in_double);
+  if (result.taken()) count_read(result, all.box);
+  return result;
+}
+
+Surface::ReadResult Surface::take_in_place(const PartSeen& all, const PositionView& view) {
+  const ReadResult result = result_of(all);
+  if (result.changed) {
+    in_float_ = {};
+    in_double_ = {};
+    viewed_ = view;
+  }
+  if (result.taken()) count_read(result, all.box);
   return result;
 }
 
@@ -114,12 +137,18 @@ Surface::ReadResult Surface::take(const PartSeen& all) {
 void Surface::own_positions(bool in_double) {
   const std::size_t count = mesh_->vertex_count();
   if ((in_double ? in_double_.size() : in_float_.size()) != count) {
-    std::vector<Eigen::Vector3d> doubles(in_double ? count : 0, Eigen::Vector3d::Zero());
-    std::vector<Eigen::Vector3f> floats(in_double ? 0 : count, Eigen::Vector3f::Zero());
-    in_double_.swap(doubles);
-    in_float_.swap(floats);
+    in_double ? in_double_.assign(count, Eigen::Vector3d::Zero())
+              : in_float_.assign(count, Eigen::Vector3f::Zero());
+    if (in_double)
+      in_float_ = {};
+    else
+      in_double_ = {};
   }
   viewed_ = {};
+}
+
+void Surface::reserve_positions(bool in_double) {
+  in_double ? in_double_.reserve(mesh_->vertex_count()) : in_float_.reserve(mesh_->vertex_count());
 }
 
 void Surface::end_view() {
@@ -128,6 +157,7 @@ void Surface::end_view() {
 
 void Surface::view(const PositionView& view, const Box& box) {
   viewed_ = view;
+  pose_.reset();
   is_behind_ = true;
   displacement_ = std::numeric_limits<double>::infinity();
   count_motion(displacement_, std::exchange(box_, box));
@@ -166,12 +196,6 @@ double Surface::leaf_size() const {
 Surface::ReadResult Surface::set_positions(const PositionView& view) {
   ReadResult result = take(look_at_positions(view, 0, mesh_->vertex_count()));
   if (result.changed) write_positions(view, 0, mesh_->vertex_count());
-  return result;
-}
-
-Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
-  ReadResult result = take(look_at_pose(rows, 0, mesh_->vertex_count()));
-  if (result.changed) write_pose(rows, 0, mesh_->vertex_count());
   return result;
 }
 
@@ -307,6 +331,65 @@ Surface::PartSeen Surface::survey(const Mesh& mesh, const PositionView& view, st
 Surface::PartSeen Surface::look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
                                         std::uint32_t end) const {
   return look(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
+}
+
+namespace {
+
+/// The same as `posed` of each point, x and y at once.
+void place(const std::array<double, 12>& rows, std::span<const Eigen::Vector3d> rest, Eigen::Vector3d* now) {
+  using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
+  const auto column = [&](std::size_t number) { return Two{rows[number], rows[4 + number]}; };
+  const Two first = column(0), second = column(1), third = column(2), by = column(3);
+  // In variables of their own, since what is written could be the rows for all that the compiler knows.
+  const double last[] = {rows[8], rows[9], rows[10], rows[11]};
+  double* to = now->data();
+  for (const Eigen::Vector3d& p : rest) {
+    const Two xy = ((first * p.x() + second * p.y()) + third * p.z()) + by;
+    const double z = ((last[0] * p.x() + last[1] * p.y()) + last[2] * p.z()) + last[3];
+    std::memcpy(to, &xy, sizeof xy);
+    to[2] = z;
+    to += 3;
+  }
+}
+
+bool is_same_pose(const std::array<double, 12>& left, const std::array<double, 12>& right) {
+  return std::memcmp(left.data(), right.data(), sizeof left) == 0;  // NOLINT(bugprone-suspicious-*): bits
+}
+
+}  // namespace
+
+Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
+  const Box box = mesh_->rest_reach().box_at(rows);
+  const bool is_good = graze::is_within_limits(box.min) && graze::is_within_limits(box.max);
+  if (pose_ && is_good && mesh_->uses_all_vertices()) return take_pose(rows);
+  ReadResult result = take(look_at_pose(rows, 0, mesh_->vertex_count()));
+  if (result.changed) write_pose(rows, 0, mesh_->vertex_count());
+  if (result.taken()) pose_ = rows;
+  return result;
+}
+
+/// All vertices are known to be good, and so is how far they move: none of their old places is looked at.
+Surface::ReadResult Surface::take_pose(const std::array<double, 12>& rows) {
+  constexpr std::uint32_t each = 64;  // vertices that stay in a cache until their box is made
+  ReadResult result;
+  // At rest zeros may have other signs than the identity gives them.
+  result.changed = !has_own_positions() || !is_same_pose(*pose_, rows);
+  if (!result.changed) {
+    count_read(result, box_);
+    return result;
+  }
+  result.displacement = mesh_->rest_reach().motion_between(*pose_, rows);
+  own_positions(true);
+  PartSeen all;
+  const std::uint32_t count = mesh_->vertex_count();
+  for (std::uint32_t begin = 0; begin < count; begin += each) {
+    const std::uint32_t end = std::min(begin + each, count);
+    place(rows, mesh_->rest().subspan(begin, end - begin), in_double_.data() + begin);
+    all.add(survey(*mesh_, in_double_, begin, end));
+  }
+  count_read(result, all.box);
+  pose_ = rows;
+  return result;
 }
 
 void Surface::write_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end) {

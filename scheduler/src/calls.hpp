@@ -8,6 +8,7 @@
 #include <graze/surface.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "spare_positions.hpp"
@@ -31,6 +32,7 @@ struct SetPose {
 struct SetPositions {
   ObjectId object;
   SparePositions::Loan positions;
+  Box box;  ///< of these
   double max_displacement = std::numeric_limits<double>::infinity();
 };
 struct BindPositions {
@@ -40,8 +42,11 @@ struct BindPositions {
 };
 struct UnbindPositions {
   ObjectId object;
-  SparePositions::Loan positions;  ///< what the memory says last, where the next step would have read it
-  bool is_bad = false;             ///< the next step would have read it, and it is bad
+  SparePositions::Loan positions;     ///< what the memory says last
+  Box box;                            ///< of these
+  std::optional<Diagnostic> problem;  ///< in their place, where they are bad
+  bool is_due = false;                ///< the next step would have read the memory
+  bool is_lost = false;               ///< there was no memory for the copy
 };
 struct PositionsChanged {
   ObjectId object;

@@ -111,8 +111,8 @@ class ObjectIds {
   [[nodiscard]] std::size_t count() const noexcept { return count_.load(std::memory_order_relaxed); }
   void reserve(std::size_t count) { places_.reserve(count); }
   /// A buffer for a copy of the positions of an object that is pinned.
-  [[nodiscard]] SparePositions::Loan lend_positions(NamedObject& object) {
-    return object.spare_positions.lend(object.mesh->vertex_count(), position_bytes_);
+  [[nodiscard]] SparePositions::Loan lend_positions(NamedObject& object, bool in_double) {
+    return object.spare_positions.lend(object.mesh->vertex_count(), in_double, position_bytes_);
   }
 
   /// Of all places, and of all buffers of positions, lent or kept.

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <graze/bytes_of.hpp>
-#include <graze/number_text.hpp>
 #include <new>
 #include <span>
 #include <utility>
 
-#include "look_slack.hpp"
-#include "object_name.hpp"
+#include "object_reading.hpp"
 
 namespace graze {
 namespace {
@@ -21,210 +20,17 @@ constexpr bool checks_every_promise = true;
 constexpr bool checks_every_promise = false;
 #endif
 
-std::string coordinates(const Eigen::Vector3d& point) {
-  std::string text = number_text(point.x());
-  text.append(", ").append(number_text(point.y())).append(", ").append(number_text(point.z()));
-  return text;
-}
-
-/// A diagnostic with what `message` makes, or without a message where there is no memory for it. It does not
-/// throw, since an object of which something was taken has to be read to its end.
-template <typename Message>
-Diagnostic diagnostic_of(const Object& object, DiagnosticKind kind, const Message& message) noexcept {
-  Diagnostic diagnostic{object.id, kind, {}};
-  try {
-    diagnostic.message = message();
-  } catch (const std::bad_alloc&) {
-    diagnostic.message.clear();
-  }
-  return diagnostic;
-}
-
-Diagnostic bad_vertex(const Object& object, const Surface::ReadResult& result, const char* consequence) {
-  const bool finite = result.bad_position.allFinite();
-  return diagnostic_of(object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite, [&] {
-    return name_of(object.id, object) + ": vertex " + std::to_string(result.bad_vertex) + " is at " +
-           coordinates(result.bad_position) + (finite ? ", beyond 2^120" : "") + "; " + consequence;
-  });
-}
-
-/// Says so where a vertex that moved so far, or further, broke a promise.
-std::optional<Diagnostic> check_promise(const Object& object, double displacement) {
-  // The displacement is rounded; a promise kept to the last bit is not called broken.
-  if (!(displacement > object.promised * round_up)) return std::nullopt;
-  return diagnostic_of(object, DiagnosticKind::broken_promise, [&] {
-    return name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
-           ", further than the " + number_text(object.promised) + " promised; all positions were read";
-  });
-}
-
-bool is_read_in_every_step(const Object& object) {
-  return object.bound && object.policy == BindPolicy::every_step;
-}
-
-/// Whether there are positions or a pose to be read.
-bool has_input(const Object& object) {
-  return object.positions || object.pose || is_read_in_every_step(object) || (object.bound && object.told);
-}
-
-/// Adds up what is promised of the motion since the surface's positions were read, this step's included.
-void add_promise(Object& object) {
-  const bool may_have_moved = is_read_in_every_step(object) || object.is_new;
-  if (may_have_moved) object.promised = (object.promised + object.promise) * round_up;
-  object.is_new = false;
-  object.promise = std::numeric_limits<double>::infinity();
-}
-
-/// Whether an object's box will do, unless that turns out to be near another: it was in no pair of the last
-/// step or can be viewed, and nobody will ask how far it has moved. What stands still is read, which then
-/// writes nothing, and so is what hardly moves, of which pairs have lists.
-bool can_be_surveyed(const Object& object, bool with_views) {
-  return is_read_in_every_step(object) && !object.promises && !object.frozen &&
-         (object.surveyed || object.moved) &&
-         (!object.looked_at || (with_views && !object.is_calm && object.surface().can_view(*object.bound)));
-}
-
-/// Looks at some vertices of what an object is to be read from.
-Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
-  if (object.to_survey) return Surface::survey(*object.mesh, *object.bound, begin, end);
-  const Surface& surface = object.surface();
-  if (object.pose) return surface.look_at_pose(*object.pose, begin, end);
-  // A promise is held against what moved furthest, not against a bound of it.
-  const bool is_held = object.has_surface && std::isfinite(object.promised);
-  const auto displacement = is_held ? Surface::Displacement::exact : Surface::Displacement::bound;
-  const PositionView view = object.positions ? PositionView(*object.positions) : *object.bound;
-  return surface.look_at_positions(view, begin, end, displacement);
-}
-
-void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
-  Surface& surface = object.surface_to_write();
-  if (object.pose) return surface.write_pose(*object.pose, begin, end);
-  surface.write_positions(object.positions ? PositionView(*object.positions) : *object.bound, begin, end);
-}
-
 /// Has room for one more, so that adding it does not throw.
 template <typename Element>
 void make_room_for_one(std::vector<Element>& elements) {
   if (elements.size() == elements.capacity()) elements.reserve(2 * elements.size() + 1);
 }
 
-bool is_same(const Box& left, const Box& right) {
-  return left.min == right.min && left.max == right.max;
-}
-
-/// At least how far some vertex has moved.
-double motion_between(const Box& left, const Box& right) {
-  return std::max((left.min - right.min).cwiseAbs().maxCoeff(), (left.max - right.max).cwiseAbs().maxCoeff());
-}
-
-/// What came of looking at all vertices.
-struct Looked {
-  bool to_write = false;  ///< all vertices, and then the read is to be finished
-  bool changed = false;   ///< the object stands elsewhere, or has begun or ceased to be frozen
-  std::optional<Diagnostic> problem;
-};
-
-/// Whether lists of vertices pay beside another object that moves as much.
-bool hardly_moves(const Object& object, double motion) {
-  return list_slack_of_vertices.of(2 * motion, object.surface().leaf_size()) > 0;
-}
-
-/// For so many steps after a calm box deceived, an object is not taken to be calm.
-constexpr std::uint8_t steps_until_calm = 16;
-
-const char* const stands_still = "it stands still until good positions are read";
-
-/// Of an object that is looked at, by its box.
-bool seems_calm(Object& object, const Box& now) {
-  if (object.restless_steps == 0) return hardly_moves(object, motion_between(object.box, now));
-  --object.restless_steps;
-  return false;
-}
-
-/// Takes what a survey saw, or says why not.
-Looked take_survey(Object& object, const Surface::PartSeen& all) {
-  Looked looked;
-  object.frozen = all.bad_vertex != Surface::ReadResult::no_vertex;
-  object.surveyed = object.unread = !object.frozen;
-  if (object.frozen) {
-    looked.changed = true;
-    looked.problem = bad_vertex(object, {all.bad_vertex, all.bad_position}, stands_still);
-  } else {
-    looked.changed = !is_same(object.box, all.box);
-    object.moved = looked.changed;
-    object.is_calm = object.to_block && seems_calm(object, all.box);
-    object.box = object.seen = all.box;
-    object.has_surface = false;
-    object.promised = 0;
-  }
-  return looked;
-}
-
-/// Takes what was seen of all vertices, or says why not.
-Looked take_seen(Object& object, const Surface::PartSeen& all) {
-  if (object.to_survey) return take_survey(object, all);
-  const bool was_behind = object.surface().is_behind();
-  const bool seems_at_rest = was_behind && is_same(object.box, all.box);
-  const Surface::ReadResult result = object.surface_to_write().take(all);
-  if (!was_behind && object.is_calm) {
-    object.is_calm = hardly_moves(object, result.displacement);
-    if (!object.is_calm && hardly_moves(object, motion_between(object.box, all.box)))
-      object.restless_steps = steps_until_calm;
-  }
-  Looked looked{result.changed, result.changed, std::nullopt};
-  // Where a view came before, it shows in the next step whether the object moves.
-  object.moved = result.changed && !seems_at_rest;
-  if (object.pose) {
-    if (!result.taken()) looked.problem = bad_vertex(object, result, "the pose was not taken");
-  } else {
-    looked.changed = looked.changed || object.frozen == result.taken();
-    object.frozen = !result.taken();
-    looked.problem = object.frozen
-                         ? bad_vertex(object, result, stands_still)
-                         : check_promise(object, object.has_surface ? result.displacement
-                                                                    : motion_between(object.seen, all.box));
-  }
-  return looked;
-}
-
-/// After all was written: lets go of what was read. Bad memory is read again until it is good.
-void finish_read(Object& object) {
-  if (object.to_survey) return;
-  if (object.pose) {
-    object.pose.reset();
-  } else {
-    if (object.frozen) return;
-    if (!object.positions) object.told = false;
-    object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
-  }
-  object.unread = object.surveyed = false;
-  object.promised = 0;
-  object.box = object.seen = object.surface().box();
-  object.has_surface = true;
-  object.version = object.surface().version();
-}
-
-/// Has the surface look at the memory that was surveyed, until the next read.
-void view_memory(Object& object) {
-  Surface& surface = object.surface_to_write();
-  surface.view(*object.bound, object.box);
-  object.unread = object.surveyed = object.to_view = false;
-  object.viewed = true;
-  object.version = surface.version();
-  if (!object.in_parts) surface.make_blocks();
-}
-
-Looked read_whole(Object& object) {
-  if (object.to_view) {
-    view_memory(object);
-    return {};
-  }
-  const std::uint32_t count = object.mesh->vertex_count();
-  Looked looked = take_seen(object, look_at_part(object, 0, count));
-  if (looked.to_write) write_part(object, 0, count);
-  if (object.to_survey && object.to_block && !object.frozen) view_memory(object);
-  finish_read(object);
-  return looked;
+/// A removed object's copies have no use for anybody.
+void let_go(SparePositions::Loan& positions) {
+  if (positions == nullptr) return;
+  positions.get_deleter().is_last = true;
+  positions.reset();
 }
 
 /// Surfaces of more vertices are read and refitted in parts, each of some tens of microseconds.
@@ -277,8 +83,13 @@ void ObjectStore::apply(const RemoveObject& call) {
 void ObjectStore::apply(const SetPose& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
-  expect_input(*object);
-  object->pose = call.rows;
+  // It stands there, or a survey has seen it there.
+  if (object->standing_pose && std::memcmp(&*object->standing_pose, &call.rows, sizeof(Pose)) == 0) {
+    object->pose.reset();
+  } else {
+    expect_input(*object);
+    object->pose = call.rows;
+  }
 }
 
 void ObjectStore::apply(SetPositions& call) {
@@ -287,6 +98,7 @@ void ObjectStore::apply(SetPositions& call) {
   expect_input(*object);
   object->bound.reset();
   object->positions = std::move(call.positions);
+  object->box_of_positions = call.box;
   object->is_new = true;
   object->promise = call.max_displacement;
 }
@@ -300,24 +112,30 @@ void ObjectStore::apply(const BindPositions& call) {
   object->moved = true;  // it may be anywhere
   object->policy = call.policy;
   object->told = true;
+  object->told_step = 0;
+  object->is_told_again = false;
   object->is_new = true;
   object->promise = std::numeric_limits<double>::infinity();
   object->promises = false;
 }
 
-void ObjectStore::apply(UnbindPositions& call) {
+void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics) {
   Object* const object = find(call.object);
-  if (object == nullptr || !object->bound) return;
-  if (call.positions) {
-    expect_input(*object);
-    SetPositions last{call.object, std::move(call.positions)};
+  const bool is_bound = object != nullptr && object->bound;
+  // What was only surveyed has been read nowhere else.
+  const bool is_wanted = call.is_due || (is_bound && object->unread && object->surveyed);
+  if (is_bound && is_wanted && call.positions) expect_input(*object);
+  if (is_wanted && call.problem) diagnostics.push_back(std::move(*call.problem));
+  if (!is_bound) return;
+  if (is_wanted && call.positions) {
+    SetPositions last{call.object, std::move(call.positions), call.box};
     return apply(last);
   }
   object->bound.reset();
   if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
   // What is frozen stays so: if it was surveyed before, nobody knows its last good positions.
-  object->frozen = object->frozen || call.is_bad;
-  object->unread = false;
+  object->frozen = object->frozen || call.is_lost || (is_wanted && call.problem);
+  object->unread = object->surveyed = false;
   will_have_changed_ = true;
   if (object->frozen) return;
   object->promised = 0;
@@ -335,6 +153,8 @@ void ObjectStore::apply(const PositionsChanged& call) {
   }
   expect_input(*object);
   object->told = true;
+  if (object->told_step != steps_ + 1) object->is_told_again = object->told_step == steps_;
+  object->told_step = steps_ + 1;
   object->is_new = true;
   object->promise = call.max_displacement;
   object->promises = object->promises || std::isfinite(call.max_displacement);
@@ -396,12 +216,17 @@ void ObjectStore::drop_removed() {
   }
   objects_.resize(kept);
   serials_.resize(kept);
+  for (const auto& object : removed_) {
+    let_go(object->positions);
+    let_go(object->standing_positions);
+  }
   removed_.clear();
 }
 
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
   tell_problems(diagnostics);  // those of a step that came to no end
   changed_ = std::exchange(will_have_changed_, false);
+  ++steps_;
   drop_removed();
   begin_list();
   unread_count_ = surveyed_count_ = 0;
@@ -415,8 +240,10 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   see_new();
 }
 
-/// Leaves an object unread where promises allow it, and lists it otherwise.
+/// Leaves an object unread where promises or a survey allow it, and lists it otherwise.
 void ObjectStore::take_input(Object& object) {
+  object.stays_unread = stays_unread(object);
+  if (object.stays_unread) return;
   add_promise(object);
   if (std::exchange(object.viewed, false)) object.surface_to_write().end_view();
   object.to_survey = can_be_surveyed(object, with_blocks_);
@@ -425,9 +252,10 @@ void ObjectStore::take_input(Object& object) {
   object.goes_by_lists = was_looked_at && !std::exchange(object.asked_for_blocks, false);
   object.to_block = with_blocks_ && was_looked_at && !object.goes_by_lists;
   const bool was_unread = object.unread;
-  object.unread = !checks_every_promise && !object.pose && !object.frozen && std::isfinite(object.promised);
+  // A pose that turns out to be none leaves the object as it is, read or not.
+  if (!object.pose) object.unread = !checks_every_promise && !object.frozen && std::isfinite(object.promised);
   if ((was_unread && !object.to_survey) || object.unread) changed_ = true;
-  if (!object.unread) return list_to_read(object);
+  if (!object.unread || object.pose) return list_to_read(object);
   object.box = grown(object.seen, object.promised);
   object.surveyed = false;
   ++unread_count_;
@@ -448,7 +276,7 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
     if (!object->surveyed) --unread_count_;
     object->wanted = object->to_survey = false;
     object->to_block = with_blocks_ && !object->goes_by_lists;
-    object->to_view = with_blocks_ && object->surveyed && object->surface().can_view(*object->bound);
+    object->to_view = with_blocks_ && object->surveyed && can_be_viewed(*object);
     if (object->to_view && object->in_parts)
       view_memory(*object);
     else
@@ -466,7 +294,7 @@ void ObjectStore::begin_list() {
 }
 
 void ObjectStore::list_to_read(Object& object) {
-  if (!object.in_parts) return to_read_.push_back(&object);
+  if (!object.in_parts || (object.to_survey && has_known_box(object))) return to_read_.push_back(&object);
   const std::uint32_t count = object.mesh->vertex_count();
   for (std::uint32_t begin = 0; begin < count; begin += vertices_each)
     parts_.push_back({&object, begin, std::min(vertices_each, count - begin), {}});
@@ -484,7 +312,7 @@ void ObjectStore::read_small(std::size_t place) {
     some_problems_.store(true, std::memory_order_relaxed);
   }
   // Last, since there may be no memory for it.
-  if (object.to_block && !object.viewed) object.surface_to_write().make_blocks();
+  if (object.to_block && !object.to_survey) object.surface_to_write().make_blocks();
 }
 
 void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {

@@ -16,6 +16,9 @@
 
 namespace graze {
 
+/// The rows (r0, r1, r2, t) of a matrix.
+using Pose = std::array<double, 12>;
+
 /// One object of a scene as the steps see it.
 struct Object {
   ObjectId id;
@@ -29,11 +32,16 @@ struct Object {
   std::uint64_t version = 0;  ///< the surface's, after a read
 
   // What the next read takes up, and what is promised of it.
-  std::optional<std::array<double, 12>> pose;
+  std::optional<Pose> pose;
+  std::optional<Pose> standing_pose;  ///< the last one that was read or surveyed
   SparePositions::Loan positions;
+  Box box_of_positions;                     ///< of those
+  SparePositions::Loan standing_positions;  ///< the copy that the surface looks at
   std::optional<PositionView> bound;
   BindPolicy policy = BindPolicy::every_step;
   bool told = false;
+  std::uint64_t told_step = 0;  ///< the last one before which `positions_changed` was called
+  bool is_told_again = false;   ///< it was so before the step before that, too
   bool is_new = false;          ///< given since the last step
   bool may_have_input = false;  ///< it is among those that the store looks at in the next read
   double promise = std::numeric_limits<double>::infinity();
@@ -45,10 +53,11 @@ struct Object {
   /// survey does.
   bool unread = false;
   bool wanted = false;  ///< among those that `read_unread` was asked for
-  /// Its unread memory was surveyed: `box` is where that is, and the surface stands where it was read last.
+  /// What is unread was surveyed: `box` is where that is, and the surface stands where it was read last.
   bool surveyed = false;
-  bool to_survey = false;  ///< and not read, in the read that is under way
-  bool moved = false;      ///< it was elsewhere than before when it was read last, or was bound since
+  bool stays_unread = false;  ///< it was told nothing since it was surveyed in an earlier step
+  bool to_survey = false;     ///< and not read, in the read that is under way
+  bool moved = false;         ///< it was elsewhere than before when it was read last, or was bound since
   /// It moved so little, as far as its box tells, that how far it does is worth knowing (SlackOfMotion); not
   /// for some steps after it turned out to have moved further.
   bool is_calm = false;
@@ -100,15 +109,16 @@ class ObjectStore {
   void apply(const SetPose& call);
   void apply(SetPositions& call);
   void apply(const BindPositions& call);
-  void apply(UnbindPositions& call);
+  /// Appends what is wrong with the memory.
+  void apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics);
   void apply(const PositionsChanged& call);
   /// Makes room for that many objects.
   void reserve(std::size_t count);
 
   /// Brings every object to where it is now, but for those of which promises say about where they are, and
-  /// those in memory that is read in every step that were near nothing a step ago: these are surveyed, which
-  /// takes a third of the traffic. So are those that can be viewed. Several objects at a time; appends what
-  /// was wrong in the objects' order.
+  /// those that were near nothing a step ago. These are surveyed: only their boxes are made, from bound
+  /// memory without a copy, of copies and poses without a look at any vertex. So are those that can be
+  /// viewed. Several objects at a time; appends what was wrong in the objects' order.
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
@@ -172,6 +182,7 @@ class ObjectStore {
   std::vector<std::optional<Diagnostic>> read_problems_;        ///< of `to_read_`; empty when they were told
   std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial; likewise
   std::uint64_t next_serial_ = 0;
+  std::uint64_t steps_ = 0;         ///< that have read positions
   std::uint64_t first_unseen_ = 0;  ///< the serial of the first object that no step has seen
   std::size_t surface_bytes_ = 0;
   std::size_t unread_count_ = 0;

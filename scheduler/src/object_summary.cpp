@@ -62,7 +62,8 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
       summary.moved = summary.read_late || !(summary.motion == 0);
       summary.read_late = false;
       const bool changed = !(summary.motion == 0) || summary.version != object.version ||
-                           summary.frozen != object.frozen || summary.unread || object.unread;
+                           summary.frozen != object.frozen || summary.unread != object.unread ||
+                           (object.unread && !object.stays_unread);
       changed_[place] = changed ? 1 : 0;
       summary.box = object.box;
       summary.version = object.version;

@@ -71,13 +71,14 @@ void PairTable::read_what_is_near(std::span<const PlacePair> pairs, TaskPool& ta
                                   std::vector<Diagnostic>& diagnostics) {
   const auto objects = store_.objects();
   wanted_.clear();
+  const bool same_filter = std::exchange(filter_version_, filter_.version()) == filter_.version();
   const auto want = [&](std::uint32_t place) {
     Object* const object = objects[place].get();
     if (object->unread && !std::exchange(object->wanted, true)) wanted_.push_back(object);
   };
   for (const PlacePair pair : pairs) {
-    if (!summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair)))
-      continue;  // both are read
+    // Both are read, or were found to be apart in an earlier step.
+    if (same_filter && !summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair))) continue;
     const ObjectSummary& a = summaries_[first_of(pair)];
     const ObjectSummary& b = summaries_[second_of(pair)];
     if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::looked_at &&

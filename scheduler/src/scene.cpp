@@ -1,6 +1,7 @@
 #include <atomic>
 #include <exception>
 #include <graze/error.hpp>
+#include <graze/pair_query.hpp>
 #include <graze/scene.hpp>
 #include <memory>
 #include <utility>
@@ -16,6 +17,16 @@ namespace {
 const SceneSettings& checked(const SceneSettings& settings) {
   if (const auto problem = problem_of(settings)) throw Error(*problem);
   return settings;
+}
+
+/// Makes what pairs of an object will ask its mesh for, so that no step waits for it.
+void prepare(const Mesh& mesh, const ObjectSettings& object, const SceneSettings& scene) {
+  const ContactDetail detail = scene.detail;
+  if (wants_blocks(detail, scene.accuracy.mode())) mesh.prepare_for(Mesh::Use::blocks);
+  if (scene.accuracy.mode() == AccuracyMode::paper) mesh.prepare_for(Mesh::Use::neighbours);
+  if (detail != ContactDetail::none)
+    mesh.prepare_for(is_about_vertices(detail) ? Mesh::Use::normals_of_points : Mesh::Use::normals);
+  if (object.motion != Motion::deformable) mesh.prepare_for(Mesh::Use::poses);
 }
 
 /// Says whether a step runs. Shared with the step, so that it can be told to a scene that then goes away.
@@ -77,6 +88,7 @@ const SceneSettings& Scene::settings() const {
 }
 
 ObjectId Scene::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+  if (mesh != nullptr) prepare(*mesh, settings, state_->settings);
   return state_->staging.add(std::move(mesh), settings);
 }
 void Scene::remove(ObjectId object) {

@@ -1,7 +1,9 @@
 #include "staging.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <graze/error.hpp>
 #include <graze/floating_point_scope.hpp>
 #include <graze/surface.hpp>
@@ -44,15 +46,35 @@ bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& nam
   return true;
 }
 
-/// Copies the positions that faces use; returns the first that is not finite or beyond 2^120. The others
-/// stay whatever they were.
-std::uint32_t copy_used(const Mesh& mesh, const PositionView& view, Positions& positions) {
-  for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex) {
-    if (!mesh.is_used(vertex)) continue;
-    positions[vertex] = view[vertex];
-    if (!Surface::is_within_limits(positions[vertex])) return vertex;
+/// What one pass copies and a second one looks at while it is still in a cache.
+constexpr std::uint32_t vertices_each = 1024;
+
+/// Copies the positions that faces use from `begin` to `end`.
+void copy_some(const Mesh& mesh, const PositionView& view, CopiedPositions& positions, std::uint32_t begin,
+               std::uint32_t end) {
+  const std::size_t each = positions.view().stride_bytes();
+  const auto* const from = static_cast<const std::byte*>(view.data());
+  std::byte* const to = positions.data();
+  if (mesh.uses_all_vertices() && view.stride_bytes() == each) {
+    std::memcpy(to + begin * each, from + begin * each, (end - begin) * each);
+    return;
   }
-  return Surface::ReadResult::no_vertex;
+  for (std::size_t vertex = begin; vertex < end; ++vertex)
+    if (mesh.is_used(static_cast<std::uint32_t>(vertex)))
+      std::memcpy(to + vertex * each, from + vertex * view.stride_bytes(), each);
+}
+
+/// Copies the positions that faces use and finds their box. Ends where one is not finite or beyond 2^120.
+Surface::PartSeen copy_used(const Mesh& mesh, const PositionView& view, CopiedPositions& positions) {
+  Surface::PartSeen all;
+  const std::uint32_t count = mesh.vertex_count();
+  for (std::uint32_t begin = 0; begin < count; begin += vertices_each) {
+    const std::uint32_t end = std::min(begin + vertices_each, count);
+    copy_some(mesh, view, positions, begin, end);
+    all.add(Surface::survey(mesh, positions.view(), begin, end));
+    if (all.bad_vertex != Surface::ReadResult::no_vertex) break;
+  }
+  return all;
 }
 
 /// The upper three rows, row by row, of a 4x4 matrix column by column.
@@ -202,21 +224,25 @@ void Staging::add_positions(Calls& calls, ObjectId object, const PositionView& p
   if (!named) return add_stale(calls, object, "set_positions");
   if (!check_view(calls, object, *named, positions, "set_positions")) return;
   const double promise = promise_of(calls, object, max_displacement, "set_positions");
-  SetPositions call{object, copy_good(calls, object, *named, positions, "the old positions stand"), promise};
-  if (!call.positions) return;
+  std::optional<Diagnostic> problem;
+  SetPositions call{object, {}, {}, promise};
+  call.positions = copy_good(object, *named, positions, "the old positions stand", call.box, problem);
+  if (problem) return calls.add(std::move(*problem));
   end_binding(*named);
   calls.add(std::move(call));
 }
 
-SparePositions::Loan Staging::copy_good(Calls& calls, ObjectId object, NamedObject& named,
-                                        const PositionView& view, const char* consequence) {
-  SparePositions::Loan positions = ids_.lend_positions(named);
-  const std::uint32_t bad = copy_used(*named.mesh, view, *positions);
-  if (bad == Surface::ReadResult::no_vertex) return positions;
-  const bool finite = (*positions)[bad].allFinite();
-  add_problem(calls, object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
-              name_of(object, named) + ": vertex " + std::to_string(bad) +
-                  (finite ? " has a coordinate beyond 2^120; " : " is not finite; ") + consequence);
+SparePositions::Loan Staging::copy_good(ObjectId object, NamedObject& named, const PositionView& view,
+                                        const char* consequence, Box& box,
+                                        std::optional<Diagnostic>& problem) {
+  SparePositions::Loan positions = ids_.lend_positions(named, view.is_double());
+  const Surface::PartSeen all = copy_used(*named.mesh, view, *positions);
+  box = all.box;
+  if (all.bad_vertex == Surface::ReadResult::no_vertex) return positions;
+  const bool finite = all.bad_position.allFinite();
+  problem = Diagnostic{object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
+                       name_of(object, named) + ": vertex " + std::to_string(all.bad_vertex) +
+                           (finite ? " has a coordinate beyond 2^120; " : " is not finite; ") + consequence};
   return nullptr;
 }
 
@@ -270,14 +296,13 @@ void Staging::add_unbinding(Calls& calls, ObjectId object) {
   if (!check_deformable(calls, object, "unbind_positions")) return;
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "unbind_positions");
-  UnbindPositions call{object, {}};
+  UnbindPositions call;
+  call.object = object;
   Binding& binding = named->binding;
-  // What the next step would have read.
-  const bool is_due = binding.policy == BindPolicy::every_step || !has_step_read(binding);
-  if (binding.stands.exchange(false) && is_due) {
-    call.positions =
-        copy_good(calls, object, *named, binding.view, "it stands still until it is given good positions");
-    call.is_bad = !call.positions;
+  if (binding.stands.exchange(false)) {
+    call.is_due = binding.policy == BindPolicy::every_step || !has_step_read(binding);
+    call.positions = copy_good(object, *named, binding.view,
+                               "it stands still until it is given good positions", call.box, call.problem);
   }
   calls.add(std::move(call));
 }

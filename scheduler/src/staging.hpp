@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -100,12 +101,19 @@ class Staging {
     visit_one(LostCalls::motion, [&] {
       return PositionsChanged{object, std::numeric_limits<double>::infinity()};
     });
-    visit_one(LostCalls::binding, [&] { return UnbindPositions{object, {}, true}; });
+    visit_one(LostCalls::binding, [&] { return lost_binding(object); });
     visit_one(LostCalls::removal, [&] { return RemoveObject{object}; });
   }
   template <typename Visitor, typename OneCall>
   static void visit_made(const Visitor& visit, OneCall call) {
     visit(call);
+  }
+  /// A binding that ended without a copy of what was bound.
+  [[nodiscard]] static UnbindPositions lost_binding(ObjectId object) {
+    UnbindPositions call;
+    call.object = object;
+    call.is_lost = true;
+    return call;
   }
   /// Says that a call about an object, or about none, was lost.
   [[nodiscard]] Diagnostic lost_call(ObjectId object);
@@ -123,9 +131,9 @@ class Staging {
   void add_positions(Calls& calls, ObjectId object, const PositionView& positions, double max_displacement);
   void try_positions(Calls& calls, ObjectId object, const PositionView& positions,
                      double max_displacement) noexcept;
-  /// A copy of positions; none, and a diagnostic, where one is not finite or beyond 2^120.
-  SparePositions::Loan copy_good(Calls& calls, ObjectId object, NamedObject& named, const PositionView& view,
-                                 const char* consequence);
+  /// A copy of positions and their box; none, and a diagnostic, where one is not finite or beyond 2^120.
+  SparePositions::Loan copy_good(ObjectId object, NamedObject& named, const PositionView& view,
+                                 const char* consequence, Box& box, std::optional<Diagnostic>& problem);
   void add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy);
   void try_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy) noexcept;
   void add_unbinding(Calls& calls, ObjectId object);

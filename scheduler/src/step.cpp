@@ -112,13 +112,14 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
                      pairs_.filter().forget(*object);
                    store_.apply(removed);
                  },
+                 [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
                  [&](Reserve& call) {
                    is_settled_ = false;  // a step that repeats rows does not count what is made room for
                    // Where there is no memory for it, it is not tried again: the scene may do without.
                    reserve(std::exchange(call.capacity, {}));
                  },
                  [&](AddObject& added) {
-                   if (is_reserved_) make_ready(*added.surface);
+                   if (is_reserved_) make_ready(*added.surface, added.settings.motion);
                    store_.apply(added);
                  },
                  [&](auto& other) { store_.apply(other); }});
@@ -143,13 +144,15 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
     if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
-    make_ready(object->surface_to_write());
+    make_ready(object->surface_to_write(), object->settings.motion);
     store_.count_bytes(*object);
   }
 }
 
-/// Makes room for the first pair of an object: bounds of its regions, and its leaves in working memory.
-void Step::make_ready(Surface& surface) {
+/// Makes room for the first pair of an object: bounds of its regions, its leaves in working memory, and what
+/// it has by its pose.
+void Step::make_ready(Surface& surface, Motion motion) {
+  if (motion != Motion::deformable) surface.reserve_positions(true);
   refit_.make_ready(surface);
   jobs_.reserve_for(surface.mesh());
 }

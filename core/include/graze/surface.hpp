@@ -10,6 +10,7 @@
 #include <graze/vertex_blocks.hpp>
 #include <graze/vertex_stretches.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -76,6 +77,8 @@ class GRAZE_API Surface {
   /// for it (std::bad_alloc). Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
   /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
+  /// From one pose to another the displacement is a bound, by the corners of the rest shape's box, and
+  /// another pose is a change.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
   /// What looking at some of the new positions found.
@@ -100,8 +103,13 @@ class GRAZE_API Surface {
   [[nodiscard]] PartSeen look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
                                       std::uint32_t end) const;
   ReadResult take(const PartSeen& all);
+  /// Takes positions where they lie, which are this surface's until it is given others; none is to be
+  /// written.
+  ReadResult take_in_place(const PartSeen& all, const PositionView& view);
   void write_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end);
   void write_pose(const std::array<double, 12>& rows, std::uint32_t begin, std::uint32_t end);
+  /// Makes room for positions in a precision.
+  void reserve_positions(bool in_double);
   /// Whether positions are good, and their box, without a surface to compare them with: `changed` and the
   /// motion say nothing.
   [[nodiscard]] static PartSeen survey(const Mesh& mesh, const PositionView& view, std::uint32_t begin,
@@ -188,8 +196,11 @@ class GRAZE_API Surface {
   [[nodiscard]] PartSeen look(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const;
   template <typename PositionOf>
   void write(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
+  ReadResult take_pose(const std::array<double, 12>& rows);
   [[nodiscard]] bool is_laid_out_like(const PositionView& view) const;
   [[nodiscard]] bool has_own_positions() const { return !in_float_.empty() || !in_double_.empty(); }
+  [[nodiscard]] ReadResult result_of(const PartSeen& all) const;
+  void count_read(const ReadResult& result, const Box& now);
   void own_positions(bool in_double);
   [[nodiscard]] std::vector<Box>& boxes_to_write(RefitOf what) {
     return what == RefitOf::vertices ? vertex_boxes_ : face_boxes_;
@@ -204,6 +215,8 @@ class GRAZE_API Surface {
   // Positions in the precision in which they came; the other is empty, and both are before any came.
   std::vector<Eigen::Vector3f> in_float_;
   std::vector<Eigen::Vector3d> in_double_;
+  std::optional<std::array<double, 12>>
+      pose_;                ///< by which they are those of the rest shape, where it is known
   PositionView viewed_;     ///< in place of these, where there is one; as long as both are empty always
   bool is_behind_ = false;  ///< there has been one since they were written
   Box box_;
