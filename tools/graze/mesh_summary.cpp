@@ -71,13 +71,16 @@ std::string epsilon_line(const Mesh& mesh) {
 }  // namespace
 
 std::string summarise_mesh(const Mesh& mesh, const std::string& indent) {
+  const std::size_t bytes = mesh.byte_count();  // before more lists are made for what follows
   std::string lines;
   lines += indent + "counts     " + counts_line(mesh) + "\n";
   lines += indent + "surface    " + oddities_line(mesh) + "\n";
   lines += indent + "regions    " + levels_line(mesh.regions()) + leaves_line(mesh.regions()) + "\n";
   lines += indent + "epsilon    " + epsilon_line(mesh) + "\n";
   lines += indent + "memory     " +
-           format("%zu bytes, %zu of them regions", mesh.byte_count(), mesh.regions().byte_count()) + "\n";
+           format("%zu bytes, %zu of them regions, %.0f a vertex", bytes, mesh.regions().byte_count(),
+                  static_cast<double>(bytes) / mesh.vertex_count()) +
+           "\n";
   return lines;
 }
 
