@@ -121,7 +121,7 @@ void Mesh::check_rest() const {
 void Mesh::look_for_unused() {
   used_.assign(vertex_count(), 0);
   for (const std::uint32_t corner : corners_) used_[corner] = 1;
-  if (std::find(used_.begin(), used_.end(), 0) == used_.end()) used_ = {};
+  if (std::find(used_.begin(), used_.end(), 0) == used_.end()) std::vector<std::uint8_t>().swap(used_);
 }
 
 namespace {

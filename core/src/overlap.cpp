@@ -83,7 +83,8 @@ bool is_corner(const Eigen::Vector3d& point, const Simplex& triangle) {
 /// for a segment and a triangle could only run along a side or along the segment.
 bool segment_overlaps_triangle(const Simplex& segment, const Simplex& triangle, std::size_t fold_side,
                                DecisionCount& count) {
-  const auto& [p, q, unused] = segment.point;
+  const Eigen::Vector3d& p = segment.point[0];
+  const Eigen::Vector3d& q = segment.point[1];
   if (p == q || !has_area(triangle, count)) return false;
   const bool is_side = is_corner(p, triangle) && is_corner(q, triangle);
   const bool is_parallel = is_side || decide_sign(count, [&]<typename Number>() {

@@ -19,7 +19,8 @@ bool share_a_corner(const Simplex& segment, const Simplex& triangle) {
 /// `open_side` is the side (0-1, 1-2, 2-0) that counts as inside, a quad's fold; 3 for none.
 Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t open_side,
                   DecisionCount& count) {
-  const auto& [p, q, unused] = segment.point;
+  const Eigen::Vector3d& p = segment.point[0];
+  const Eigen::Vector3d& q = segment.point[1];
   const auto& corner = triangle.point;
   const auto side_of_plane = [&](const Eigen::Vector3d& end) {
     return decide_sign(count, [&]<typename Number>() {

@@ -24,6 +24,12 @@ std::uint64_t next_serial() {
   return count.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
+/// Empties a list and frees its memory; assigning an empty one in braces would keep that.
+template <typename Element>
+void let_go(std::vector<Element>& elements) noexcept {
+  std::vector<Element>().swap(elements);
+}
+
 }  // namespace
 
 Surface::Surface(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), serial_(next_serial()) {
@@ -125,8 +131,8 @@ Surface::ReadResult Surface::take(const PartSeen& all) {
 Surface::ReadResult Surface::take_in_place(const PartSeen& all, const PositionView& view) {
   const ReadResult result = result_of(all);
   if (result.changed) {
-    in_float_ = {};
-    in_double_ = {};
+    let_go(in_float_);
+    let_go(in_double_);
     viewed_ = view;
   }
   if (result.taken()) count_read(result, all.box);
@@ -139,10 +145,7 @@ void Surface::own_positions(bool in_double) {
   if ((in_double ? in_double_.size() : in_float_.size()) != count) {
     in_double ? in_double_.assign(count, Eigen::Vector3d::Zero())
               : in_float_.assign(count, Eigen::Vector3f::Zero());
-    if (in_double)
-      in_float_ = {};
-    else
-      in_double_ = {};
+    in_double ? let_go(in_float_) : let_go(in_double_);
   }
   viewed_ = {};
 }
@@ -519,10 +522,10 @@ void Surface::make_stretches() {
 }
 
 void Surface::forget_bounds() noexcept {
-  radii_ = {};
-  level_radii_ = {};
-  vertex_boxes_ = {};
-  face_boxes_ = {};
+  let_go(radii_);
+  let_go(level_radii_);
+  let_go(vertex_boxes_);
+  let_go(face_boxes_);
   refits_ = {};
   blocks_ = {};
   stretches_ = {};

@@ -11,27 +11,27 @@ void PairAnswers::begin(std::size_t count) {
 }
 
 void PairAnswers::keep(std::size_t job, const PairAnswer& answer, unsigned worker) {
-  answers_[job] = {answer, contacts_.keep(answer.contacts, worker), 0,
+  answers_[job] = {answer, contacts_.keep(answer.contacts, worker),
                    region_distances_.keep(answer.region_distances, worker)};
 }
 
 void PairAnswers::keep_without_contacts(std::size_t job, const PairAnswer& answer, unsigned worker) {
-  answers_[job] = {
-      answer, {}, answer.contacts.size(), region_distances_.keep(answer.region_distances, worker)};
+  answers_[job] = {answer, {}, region_distances_.keep(answer.region_distances, worker)};
+  answers_[job].contacts_left_out = static_cast<std::uint32_t>(answer.contacts.size());
 }
 
 void PairAnswers::repeat_without_contacts(std::size_t job, std::size_t contacts) {
   answers_[job] = {};
-  answers_[job].contacts_left_out = contacts;
+  answers_[job].contacts_left_out = static_cast<std::uint32_t>(contacts);
 }
 
 void PairAnswers::take_contacts(std::size_t job, std::span<const Contact> contacts) {
   answers_[job].contacts = contacts;
-  answers_[job].contacts_left_out -= contacts.size();
+  answers_[job].contacts_left_out -= static_cast<std::uint32_t>(contacts.size());
 }
 
 void PairAnswers::refer_to(std::size_t job, const PairAnswer& answer) {
-  answers_[job] = {answer, answer.contacts, 0, answer.region_distances};
+  answers_[job] = {answer, answer.contacts, answer.region_distances};
 }
 
 void PairAnswers::even_out() {

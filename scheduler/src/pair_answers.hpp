@@ -12,7 +12,6 @@ namespace graze {
 /// A PairAnswer whose lists are elsewhere.
 struct KeptAnswer : PairFinding {
   std::span<const Contact> contacts;
-  std::size_t contacts_left_out = 0;  ///< by the limit of all pairs
   std::span<const RegionDistance> region_distances;
 };
 

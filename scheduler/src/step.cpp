@@ -112,6 +112,11 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
                      pairs_.filter().forget(*object);
                    store_.apply(removed);
                  },
+                 [&](BindPositions& bound) {
+                   store_.apply(bound);
+                   Object* const object = store_.find(bound.object);
+                   if (is_reserved_ && object != nullptr) make_ready_to_copy(*object);
+                 },
                  [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
                  [&](Reserve& call) {
                    is_settled_ = false;  // a step that repeats rows does not count what is made room for
@@ -146,6 +151,7 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
     if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
     make_ready(object->surface_to_write(), object->settings.motion);
     store_.count_bytes(*object);
+    make_ready_to_copy(*object);
   }
 }
 
@@ -155,6 +161,17 @@ void Step::make_ready(Surface& surface, Motion motion) {
   if (motion != Motion::deformable) surface.reserve_positions(true);
   refit_.make_ready(surface);
   jobs_.reserve_for(surface.mesh());
+}
+
+/// Makes room for the positions of an object that is bound, which are copied when it comes near another;
+/// where they are viewed they never are.
+void Step::make_ready_to_copy(Object& object) {
+  if (!object.bound) return;
+  const bool is_viewed = wants_blocks(settings_.detail, settings_.accuracy.mode()) &&
+                         settings_.region_distances == 0 && object.surface().can_view(*object.bound);
+  if (is_viewed) return;
+  object.surface_to_write().reserve_positions(object.bound->is_double());
+  store_.count_bytes(object);
 }
 
 /// The end of a step: jobs ran in any order, but their answers are put together in the order of the pairs.

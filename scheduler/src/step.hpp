@@ -33,6 +33,7 @@ class Step {
   void take_up_calls(std::vector<Diagnostic>& diagnostics);
   void reserve_for_pairs(const SceneCapacity& capacity);
   void make_ready(Surface& surface, Motion motion);
+  void make_ready_to_copy(Object& object);
   void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
   void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);
   void repeat_pairs(const RestingRows& resting, const FrameReport& previous, ReportBuilder& builder);

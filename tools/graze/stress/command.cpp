@@ -10,6 +10,7 @@
 
 #include "check_failed.hpp"
 #include "stress/budgets.hpp"
+#include "stress/coinciding.hpp"
 #include "stress/determinism.hpp"
 #include "stress/objects.hpp"
 #include "stress/reader.hpp"
@@ -20,7 +21,7 @@ namespace graze::tools {
 namespace {
 
 struct StressOptions {
-  bool reader = false, soak = false, determinism = false, budgets = false;
+  bool reader = false, soak = false, determinism = false, budgets = false, coinciding = false;
   double seconds = 60;
   ObjectsOptions objects;
   SoakOptions soaking;
@@ -42,6 +43,8 @@ void run(StressOptions options) {
   } else if (options.determinism) {
     if (options.frames > 0) options.playing.frames = options.frames;
     result = run_determinism_study(options.playing);
+  } else if (options.coinciding) {
+    result = run_coinciding_study(options.frames > 0 ? options.frames : 9);
   } else if (options.budgets) {
     if (options.frames > 0) options.budgeted.frames = options.frames;
     result = run_budgets_study(options.budgeted);
@@ -63,8 +66,9 @@ void run(StressOptions options) {
 }  // namespace
 
 void add_stress_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "stress", "Puts graze under load: one of --reader, --objects, --soak, --determinism and --budgets.");
+  CLI::App* command = app.add_subcommand("stress",
+                                         "Puts graze under load: one of --reader, --objects, --soak, "
+                                         "--determinism, --budgets and --coinciding.");
   const auto options = std::make_shared<StressOptions>();
   auto* const studies = command->add_option_group("studies")->require_option(1);
   studies->add_flag("--reader", options->reader,
@@ -77,6 +81,8 @@ void add_stress_command(CLI::App& app) {
   studies->add_flag("--soak", options->soak, "A long run of everything, bad input included");
   studies->add_flag("--determinism", options->determinism,
                     "The same bits from 1 to 16 threads, again and again");
+  studies->add_flag("--coinciding", options->coinciding,
+                    "Surfaces that coincide exactly beside neighbours in which they do not");
   studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
   command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
       ->check(CLI::PositiveNumber)
@@ -91,9 +97,9 @@ void add_stress_command(CLI::App& app) {
   command
       ->add_option(
           "--frames", options->frames,
-          "How many frames --objects times, --determinism plays and --budgets steps each scene; by default "
-          "20 and 100 of the latter two, and more of smaller scenes. --soak takes as many in place of "
-          "--minutes")
+          "How many frames --objects times, --determinism and --coinciding play and --budgets steps each "
+          "scene; by default 20, 9 and 100 of the latter three, and more of smaller scenes. --soak takes as "
+          "many in place of --minutes")
       ->check(CLI::PositiveNumber);
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
       ->check(CLI::PositiveNumber)
