@@ -48,8 +48,8 @@ void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
       std::max(listed.looked, rounded_down((static_cast<double>(now.looked) + motion) * round_down));
 }
 
-/// Of sorted names at distance 0 the first of an edge that pierces a face. At threshold 0 that alone is contact: what
-/// touches there is not below the threshold.
+/// Of sorted names at distance 0 the first of an edge that pierces a face. At threshold 0 that alone is
+/// contact: what touches there is not below the threshold.
 const ContactName& lowest_piercing(const std::vector<ContactName>& names) {
   return *std::find_if(names.begin(), names.end(), is_edge_through_face);
 }

@@ -98,8 +98,10 @@ class ParallelContacts {
         touches_(nearest.meeting() == Meeting::pierced || do_touch(hulls_of(pair, nearest), pair.count)),
         scratch_(scratch) {
     scratch_.known.resize(known_count);
-    if (++scratch_.query == 0) scratch_.known.assign(known_count, {});  // numbers begin anew
-    scratch_.query += scratch_.query == 0 ? 1 : 0;
+    if (++scratch_.query == 0) {  // numbers begin anew
+      scratch_.known.assign(known_count, {});
+      scratch_.query = 1;
+    }
   }
 
   /// Whether a parallel contact holds both features of a name.
@@ -123,7 +125,8 @@ class ParallelContacts {
 
  private:
   void find(const ContactName& name) {
-    constexpr std::uint32_t pieces = 8;  // some hundred pairs of holders, most of which are apart at first sight
+    constexpr std::uint32_t pieces =
+        8;  // some hundred pairs of holders, most of which are apart at first sight
     pair_.check_time(pieces);
     scratch_.of_name_a.find(pair_.a, name.a().feature);
     scratch_.of_name_b.find(pair_.b, name.b().feature);

@@ -293,8 +293,7 @@ Looked read_whole(Object& object) {
     all = look_at_part(object, 0, count);
   Looked looked = take_seen(object, all);
   if (looked.to_write) write_part(object, 0, count);
-  if (object.to_survey && object.to_block && !object.frozen && can_be_viewed(object))
-    view_memory(object);
+  if (object.to_survey && object.to_block && !object.frozen && can_be_viewed(object)) view_memory(object);
   finish_read(object);
   return looked;
 }

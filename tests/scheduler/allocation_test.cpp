@@ -187,9 +187,11 @@ class Falling {
   }
 
  private:
-  /// A third of the deformable ones is bound before room is reserved, a third after that; the others are told.
+  /// A third of the deformable ones is bound before room is reserved, a third after that; the others are
+  /// told.
   void bind(std::size_t which) {
-    for (std::size_t drop = which; drop < drops; drop += 6) scene_.bind_positions(ids_[drop], positions_[drop]);
+    for (std::size_t drop = which; drop < drops; drop += 6)
+      scene_.bind_positions(ids_[drop], positions_[drop]);
   }
 
   Scene scene_;
