@@ -98,7 +98,7 @@ class GRAZE_API Mesh {
     return blocks().stretch_groups.row(stretch);
   }
 
-  /// What asks for such lists.
+  /// The purposes for which a mesh makes further lists.
   enum class Use : std::uint8_t {
     blocks,             ///< `block_order`, `stretch_groups`
     normals_of_points,  ///< `vertex_fans`, `vertex_faces`

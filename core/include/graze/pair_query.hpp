@@ -33,8 +33,8 @@ struct PairQuery {
   double list_slack = 0;
   /// A front of more pairs of leaves than this is not kept, nor a list of more pairs of features.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
-  /// So many contacts are kept at most, the nearest; 0: all are. Which of those that are as near, their names
-  /// say. Where contacts are so many, no features are listed for the next steps.
+  /// The most contacts that an answer keeps: the nearest, and of those that are as near the lowest names. 0:
+  /// all. Where more are found, no features are listed for the next steps.
   std::size_t contact_limit = 0;
   /// How many distances of regions are listed at most; 0: none are looked for.
   std::size_t region_distance_limit = 0;
@@ -44,11 +44,11 @@ struct PairQuery {
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
   /// Region pairs that may be tested; beyond it the answer is not complete.
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
-  /// The same in time. A search ends some tens of microseconds after it.
   static constexpr std::chrono::steady_clock::time_point no_deadline =
       std::chrono::steady_clock::time_point::max();
+  /// A search ends some tens of microseconds after its deadline; the answer is not complete then.
   std::chrono::steady_clock::time_point deadline = no_deadline;
-  /// What is kept back of that time for each contact, for whoever takes them.
+  /// The search ends before its deadline by this for each contact found, so that the caller can take them.
   std::chrono::nanoseconds time_after_contact{0};
 };
 
