@@ -7,23 +7,12 @@
 #include <utility>
 
 #include "models/models.hpp"
-#include "scenes/grid.hpp"
+#include "scenes/scene_parts.hpp"
 
 namespace graze::scenes {
 namespace {
 
 using Eigen::Vector3d;
-
-std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
-  return std::make_shared<const Mesh>(
-      Mesh::from_polygons(data.positions, data.corners, std::span<const std::uint32_t>(data.corner_counts)));
-}
-
-/// As models make them up to the last bits of sine and cosine, which are rounded away.
-std::shared_ptr<const Mesh> mesh_on_grid(models::MeshData data) {
-  for (Vector3d& position : data.positions) position = on_grid(position);
-  return mesh_of(data);
-}
 
 /// A smooth wave of period 4 between -1 and 1, of sums and products alone.
 double wave(double x) {
@@ -76,14 +65,6 @@ class CopiesScene : public PlayedScene {
   Place place_;
   std::vector<Vector3d> positions_;
 };
-
-SceneSettings settings_of(double contact_distance, double range) {
-  SceneSettings settings;
-  settings.contact_distance = contact_distance;
-  settings.range = range;
-  settings.detail = ContactDetail::features;
-  return settings;
-}
 
 /// A waving sheet in steps of float, and a second one on it or half a cell's fortieth above.
 std::unique_ptr<PlayedScene> layers(double gap) {

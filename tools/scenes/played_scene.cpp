@@ -8,26 +8,13 @@
 #include "models/models.hpp"
 #include "scenes/grid.hpp"
 #include "scenes/random.hpp"
+#include "scenes/scene_parts.hpp"
 #include "scenes/skinned_human.hpp"
 
 namespace graze::scenes {
 namespace {
 
 using Eigen::Vector3d;
-
-std::shared_ptr<const Mesh> mesh_of(models::MeshData data) {
-  for (Vector3d& position : data.positions) position = on_grid(position);
-  return std::make_shared<const Mesh>(
-      Mesh::from_polygons(data.positions, data.corners, std::span<const std::uint32_t>(data.corner_counts)));
-}
-
-SceneSettings settings_of(double contact_distance, double range) {
-  SceneSettings settings;
-  settings.contact_distance = contact_distance;
-  settings.range = range;
-  settings.detail = ContactDetail::features;
-  return settings;
-}
 
 /// A surface that takes a Lissajous path about `centre`, turned once, and wobbles radially.
 struct Body {
@@ -76,7 +63,7 @@ class BodiesScene : public PlayedScene {
 /// The paper's first experiment: five tori and five pawns whose paths cross.
 std::unique_ptr<PlayedScene> paths() {
   Random random(1);
-  const std::array meshes{mesh_of(models::torus()), mesh_of(models::pawn())};
+  const std::array meshes{mesh_on_grid(models::torus()), mesh_on_grid(models::pawn())};
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < 10; ++i)
     bodies.push_back({meshes[i % 2], random.turn(), random.vector(-1.8, 1.8), random.vector(0.8, 1.6),
@@ -87,7 +74,8 @@ std::unique_ptr<PlayedScene> paths() {
 /// Eighteen tori and spheres so close that each is in contact with most of its neighbours.
 std::unique_ptr<PlayedScene> pile() {
   Random random(3);
-  const std::array meshes{mesh_of(models::torus(24, 12, 0.7, 0.3)), mesh_of(models::sphere(20, 13))};
+  const std::array meshes{mesh_on_grid(models::torus(24, 12, 0.7, 0.3)),
+                          mesh_on_grid(models::sphere(20, 13))};
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < 18; ++i) {
     const std::size_t layer = i / 9;
@@ -101,7 +89,8 @@ std::unique_ptr<PlayedScene> pile() {
 
 /// Two spheres that touch in a small patch.
 std::unique_ptr<PlayedScene> pair(PairSize size) {
-  const auto mesh = mesh_of(size == PairSize::large ? models::sphere(400, 250) : models::sphere(125, 80));
+  const auto mesh =
+      mesh_on_grid(size == PairSize::large ? models::sphere(400, 250) : models::sphere(125, 80));
   std::vector<Body> bodies;
   for (const double side : {-1.0, 1.0})
     bodies.push_back({mesh,
@@ -157,8 +146,8 @@ class SkinnedScene : public PlayedScene {
     return made;
   }
 
-  std::shared_ptr<const Mesh> sheet_mesh_ = mesh_of(models::sheet(16, 16, 1.5, 1.75));
-  std::shared_ptr<const Mesh> ball_mesh_ = mesh_of(small_ball());
+  std::shared_ptr<const Mesh> sheet_mesh_ = mesh_on_grid(models::sheet(16, 16, 1.5, 1.75));
+  std::shared_ptr<const Mesh> ball_mesh_ = mesh_on_grid(small_ball());
   std::array<ObjectId, 2> walkers_;
   ObjectId sheet_, ball_;
   std::vector<Vector3d> positions_;
@@ -235,8 +224,8 @@ class CrowdScene : public PlayedScene {
 
   Random random_{7};
   std::array<std::shared_ptr<const Mesh>, 4> meshes_ = {
-      mesh_of(models::box({0.7, 0.5, 0.9})), mesh_of(models::torus(12, 8, 0.4, 0.15)),
-      mesh_of(models::sphere(9, 6, models::Faces::quads)), mesh_of(models::sheet(6, 6, 1.5, 1.5))};
+      mesh_on_grid(models::box({0.7, 0.5, 0.9})), mesh_on_grid(models::torus(12, 8, 0.4, 0.15)),
+      mesh_on_grid(models::sphere(9, 6, models::Faces::quads)), mesh_on_grid(models::sheet(6, 6, 1.5, 1.5))};
   std::vector<Member> members_;
 };
 
