@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <graze/number_text.hpp>
 #include <optional>
 #include <string>
@@ -24,6 +25,19 @@ inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& 
   if (!(off <= furthest)) return "the pose is " + number_text(off) + " from a rotation";
   if (rotation.determinant() < 0) return "the pose is a reflection";
   return std::nullopt;
+}
+
+/// The same of a 4x4 matrix, whose last row is (0, 0, 0, 1) but for the rounding of an inverse in float.
+inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows,
+                                                  const std::array<double, 4>& last_row) {
+  constexpr double furthest = 1e-6;
+  constexpr std::array<double, 4> wanted{0, 0, 0, 1};
+  for (std::size_t column = 0; column < 4; ++column)
+    if (!(std::abs(last_row[column] - wanted[column]) <= furthest))
+      return "the last row of the pose is (" + number_text(last_row[0]) + ", " + number_text(last_row[1]) +
+             ", " + number_text(last_row[2]) + ", " + number_text(last_row[3]) +
+             "), not (0, 0, 0, 1); the translation belongs into the last column";
+  return problem_of_pose(rows);
 }
 
 }  // namespace graze
