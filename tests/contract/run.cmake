@@ -40,6 +40,17 @@ foreach(flags ${flag_sets})
   run(${build}/consumer)
 endforeach()
 
+if(KIND STREQUAL "shared")  # installed without io: a program that needs it is told why it is not there
+  file(WRITE ${WORK}/without_io/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(without_io CXX)\n\
+find_package(graze CONFIG REQUIRED COMPONENTS io)\n")
+  execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${WORK}/without_io -B ${WORK}/without_io/build
+    -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_PREFIX_PATH=${prefix};${PREFIX_PATH}" RESULT_VARIABLE failed ERROR_VARIABLE said
+    OUTPUT_QUIET)
+  if(NOT failed OR NOT said MATCHES "graze was installed without its component io")
+    message(FATAL_ERROR "a component that was not installed is not said to be missing: ${said}")
+  endif()
+endif()
+
 set(ENV{PKG_CONFIG_PATH} ${pkg_config_folder})
 execute_process(COMMAND pkg-config --cflags --libs graze OUTPUT_VARIABLE pkg_flags OUTPUT_STRIP_TRAILING_WHITESPACE
   COMMAND_ERROR_IS_FATAL ANY)
