@@ -58,7 +58,7 @@ Matrix rows_of_corners() {
   return matrix;
 }
 
-// What is no position does not convert.
+// Types that are no position do not convert.
 static_assert(!PackedPoint<std::array<int, 3>> && !PackedPoint<Eigen::Vector3i> && !PackedPoint<Vertex>);
 static_assert(!PackedPoint<Eigen::Vector4f> && !PackedPoint<Eigen::Vector2d>);
 static_assert(!std::is_constructible_v<PositionView, Eigen::MatrixXi>);

@@ -19,7 +19,7 @@ using Catch::Matchers::Contains;
 struct PosedNeedle : NeedleOverPlate {
   PosedNeedle() : NeedleOverPlate(settings_of(0.5, 100), {}, motion_of(Motion::rigid)) {}
 
-  /// Where the tip is after a pose.
+  /// The position of the tip after a pose.
   template <typename Pose>
   Eigen::Vector3d tip_by(const Pose& pose) {
     scene.set_pose(needle, pose);
@@ -27,7 +27,7 @@ struct PosedNeedle : NeedleOverPlate {
     CHECK(report->diagnostics().empty());
     return only_pair(*report).witness.point_b;
   }
-  /// What a pose that is not taken is told.
+  /// The message about a pose that is not taken.
   template <typename Pose>
   std::string refusal_of(const Pose& pose) {
     scene.set_pose(needle, pose);
@@ -46,7 +46,7 @@ Eigen::Isometry3d quarter_turn() {
   return pose;
 }
 
-/// Of the tip, which is at (0.25, 0.5, 0).
+/// The position of the tip, at rest (0.25, 0.5, 0), after the quarter turn and a translation.
 Eigen::Vector3d turned_tip(const Eigen::Vector3d& translation) {
   return Eigen::Vector3d(-0.5, 0.25, 0) + translation;
 }

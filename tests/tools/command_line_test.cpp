@@ -1,5 +1,5 @@
-// What `graze` says of command lines that cannot be meant: each number out of its range, words that are
-// misspelt, files that cannot be written. And the limits of contacts and of threads.
+// `graze` refuses command lines that cannot be meant: numbers out of their range, misspelt words, files that
+// cannot be written. Also the limits of contacts and of threads.
 
 #include <algorithm>
 #include <filesystem>
@@ -48,7 +48,7 @@ struct SpikesOnSheet {
                 .write("scene.json", R"({"graze": 1, "contact_distance": 0.3, "objects": [
       {"name": "sheet", "mesh": "sheet.obj", "motion": "fixed"},
       {"name": "left", "mesh": "spike.obj", "transform": {"translate": [0.25, 0.5, 0.125]}, "group": 1},
-      {"name": "right", "mesh": "spike.obj", "transform": {"translate": [0.8, 0.6, 0.25]}, "group": 1}]})")
+      {"name": "right", "mesh": "spike.obj", "transform": {"translate": [0.85, 0.6, 0.2]}, "group": 1}]})")
                 .string();
   }
   [[nodiscard]] std::string in(const std::string& name) const { return (folder / name).string(); }

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "number_option.hpp"
+#include "option_checks.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "run_summary.hpp"
@@ -221,10 +221,11 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option("--frames-per-second", options->frames_per_second, "At which rate animations are sampled")
       ->check(real_number(NumberRange::above_0));
-  command->add_option("--report", options->report, "Write a report, JSON Lines, a line a frame");
+  command->add_option("--report", options->report, "Write a report, JSON Lines, a line a frame")
+      ->check(file_name());
   command->add_flag("--no-times", options->no_times,
                     "Leave timings out of the report: equal runs, equal files");
-  command->add_option("--picture", options->picture, "Draw one frame into a PNG");
+  command->add_option("--picture", options->picture, "Draw one frame into a PNG")->check(file_name());
   command
       ->add_option("--picture-frame", options->picture_frame, "Which one; else the first with most contacts")
       ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()));

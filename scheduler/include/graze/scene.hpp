@@ -70,14 +70,14 @@ class GRAZE_API Scene {
   /// Places a rigid or fixed object: vertex = ((r0·x + r1·y) + r2·z) + t of its rest vertex (x, y, z), in
   /// double.
   void set_pose(ObjectId object, const Eigen::Isometry3d& pose) { set_pose_rows(object, rows_of(pose)); }
-  /// The same from a transform of either precision, such as Eigen::Isometry3f or Affine3d. Floats are
+  /// Places it by a transform of either precision, such as Eigen::Isometry3f or Affine3d. Floats are
   /// converted to double and used as they stand.
   template <typename Scalar, int mode, int options>
   requires(mode != Eigen::Projective) void set_pose(ObjectId object,
                                                     const Eigen::Transform<Scalar, 3, mode, options>& pose) {
     set_pose_rows(object, rows_of(pose));
   }
-  /// The same from a 4x4 matrix of either precision, for column vectors: the translation is its last column.
+  /// Places it by a 4x4 matrix of either precision, for column vectors: the translation is its last column.
   /// An engine's 16 numbers can be given as `Eigen::Map<const Eigen::Matrix4f>`. Where an entry of the last
   /// row is further than 1e-6 from (0, 0, 0, 1) the pose is not taken, and a Diagnostic `bad_pose` says so.
   template <typename Matrix>
@@ -91,9 +91,9 @@ class GRAZE_API Scene {
         rows[static_cast<std::size_t>(row * 4 + column)] = static_cast<double>(values(row, column));
     set_pose_matrix(object, rows);
   }
-  /// The same from the upper three rows of the 4x4 matrix, row by row.
+  /// Places it by the upper three rows of the 4x4 matrix, row by row.
   void set_pose_rows(ObjectId object, const std::array<double, 12>& rows);
-  /// The same from all four rows of the 4x4 matrix, row by row.
+  /// Places it by all four rows of the 4x4 matrix, row by row. The last one is checked as above.
   void set_pose_matrix(ObjectId object, const std::array<double, 16>& rows);
   /// A pose for each object.
   void set_poses(std::span<const ObjectId> objects, std::span<const Eigen::Isometry3d> poses) {

@@ -12,7 +12,7 @@
 #include "accuracy/plot.hpp"
 #include "check_failed.hpp"
 #include "gnuplot.hpp"
-#include "number_option.hpp"
+#include "option_checks.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "text_format.hpp"
@@ -128,6 +128,7 @@ void add_accuracy_command(CLI::App& app) {
       "Measures every kernel and accuracy setting against exact arithmetic, and writes a page of tables.");
   const auto options = std::make_shared<AccuracyOptions>();
   command->add_option("--out", options->out, "The page, in Markdown; the figure is a PNG beside it")
+      ->check(file_name())
       ->capture_default_str();
   command->add_option("--count", options->count, "How many scenes of each kind of input")
       ->check(whole_number(1))

@@ -18,7 +18,7 @@
 #include "bench/slow_motion.hpp"
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
-#include "number_option.hpp"
+#include "option_checks.hpp"
 #include "output_path.hpp"
 
 namespace graze::tools {
@@ -192,8 +192,9 @@ void add_bench_command(CLI::App& app) {
                    "and what is better")
       ->delimiter(',');
   command->add_option("--data", options->data, "The folder of real meshes, for S7")->capture_default_str();
-  command->add_option("--csv", options->csv, "Write a line for each contender of each run into this file");
-  command->add_option("--json", options->json, "Write all figures into this file");
+  command->add_option("--csv", options->csv, "Write a line for each contender of each run into this file")
+      ->check(file_name());
+  command->add_option("--json", options->json, "Write all figures into this file")->check(file_name());
   command
       ->add_option(
           "--figures", options->figures,

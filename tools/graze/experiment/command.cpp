@@ -13,7 +13,7 @@
 #include "experiment/regions/subdivision_study.hpp"
 #include "experiment/report/run_studies.hpp"
 #include "experiment/speed/speed_against_error.hpp"
-#include "number_option.hpp"
+#include "option_checks.hpp"
 
 namespace graze::tools {
 namespace {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "check_failed.hpp"
-#include "number_option.hpp"
+#include "option_checks.hpp"
 #include "output_path.hpp"
 #include "stress/budgets.hpp"
 #include "stress/coinciding.hpp"
@@ -110,7 +110,7 @@ void add_stress_command(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--large", options->playing.large,
                     "In --determinism the large pair has 100,000 vertices each, else 10,000");
-  command->add_option("--out", options->out, "Write the figures into this file, as JSON");
+  command->add_option("--out", options->out, "Write the figures into this file, as JSON")->check(file_name());
   command->callback([options] { run(*options); });
 }
 

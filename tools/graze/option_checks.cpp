@@ -1,4 +1,4 @@
-#include "number_option.hpp"
+#include "option_checks.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -53,6 +53,13 @@ CLI::Validator real_number(NumberRange range) {
 
 CLI::Validator thread_number() {
   return whole_number(1, max_threads(), " (8 for each processor)");
+}
+
+CLI::Validator file_name() {
+  return {[](std::string& text) {
+            return text.empty() ? std::string("expected the name of a file, got nothing") : std::string();
+          },
+          ""};
 }
 
 }  // namespace graze::tools

@@ -22,4 +22,7 @@ CLI::Validator real_number(NumberRange range);
 /// Checks that a number of threads is from 1 to `max_threads()`.
 CLI::Validator thread_number();
 
+/// Checks that the name of a file is not empty.
+CLI::Validator file_name();
+
 }  // namespace graze::tools
