@@ -87,9 +87,7 @@ TEST_CASE("positions inside of a caller's structs are named by a member") {
   std::vector<Record> records;
   for (const Eigen::Vector3d& p : corners) {
     vertices.push_back({7, 8, float(p.x()), float(p.y()), float(p.z())});
-    Node node;
-    node.position = p;
-    nodes.push_back(node);
+    nodes.push_back({{2, p, 3}, 4});
     records.push_back({3, {float(p.x()), float(p.y()), float(p.z())}});
   }
   check_is(PositionView(vertices, &Vertex::x), false);

@@ -59,7 +59,7 @@ TEST_CASE("poses of either precision, as transforms and as matrices") {
   const Eigen::Isometry3f in_float = pose.cast<float>();
   const Eigen::Vector3d exact = turned_tip(pose.translation());
   // Used as it stands: 0.1F is not 0.1.
-  const Eigen::Vector3d of_float = turned_tip(in_float.translation().cast<double>());
+  const Eigen::Vector3d of_float = turned_tip({double(0.1F), double(0.2F), double(2.3F)});
   REQUIRE(exact != of_float);
 
   CHECK(pair.tip_by(pose) == exact);

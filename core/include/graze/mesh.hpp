@@ -90,7 +90,7 @@ class GRAZE_API Mesh {
   /// how many each face has.
   static Mesh from_polygons(PositionView rest, std::span<const std::uint32_t> corners,
                             std::span<const std::uint32_t> corner_counts);
-  /// The same for corners with a sign, and counts of any integer type.
+  /// Triangles and quads mixed, from corners with a sign, or counts of any integer type.
   template <CornerRange Corners, CountRange Counts>
   requires(!AreUnsigned<Corners, Counts>) static Mesh
       from_polygons(PositionView rest, const Corners& corners, const Counts& corner_counts) {

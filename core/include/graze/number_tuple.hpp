@@ -31,7 +31,7 @@ concept BracedFrom = (count == 3 &&
 /// std::array and a caller's own struct with `count` members are such types.
 template <typename Tuple, typename Number, std::size_t count>
 concept TupleOf = sizeof(Tuple) == count * sizeof(Number) &&
-                  alignof(Tuple) == alignof(Number) && BracedFrom<Tuple, Number, count> &&
+                  alignof(Tuple) >= alignof(Number) && BracedFrom<Tuple, Number, count> &&
                   !NamesOtherNumber<Tuple, Number>;
 
 /// An integer of 32 bits, with a sign or without.
