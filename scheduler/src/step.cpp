@@ -83,7 +83,7 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
-    even_out();
+    even_out(start);
     count_bytes_of_pairs(list.jobs, statistics);
   }
   statistics.objects_unread = store_.unread_count();
@@ -276,12 +276,11 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
   is_settled_ = true;
 }
 
-/// Makes room for steps like this one. It is complete without: where there is no memory for that, later steps
-/// take some.
-void Step::even_out() {
+/// Makes room for steps like this one. A step is complete without: where there is no memory for that, or no
+/// time within the budget, later steps take some.
+void Step::even_out(Clock::time_point start) {
   try {
-    jobs_.even_out_memory();
-    reports_.even_out();
+    reports_.even_out(jobs_.even_out_memory(start));
   } catch (const std::bad_alloc&) {
     return;
   }
