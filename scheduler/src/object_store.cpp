@@ -200,6 +200,11 @@ void ObjectStore::expect_input(Object& object) {
   object.may_have_input = true;
 }
 
+void ObjectStore::forget_promises() noexcept {
+  for (const auto& object : objects_)
+    if (object != nullptr) object->promised = std::numeric_limits<double>::infinity();
+}
+
 void ObjectStore::forget() noexcept {
   for (const auto& object : objects_) {
     if (object == nullptr) continue;
@@ -208,7 +213,6 @@ void ObjectStore::forget() noexcept {
     object->looked_at = object->asked_for_blocks = object->goes_by_lists = object->wanted = false;
     object->to_block = object->to_view = object->to_survey = false;
     object->asked = {};
-    object->promised = std::numeric_limits<double>::infinity();  // no promise holds
     object->may_have_input = false;
     count_bytes(*object);
   }

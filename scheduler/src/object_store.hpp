@@ -131,6 +131,9 @@ class ObjectStore {
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
+  /// After a step that came to no end, at any point and also before it began: no promise holds until the
+  /// next one, since its caller may count from positions that no step has seen.
+  void forget_promises() noexcept;
   /// Forgets what steps have remembered of the objects, after one that came to no end at any point. What was
   /// read stays read; the next step reads the rest.
   void forget() noexcept;

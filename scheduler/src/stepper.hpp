@@ -32,6 +32,7 @@ class Stepper {
 
  private:
   [[nodiscard]] std::unique_ptr<Step> begun_afresh();
+  void step_failed() noexcept;
   void fill(FrameReport& report);
 
   const SceneSettings& settings_;
