@@ -17,13 +17,12 @@ std::string object_name(const aiScene& scene, const aiNode& node) {
 
 }  // namespace
 
-RiggedFile convert_scene(const std::filesystem::path& path, const aiScene& scene,
-                         const SteppedTracks& steps) {
+RiggedFile convert_scene(const std::filesystem::path& path, const aiScene& scene) {
   const std::string extension = lower_extension(path);
-  const bool use_rest_weights = extension == ".gltf" || extension == ".glb" || extension == ".dae";
+  const bool use_rest_weights = extension == ".dae" || extension == ".zae";
   NodeTable nodes(scene);
   RiggedFile result;
-  result.rig.clips = read_clips(scene, nodes, steps);
+  result.rig.clips = read_clips(scene, nodes);
   std::size_t small_faces = 0;
   for (std::uint32_t node = 0; node < nodes.sources.size(); ++node) {
     if (nodes.sources[node]->mNumMeshes == 0) continue;
@@ -40,7 +39,7 @@ RiggedFile convert_scene(const std::filesystem::path& path, const aiScene& scene
   for (std::size_t i = 0; i < result.rig.bodies.size(); ++i) {
     RawSurface& surface = result.file.objects[i].surface;
     pose(result.rig, result.rig.bodies[i], nullptr, 0, surface.positions);
-    if (is_mirrored(result.rig, result.rig.bodies[i])) turn_faces(surface);
+    turn_faces(surface, mirrored_vertices(result.rig, result.rig.bodies[i]));
   }
   if (small_faces > 0)
     result.file.warnings.push_back(joined(path.string(), ": ", small_faces,

@@ -8,6 +8,7 @@
 #include "file_bytes.hpp"
 #include "object_file.hpp"
 #include "raw_object.hpp"
+#include "read_gltf.hpp"
 #include "rig.hpp"
 #include "text_lines.hpp"
 
@@ -53,6 +54,7 @@ RiggedFile read_objects(const std::filesystem::path& path) {
   if (extension == ".obj") return {read_obj(path), {}};
   if (extension == ".ply") return {read_ply(path), {}};
   if (extension == ".off") return {read_off(path), {}};
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(path);
   return read_assimp(path);
 }
 
