@@ -1,5 +1,8 @@
 #include "assimp_scene.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "assimp_body.hpp"
 #include "assimp_clips.hpp"
 #include "assimp_nodes.hpp"
@@ -8,11 +11,25 @@
 namespace graze::io {
 namespace {
 
+/// Names such as "<STL_ROOT>" and "$ColladaAutoName$_0" are assimp's own.
+bool is_made_by_assimp(const std::string& name) {
+  return name.empty() || name.front() == '<' || name.front() == '$';
+}
+
 std::string object_name(const aiScene& scene, const aiNode& node) {
   std::string name = node.mName.C_Str();
-  // Names such as "<STL_ROOT>" are assimp's own.
-  if (!name.empty() && name.front() != '<') return name;
-  return scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
+  if (!is_made_by_assimp(name)) return name;
+  name = scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
+  return is_made_by_assimp(name) ? std::string() : name;
+}
+
+bool has_faces(const aiScene& scene, const aiNode& node) {
+  return std::ranges::any_of(std::span(node.mMeshes, node.mNumMeshes), [&](unsigned number) {
+    if (number >= scene.mNumMeshes) return false;
+    const aiMesh& mesh = *scene.mMeshes[number];
+    return std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
+                       [](const aiFace& face) { return face.mNumIndices >= 3; });
+  });
 }
 
 }  // namespace
@@ -45,6 +62,13 @@ RiggedFile convert_scene(const std::filesystem::path& path, const aiScene& scene
     result.file.warnings.push_back(joined(path.string(), ": ", small_faces,
                                           " points, lines or faces with fewer than 3 corners were left out"));
   return result;
+}
+
+std::vector<std::string> object_names(const aiScene& scene) {
+  std::vector<std::string> names;
+  for (const aiNode* node : NodeTable(scene).sources)
+    if (has_faces(scene, *node)) names.push_back(object_name(scene, *node));
+  return names;
 }
 
 }  // namespace graze::io

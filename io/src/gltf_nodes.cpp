@@ -147,10 +147,10 @@ class GltfNodeReader {
     const json& scenes = document_.list("scenes");
     if (scenes.size() < 2 && left_out == 0) return;
     const std::string name = text_of(member(scenes[scene_], "name"));
-    result_.warnings.push_back(joined(document_.path().string(), ": scene ", scene_,
-                                      name.empty() ? "" : joined(" '", name, "'"), ", the default of ",
-                                      scenes.size(), ", is read; ", left_out,
-                                      " nodes with a mesh that are not in it were left out"));
+    result_.warnings.push_back(
+        joined(document_.path().string(), ": scene ", scene_, name.empty() ? "" : joined(" '", name, "'"),
+               ", the default of ", scenes.size(), ", is read; ", left_out,
+               left_out == 1 ? " node" : " nodes", " with a mesh outside of it left out"));
   }
 
   const GltfDocument& document_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "axes.hpp"
 #include "file_bytes.hpp"
 #include "gltf_accessor.hpp"
 #include "gltf_clips.hpp"
@@ -21,6 +22,7 @@ class GltfReader {
 
   RiggedFile read() {
     result_.file.warnings = nodes_.warnings;
+    result_.frame = {1.0, "y", z_up_from(UpAxis::y)};
     result_.rig.nodes = nodes_.nodes;
     result_.rig.clips = read_gltf_clips(document_, nodes_);
     for (std::uint32_t node = 0; node < nodes_.scene_count; ++node) add_node(node);

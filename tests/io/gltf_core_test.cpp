@@ -225,10 +225,9 @@ TEST_CASE("the default scene of a glTF file is read, and a note says so") {
   REQUIRE(second.objects().size() == 1);
   CHECK(second.objects()[0].name == "b");
   REQUIRE(second.warnings().size() == 1);
-  CHECK_THAT(
-      second.warnings()[0],
-      Catch::Matchers::EndsWith("scene 1 'second', the default of 2, is read; 1 nodes with a mesh that "
-                                "are not in it were left out"));
+  CHECK_THAT(second.warnings()[0],
+             Catch::Matchers::EndsWith("scene 1 'second', the default of 2, is read; 1 node with a mesh "
+                                       "outside of it left out"));
   const auto first = read_gltf_text(buffer.gltf(scenes + nodes + one_mesh(R"("POSITION":0)")));
   CHECK(first.objects()[0].name == "a");
   const auto all = read_gltf_text(buffer.gltf(nodes + one_mesh(R"("POSITION":0)")));
