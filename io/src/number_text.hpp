@@ -42,7 +42,7 @@ inline std::optional<double> not_finite_number(std::string_view word) {
   if (kind.ends_with('e')) kind.pop_back();
   if (kind == "inf") return infinity;
   // Rounding to fewer digits turns IND, QNAN and INF into J, IO, R and the like.
-  return kind.size() <= 4 ? std::optional(nan) : std::nullopt;
+  return !kind.empty() && kind.size() <= 4 ? std::optional(nan) : std::nullopt;
 }
 
 /// The whole word as a number, correctly rounded, in any locale. NaN and infinity are numbers in every

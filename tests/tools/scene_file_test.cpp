@@ -45,7 +45,7 @@ const std::vector<BadScene> bad_scenes = {
     {"", "line 1, column 1: not valid JSON"},
     {"{\n  \"graze\": 1,\n  \"objects\": [,]\n}", "line 3, column 15: not valid JSON"},
     {"{\n  \"graze\": 1,\n  \"objects\": [{\"mesh\": \"a.obj\"},\n  ]\n}",
-     "line 3, column 33: a trailing comma stands before a closing bracket"},
+     "line 3, column 32: a trailing comma stands before a closing bracket"},
     {"{\n  \"graze\": 1,\n}", "line 2, column 13: a trailing comma stands before a closing bracket"},
     {"{\n  // the version\n  \"graze\": 1}", "line 2, column 3: a comment stands here"},
     {"{\n  \"graze\": 1, /* the\n version */ \"objects\": []}", "line 2, column 15: a comment stands here"},
