@@ -169,7 +169,7 @@ TEST_CASE("every platform's NaN and infinity in a frame is a number that is not 
     INFO(word);
     folder.write("frame_0.obj", "v " + word + " 0 0\nv 1 0 0\nv 0 1 0\n" + face);
     folder.write(
-        "stl_0.ply",
+        "ply_0.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
             word + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
