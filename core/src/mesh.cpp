@@ -36,6 +36,13 @@ void for_each_once(std::span<const std::uint32_t> list, const Add& add) {
       add(list[i]);
 }
 
+/// A corner as the caller sees it: one that may have been negative both ways.
+std::string corner_text(std::uint32_t corner) {
+  const std::string text = std::to_string(corner);
+  const auto with_sign = static_cast<std::int32_t>(corner);
+  return with_sign < 0 ? text + " (" + std::to_string(with_sign) + " with a sign)" : text;
+}
+
 std::vector<Eigen::Vector3d> copy_of(const PositionView& view) {
   if (view.data() == nullptr && view.size() > 0) throw Error("mesh: the rest positions are null memory");
   if (view.size() >= Mesh::no_edge)
@@ -49,17 +56,18 @@ std::vector<Eigen::Vector3d> copy_of(const PositionView& view) {
 }  // namespace
 
 Mesh Mesh::from_triangles(PositionView rest, std::span<const std::array<std::uint32_t, 3>> triangles) {
-  std::vector<std::uint32_t> corners;
-  corners.reserve(triangles.size() * 3);
-  for (const auto& triangle : triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-  return from_polygons(rest, corners, std::vector<std::uint32_t>(triangles.size(), 3));
+  return from_corners(rest, 3, triangles);
 }
 
 Mesh Mesh::from_quads(PositionView rest, std::span<const std::array<std::uint32_t, 4>> quads) {
-  std::vector<std::uint32_t> corners;
-  corners.reserve(quads.size() * 4);
-  for (const auto& quad : quads) corners.insert(corners.end(), quad.begin(), quad.end());
-  return from_polygons(rest, corners, std::vector<std::uint32_t>(quads.size(), 4));
+  return from_corners(rest, 4, quads);
+}
+
+Mesh Mesh::from_flat(PositionView rest, std::uint32_t each, std::span<const std::uint32_t> corners) {
+  if (corners.size() % each != 0)
+    throw Error("mesh: " + std::to_string(corners.size()) + " corners are no whole number of faces of " +
+                std::to_string(each));
+  return from_polygons(rest, corners, std::vector<std::uint32_t>(corners.size() / each, each));
 }
 
 Mesh Mesh::from_polygons(PositionView rest, std::span<const std::uint32_t> corners,
@@ -107,7 +115,7 @@ void Mesh::check_faces() const {
   for (std::uint32_t index = 0; index < face_count(); ++index)
     for (const std::uint32_t corner : face(index))
       if (corner >= vertex_count())
-        throw Error("mesh: face " + std::to_string(index) + " names vertex " + std::to_string(corner) +
+        throw Error("mesh: face " + std::to_string(index) + " names vertex " + corner_text(corner) +
                     ", but there are " + std::to_string(vertex_count()) + " vertices");
 }
 

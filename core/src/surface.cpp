@@ -207,7 +207,7 @@ namespace {
 /// Whether positions follow one another in memory, all of them used.
 bool is_packed(const Mesh& mesh, const PositionView& view) {
   const std::size_t number = view.is_double() ? sizeof(double) : sizeof(float);
-  return mesh.uses_all_vertices() && view.stride_bytes() == 3 * number &&
+  return mesh.uses_all_vertices() && view.stride_bytes() == 3 * number && view.has_joined_coordinates() &&
          reinterpret_cast<std::uintptr_t>(view.data()) % number == 0;
 }
 

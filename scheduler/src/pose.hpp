@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <graze/number_text.hpp>
 #include <optional>
 #include <string>
@@ -25,6 +26,20 @@ inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& 
     return "its matrix is no rotation: an entry of RᵀR - 1 is " + number_text(off, 4) + ", more than 1e-3";
   if (matrix.determinant() < 0) return "its matrix is a reflection";
   return std::nullopt;
+}
+
+/// What keeps a 4x4 matrix from being a pose: also a last row that is not (0, 0, 0, 1). The rounding of an
+/// inverse in float is let pass.
+inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows,
+                                                  const std::array<double, 4>& last_row) {
+  constexpr double furthest = 1e-6;
+  constexpr std::array<double, 4> wanted{0, 0, 0, 1};
+  for (std::size_t column = 0; column < 4; ++column)
+    if (!(std::abs(last_row[column] - wanted[column]) <= furthest))
+      return "the last row of the pose is (" + number_text(last_row[0]) + ", " + number_text(last_row[1]) +
+             ", " + number_text(last_row[2]) + ", " + number_text(last_row[3]) +
+             "), not (0, 0, 0, 1); the translation belongs into the last column";
+  return problem_of_pose(rows);
 }
 
 }  // namespace graze

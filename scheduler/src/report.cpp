@@ -4,6 +4,7 @@ namespace graze {
 
 FrameReport::FrameReport(const FrameReport& other)
     : frame_(other.frame_),
+      tag_(other.tag_),
       complete_(other.complete_),
       rows_(*other.shown_),
       diagnostics_(other.diagnostics_),
@@ -12,6 +13,7 @@ FrameReport::FrameReport(const FrameReport& other)
 FrameReport& FrameReport::operator=(const FrameReport& other) {
   if (this == &other) return *this;
   frame_ = other.frame_;
+  tag_ = other.tag_;
   complete_ = other.complete_;
   rows_ = *other.shown_;
   shown_ = &rows_;

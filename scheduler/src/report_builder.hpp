@@ -29,8 +29,9 @@ class ReportBuilder {
   explicit ReportBuilder(FrameReport& report) : report_(report) {}
 
   /// Empties the report and keeps its memory; its contacts are to be written over.
-  void begin(std::uint64_t frame) {
+  void begin(std::uint64_t frame, std::uint64_t tag) {
     report_.frame_ = frame;
+    report_.tag_ = tag;
     report_.complete_ = true;
     report_.shown_ = &report_.rows_;
     report_.rows_.pairs.clear();

@@ -112,6 +112,9 @@ ObjectSettings Scene::object_settings(ObjectId object) const {
 void Scene::set_pose_rows(ObjectId object, const std::array<double, 12>& rows) {
   state_->staging.set_pose(object, rows);
 }
+void Scene::set_pose_matrix(ObjectId object, const std::array<double, 16>& rows) {
+  state_->staging.set_pose(object, rows);
+}
 void Scene::set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices) {
   state_->staging.set_poses(objects, matrices);
 }
@@ -154,24 +157,24 @@ void Scene::reserve(const SceneCapacity& capacity) {
   state_->staging.reserve(capacity);
 }
 
-ReportHandle Scene::step() {
+ReportHandle Scene::step(std::uint64_t tag) {
   begin_stepping(state_->stepping);
   const SteppingEnd end(state_->stepping);
   state_->stepper.take_calls();
-  return state_->stepper.run();
+  return state_->stepper.run(tag);
 }
 
-void Scene::step_async() {
+void Scene::step_async(std::uint64_t tag) {
   begin_stepping(state_->stepping);
   SteppingEnd unless_started(state_->stepping);
   State* const state = state_.get();
   state->stepper.take_calls();
-  state->stepper.start([state] {
+  state->stepper.start([state, tag] {
     // After this the scene may be gone.
     const SteppingEnd end(state->stepping);
     state->problem = nullptr;
     try {
-      (void)state->stepper.run();
+      (void)state->stepper.run(tag);
     } catch (...) {
       state->problem = std::current_exception();
     }

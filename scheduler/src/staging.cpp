@@ -41,7 +41,8 @@ bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& nam
   if (view.data() == nullptr) return problem(DiagnosticKind::null_memory, "null memory");
   const std::size_t alignment = view.is_double() ? alignof(double) : alignof(float);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the address is looked at, not used
-  if (reinterpret_cast<std::uintptr_t>(view.data()) % alignment != 0 || view.stride_bytes() % alignment != 0)
+  if (reinterpret_cast<std::uintptr_t>(view.data()) % alignment != 0 ||
+      view.stride_bytes() % alignment != 0 || view.coordinate_stride_bytes() % alignment != 0)
     return problem(DiagnosticKind::misaligned_memory, "memory that is not aligned to its numbers");
   return true;
 }
@@ -55,13 +56,17 @@ void copy_some(const Mesh& mesh, const PositionView& view, CopiedPositions& posi
   const std::size_t each = positions.view().stride_bytes();
   const auto* const from = static_cast<const std::byte*>(view.data());
   std::byte* const to = positions.data();
-  if (mesh.uses_all_vertices() && view.stride_bytes() == each) {
+  if (mesh.uses_all_vertices() && view.has_joined_coordinates() && view.stride_bytes() == each) {
     std::memcpy(to + begin * each, from + begin * each, (end - begin) * each);
     return;
   }
-  for (std::size_t vertex = begin; vertex < end; ++vertex)
-    if (mesh.is_used(static_cast<std::uint32_t>(vertex)))
-      std::memcpy(to + vertex * each, from + vertex * view.stride_bytes(), each);
+  const std::size_t piece = view.has_joined_coordinates() ? each : each / 3;
+  for (std::size_t vertex = begin; vertex < end; ++vertex) {
+    if (!mesh.is_used(static_cast<std::uint32_t>(vertex))) continue;
+    const std::byte* const point = from + vertex * view.stride_bytes();
+    for (std::size_t done = 0, axis = 0; done < each; done += piece, ++axis)
+      std::memcpy(to + vertex * each + done, point + axis * view.coordinate_stride_bytes(), piece);
+  }
 }
 
 /// Copies the positions that faces use and finds their box. Ends where one is not finite or beyond 2^120.
@@ -171,6 +176,16 @@ void Staging::set_pose(ObjectId object, const std::array<double, 12>& rows) {
   make_or_lose(object, LostCalls::any, [&] { add_pose(calls, object, rows); });
 }
 
+void Staging::set_pose(ObjectId object, const std::array<double, 16>& rows) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  std::array<double, 12> upper;
+  std::copy_n(rows.begin(), upper.size(), upper.begin());
+  make_or_lose(object, LostCalls::any, [&] {
+    add_pose(calls, object, upper, {rows[12], rows[13], rows[14], rows[15]});
+  });
+}
+
 void Staging::set_poses(std::span<const ObjectId> objects, std::span<const double> matrices) {
   const FloatingPointScope scope;
   Calls calls(queue_);
@@ -180,13 +195,14 @@ void Staging::set_poses(std::span<const ObjectId> objects, std::span<const doubl
                  [&] { add_pose(calls, objects[i], rows_of(matrices.subspan(16 * i).first<16>())); });
 }
 
-void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows) {
+void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows,
+                       const std::array<double, 4>& last_row) {
   const ObjectIds::Standing standing = ids_.standing(object);
   if (standing == ObjectIds::Standing::stale) return add_stale(calls, object, "set_pose");
   if (standing == ObjectIds::Standing::deformable)
     return add_problem(calls, object, DiagnosticKind::wrong_motion,
                        name(object) + " is deformable; give it positions, not a pose");
-  if (const auto problem = problem_of_pose(rows))
+  if (const auto problem = problem_of_pose(rows, last_row))
     return calls.add(RefusePose{
         {object, DiagnosticKind::bad_pose, name(object) + ": " + *problem + "; the pose was not taken"}});
   calls.add(SetPose{object, rows});

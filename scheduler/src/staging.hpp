@@ -38,6 +38,8 @@ class Staging {
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
   void remove(ObjectId object);
   void set_pose(ObjectId object, const std::array<double, 12>& rows);
+  /// With the last row of the matrix.
+  void set_pose(ObjectId object, const std::array<double, 16>& rows);
   /// 16 numbers for each object: a 4x4 matrix, column by column.
   void set_poses(std::span<const ObjectId> objects, std::span<const double> matrices);
   void set_positions(ObjectId object, const PositionView& positions, double max_displacement);
@@ -127,7 +129,8 @@ class Staging {
 
   // Each checks one call and adds it, or a diagnostic in its place, to `calls`; those that try note what is
   // lost where there is no memory for that.
-  void add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows);
+  void add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows,
+                const std::array<double, 4>& last_row = {0, 0, 0, 1});
   void add_positions(Calls& calls, ObjectId object, const PositionView& positions, double max_displacement);
   void try_positions(Calls& calls, ObjectId object, const PositionView& positions,
                      double max_displacement) noexcept;

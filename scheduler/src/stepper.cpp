@@ -8,11 +8,11 @@ namespace graze {
 Stepper::Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports)
     : settings_(settings), staging_(staging), reports_(reports), content_(settings), step_(begun_afresh()) {}
 
-ReportHandle Stepper::run() {
+ReportHandle Stepper::run(std::uint64_t tag) {
   const FloatingPointScope scope;
   try {
     if (step_ == nullptr) step_ = begun_afresh();
-    fill(reports_.begin());
+    fill(reports_.begin(), tag);
   } catch (...) {
     step_failed();
     throw;
@@ -42,10 +42,10 @@ std::unique_ptr<Step> Stepper::begun_afresh() {
   return step;
 }
 
-void Stepper::fill(FrameReport& report) {
+void Stepper::fill(FrameReport& report, std::uint64_t tag) {
   ReportBuilder builder(report);
   const ReportHandle previous = reports_.latest();
-  builder.begin(previous->frame() + 1);
+  builder.begin(previous->frame() + 1, tag);
   if (!untold_.empty()) builder.diagnostics().swap(untold_);
   try {
     step_->run(*previous, report);

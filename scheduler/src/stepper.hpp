@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <graze/report.hpp>
 #include <graze/settings.hpp>
@@ -25,15 +26,15 @@ class Stepper {
 
   /// Takes the calls made so far for the next `run`.
   void take_calls() { staging_.take(); }
-  /// Fills and publishes the report that follows the published one.
-  ReportHandle run();
+  /// Fills and publishes the report that follows the published one, with the caller's tag.
+  ReportHandle run(std::uint64_t tag);
   /// Begins what calls `run`, after `take_calls`, on another thread; it must not throw.
   void start(std::function<void()> work);
 
  private:
   [[nodiscard]] std::unique_ptr<Step> begun_afresh();
   void step_failed() noexcept;
-  void fill(FrameReport& report);
+  void fill(FrameReport& report, std::uint64_t tag);
 
   const SceneSettings& settings_;
   Staging& staging_;

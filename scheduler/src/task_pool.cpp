@@ -14,6 +14,19 @@
 #include "access.hpp"
 
 namespace graze {
+namespace {
+
+constexpr unsigned threads_each_processor = 8;
+
+unsigned processors() {
+  return static_cast<unsigned>(std::max(1, oneapi::tbb::info::default_concurrency()));
+}
+
+}  // namespace
+
+unsigned max_threads() {
+  return threads_each_processor * processors();
+}
 
 struct TaskPool::Arena {
   explicit Arena(int threads, unsigned reserved_for_callers = 1) : arena(threads, reserved_for_callers) {}
@@ -21,9 +34,7 @@ struct TaskPool::Arena {
 };
 
 TaskPool::TaskPool(unsigned threads, ArenaPolicy policy)
-    : worker_count_(threads == 0
-                        ? static_cast<unsigned>(std::max(1, oneapi::tbb::info::default_concurrency()))
-                        : threads) {
+    : worker_count_(threads == 0 ? processors() : std::min(threads, max_threads())) {
   // No more threads than oneTBB gives in this process: it would only complain on the caller's terminal.
   const std::size_t allowed =
       oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);

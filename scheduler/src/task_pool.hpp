@@ -11,7 +11,7 @@ namespace graze {
 /// a task. Nothing here changes how many threads oneTBB has.
 class TaskPool {
  public:
-  /// 0: as many threads as the machine has.
+  /// 0: as many threads as there are processors. More than `max_threads()` count as so many.
   TaskPool(unsigned threads, ArenaPolicy policy);
   ~TaskPool();
   TaskPool(const TaskPool&) = delete;

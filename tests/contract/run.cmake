@@ -1,6 +1,7 @@
-# Installs graze into a prefix of its own, and builds and runs the contract's program against it: by its CMake package for
-# several instruction sets, and by pkg-config. `static` is the build under test, as users build it, and once more graze as
-# a subproject; `shared` is core and scheduler alone, of which it is asked only that they work.
+# Installs graze into a prefix of its own. Builds and runs against it the contract's program, and one that hands graze
+# many types, by its CMake package for several instruction sets; and the contract's program by pkg-config. `static` is
+# the build under test, as users build it, and once more graze as a subproject. `shared` is core and scheduler alone,
+# of which it is asked only that they work.
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
@@ -32,13 +33,28 @@ if(avx2)
 else()
   message(STATUS "-mavx2 is left out: this processor cannot run it")
 endif()
-foreach(flags ${flag_sets})
-  set(build ${WORK}/program_${flags})
-  run(${CMAKE_COMMAND} -G Ninja -S ${PROGRAM} -B ${build} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
+function(build_and_run source program flags)
+  set(build ${WORK}/${program}_${flags})
+  run(${CMAKE_COMMAND} -G Ninja -S ${source} -B ${build} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
     "-DCMAKE_CXX_FLAGS=${flags_${flags}}" "-DCMAKE_PREFIX_PATH=${prefix};${PREFIX_PATH}")
   run(${CMAKE_COMMAND} --build ${build})
-  run(${build}/consumer)
+  run(${build}/${program})
+endfunction()
+foreach(flags ${flag_sets})
+  build_and_run(${PROGRAM} consumer ${flags})
+  build_and_run(${INPUTS} inputs ${flags})
 endforeach()
+
+if(KIND STREQUAL "shared")  # installed without io: a program that needs it is told why it is not there
+  file(WRITE ${WORK}/without_io/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(without_io CXX)\n\
+find_package(graze CONFIG REQUIRED COMPONENTS io)\n")
+  execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${WORK}/without_io -B ${WORK}/without_io/build
+    -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_PREFIX_PATH=${prefix};${PREFIX_PATH}" RESULT_VARIABLE failed ERROR_VARIABLE said
+    OUTPUT_QUIET)
+  if(NOT failed OR NOT said MATCHES "graze was installed without its component io")
+    message(FATAL_ERROR "a component that was not installed is not said to be missing: ${said}")
+  endif()
+endif()
 
 set(ENV{PKG_CONFIG_PATH} ${pkg_config_folder})
 execute_process(COMMAND pkg-config --cflags --libs graze OUTPUT_VARIABLE pkg_flags OUTPUT_STRIP_TRAILING_WHITESPACE

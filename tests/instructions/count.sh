@@ -19,7 +19,7 @@ command -v valgrind >/dev/null || { echo "skipped: no valgrind"; exit 77; }
 # Instructions inside of Scene::step, or nothing where the instruction set is not there.
 count() {
   status=0
-  log=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='graze::Scene::step()' \
+  log=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='graze::Scene::step(unsigned long)' \
     "$program" "$1" "$2" "$3" 2>&1) || status=$?
   [ "$status" -ne 77 ] || return 0
   [ "$status" -eq 0 ] || { echo "$log" >&2; return 1; }

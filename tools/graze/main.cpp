@@ -10,6 +10,7 @@
 #endif
 #include "bench/command.hpp"
 #include "check_failed.hpp"
+#include "command_mistake.hpp"
 #include "inspect_command.hpp"
 #include "run_command.hpp"
 #include "stress/command.hpp"
@@ -42,7 +43,7 @@ int run_program(int argument_count, char** arguments) {
     app.parse(argument_count, arguments);  // runs the subcommand
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return complain(std::string(error.what()) + "; graze --help says what can be asked for", bad_input);
+    return complain(graze::tools::mistake_of(app, error), bad_input);
   }
   return 0;
 }

@@ -10,12 +10,15 @@
 #include <graze/io/player.hpp>
 #include <graze/io/report_json.hpp>
 #include <graze/io/scene_file.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "option_checks.hpp"
+#include "output_path.hpp"
 #include "progress.hpp"
 #include "run_summary.hpp"
 
@@ -28,25 +31,18 @@ struct RunOptions {
   std::vector<std::string> files;
   std::optional<std::uint32_t> frames;
   std::optional<unsigned> threads;
+  std::optional<std::size_t> max_contacts;
+  std::optional<std::size_t> max_contacts_per_pair;
   std::optional<double> contact_distance;
   std::optional<double> range;
   std::optional<std::string> detail;
   std::optional<std::string> accuracy;
   std::optional<double> frames_per_second;
-  std::string report;
+  std::optional<std::string> report;
   bool no_times = false;
-  std::string picture;
+  std::optional<std::string> picture;
   std::optional<std::uint32_t> picture_frame;
-  std::string record;
-  std::string html;
 };
-
-double checked_distance(const std::string& option, double value) {
-  if (std::isnan(value) || value < 0)
-    throw InputError(option + ": expected a number that is not negative, got " + std::to_string(value) +
-                     "; write 0 or more");
-  return value;
-}
 
 /// `exact`, `within:0.001`, `paper` or `paper:24,14,8`.
 Accuracy parse_accuracy(const std::string& text) {
@@ -82,18 +78,15 @@ io::SceneDescription describe(const RunOptions& options) {
   io::SceneDescription scene = is_scene ? io::read_scene_file(options.files[0])
                                         : io::scene_of_meshes({options.files.begin(), options.files.end()});
   SceneSettings& settings = scene.settings;
-  if (options.contact_distance)
-    settings.contact_distance = checked_distance("--contact-distance", *options.contact_distance);
-  if (options.range) settings.range = checked_distance("--range", *options.range);
+  if (options.contact_distance) settings.contact_distance = *options.contact_distance;
+  if (options.range) settings.range = *options.range;
   if (options.detail) settings.detail = parse_detail(*options.detail);
   if (options.accuracy) settings.accuracy = parse_accuracy(*options.accuracy);
   if (options.threads) settings.threads = *options.threads;
+  if (options.max_contacts) settings.max_contacts = options.max_contacts;
+  if (options.max_contacts_per_pair) settings.max_contacts_per_pair = options.max_contacts_per_pair;
   if (options.frames) scene.frames = options.frames;
-  if (options.frames_per_second) {
-    scene.frames_per_second = checked_distance("--frames-per-second", *options.frames_per_second);
-    if (scene.frames_per_second == 0)
-      throw InputError("--frames-per-second: expected a number above 0, got 0");
-  }
+  if (options.frames_per_second) scene.frames_per_second = *options.frames_per_second;
   return scene;
 }
 
@@ -150,35 +143,48 @@ RunSummary play(io::Player& player, std::optional<io::ReportWriter>& writer,
   return summary;
 }
 
-void refuse_what_is_not_there(const RunOptions& options) {
-  if (!options.record.empty())
-    throw InputError("--record: this version writes no recordings; use --report for a report in JSON Lines");
-  if (!options.html.empty()) throw InputError("--html: this version has no viewer; use --picture for a PNG");
-  if (options.picture_frame && options.picture.empty())
+/// Before anything is read, so that no run ends in vain.
+void check_outputs(const RunOptions& options) {
+  if (options.picture_frame && !options.picture)
     throw InputError("--picture-frame: says which frame --picture draws; add --picture FILE");
+  if (options.report) {
+    check_output_file("--report", *options.report);
+    check_is_no_input("--report", *options.report, options.files);
+  }
+  if (options.picture) {
+    check_picture_file("--picture", *options.picture);
+    check_is_no_input("--picture", *options.picture, options.files);
+  }
+}
+
+void warn_of_threads(unsigned threads) {
+  if (threads > max_threads())
+    std::fprintf(stderr, "warning: %u threads are more than 8 for each processor; %u are used\n", threads,
+                 max_threads());
 }
 
 void run(const RunOptions& options) {
-  refuse_what_is_not_there(options);
+  check_outputs(options);
   const io::SceneDescription description = describe(options);
+  warn_of_threads(description.settings.threads);
   io::Player player(description);
   for (const std::string& warning : player.warnings()) std::fprintf(stderr, "note: %s\n", warning.c_str());
   if (options.picture_frame && *options.picture_frame >= player.frame_count())
     throw InputError("--picture-frame: the run ends before frame " + std::to_string(*options.picture_frame) +
                      "; frames are 0 to " + std::to_string(player.frame_count() - 1));
   std::optional<io::ReportWriter> writer;
-  if (!options.report.empty())
-    writer.emplace(options.report, player.objects(), description.settings,
+  if (options.report)
+    writer.emplace(*options.report, player.objects(), description.settings,
                    io::ReportWriter::Options{.include_times = !options.no_times});
   std::optional<PictureChoice> picture;
-  if (!options.picture.empty()) picture.emplace(options.picture_frame);
+  if (options.picture) picture.emplace(options.picture_frame);
   const RunSummary summary = play(player, writer, picture);
   if (writer) writer->close();
   std::fputs(summary.text().c_str(), stdout);
-  if (writer) std::printf("report    %s\n", options.report.c_str());
+  if (writer) std::printf("report    %s\n", options.report->c_str());
   if (picture) {
-    const std::uint32_t frame = picture->draw(options.picture);
-    std::printf("picture   %s, frame %u\n", options.picture.c_str(), frame);
+    const std::uint32_t frame = picture->draw(*options.picture);
+    std::printf("picture   %s, frame %u\n", options.picture->c_str(), frame);
   }
 }
 
@@ -192,24 +198,37 @@ void add_run_command(CLI::App& app) {
       ->required();
   command
       ->add_option("--frames", options->frames, "How many frames; else the scene's, else the longest motion")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--threads", options->threads,
-                      "How many threads; 0, the default: all of the machine's");
-  command->add_option("--contact-distance", options->contact_distance,
-                      "Strictly closer than this is a contact");
-  command->add_option("--range", options->range, "Pairs closer than this are listed with their distance");
+      ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()));
+  command
+      ->add_option("--threads", options->threads,
+                   "How many threads; 0, the default: one for each processor. At most 8 for each are used")
+      ->check(whole_number(0, std::numeric_limits<unsigned>::max()));
+  command
+      ->add_option("--contact-distance", options->contact_distance, "Strictly closer than this is a contact")
+      ->check(real_number(NumberRange::at_least_0));
+  command->add_option("--range", options->range, "Pairs closer than this are listed with their distance")
+      ->check(real_number(NumberRange::at_least_0_or_infinite));
   command->add_option("--detail", options->detail, "none, closest, regions, vertices or features");
   command->add_option("--accuracy", options->accuracy, "exact, within:T, paper or paper:E1,E2,...");
-  command->add_option("--frames-per-second", options->frames_per_second,
-                      "At which rate animations are sampled");
-  command->add_option("--report", options->report, "Write a report, JSON Lines, a line a frame");
+  command
+      ->add_option("--max-contacts", options->max_contacts,
+                   "List at most so many contacts a frame, the nearest")
+      ->check(whole_number(1));
+  command
+      ->add_option("--max-contacts-per-pair", options->max_contacts_per_pair,
+                   "List at most so many contacts of each pair, the nearest")
+      ->check(whole_number(1));
+  command
+      ->add_option("--frames-per-second", options->frames_per_second, "At which rate animations are sampled")
+      ->check(real_number(NumberRange::above_0));
+  command->add_option("--report", options->report, "Write a report, JSON Lines, a line a frame")
+      ->check(file_name());
   command->add_flag("--no-times", options->no_times,
                     "Leave timings out of the report: equal runs, equal files");
-  command->add_option("--picture", options->picture, "Draw one frame into a PNG");
-  command->add_option("--picture-frame", options->picture_frame,
-                      "Which one; else the first with most contacts");
-  command->add_option("--record", options->record, "Not in this version");
-  command->add_option("--html", options->html, "Not in this version");
+  command->add_option("--picture", options->picture, "Draw one frame into a PNG")->check(file_name());
+  command
+      ->add_option("--picture-frame", options->picture_frame, "Which one; else the first with most contacts")
+      ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()));
   command->callback([options] { run(*options); });
 }
 

@@ -41,6 +41,8 @@ void RunSummary::add(std::uint32_t frame, const FrameReport& report, double step
   step_ms_.push_back(step_ms);
   pairs_ = report.statistics().pairs_total;
   contacts_ += report.contacts().size();
+  contacts_left_out_ += report.statistics().contacts_left_out;
+  if (report.statistics().contacts_left_out > 0) ++frames_cut_;
   if (report.contacts().size() > most_contacts_) {
     most_contacts_ = report.contacts().size();
     busiest_frame_ = frame;
@@ -89,6 +91,12 @@ std::string RunSummary::diagnostics_text() const {
   return "input     " + plural(diagnostics_, "diagnostic") + ", the first: " + first_diagnostic_ + "\n";
 }
 
+std::string RunSummary::limits_text() const {
+  if (frames_cut_ == 0) return "";
+  return "limits    left out at least " + plural(contacts_left_out_, "contact") + ", in " +
+         plural(frames_cut_, "frame") + "\n";
+}
+
 std::string RunSummary::times_text() const {
   if (step_ms_.empty()) return "";
   std::vector<double> sorted = step_ms_;
@@ -104,7 +112,8 @@ std::string RunSummary::text() const {
     contacts +=
         "; at most " + std::to_string(most_contacts_) + ", in frame " + std::to_string(busiest_frame_);
   return "scene     " + plural(step_ms_.size(), "frame") + ", " + plural(objects_.size(), "object") + ", " +
-         plural(pairs_, "pair") + "\n" + contacts + "\n" + touches_text() + diagnostics_text() + times_text();
+         plural(pairs_, "pair") + "\n" + contacts + "\n" + limits_text() + touches_text() +
+         diagnostics_text() + times_text();
 }
 
 }  // namespace graze::tools

@@ -35,6 +35,7 @@ class RunSummary {
 
   void add_touch(std::uint32_t frame, const PairReport& pair);
   [[nodiscard]] const std::string& name_of(ObjectId id) const;
+  [[nodiscard]] std::string limits_text() const;
   [[nodiscard]] std::string touches_text() const;
   [[nodiscard]] std::string diagnostics_text() const;
   [[nodiscard]] std::string times_text() const;
@@ -45,6 +46,8 @@ class RunSummary {
   std::vector<double> step_ms_;
   std::uint64_t pairs_ = 0;
   std::size_t contacts_ = 0;
+  std::size_t contacts_left_out_ = 0;
+  std::size_t frames_cut_ = 0;
   std::size_t most_contacts_ = 0;
   std::uint32_t busiest_frame_ = 0;
   std::uint32_t frames_touching_ = 0;

@@ -4,19 +4,47 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <graze/bytes_of.hpp>
+#include <graze/error.hpp>
 #include <graze/export.hpp>
 #include <graze/made_once.hpp>
+#include <graze/number_tuple.hpp>
 #include <graze/position_view.hpp>
 #include <graze/region_tree.hpp>
 #include <graze/rest_reach.hpp>
 #include <limits>
 #include <ranges>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace graze {
+
+/// A vector, array or span of corners one after the other, as 32-bit integers.
+template <typename Range>
+concept CornerRange = std::ranges::contiguous_range<Range> && std::ranges::sized_range<Range> &&
+    Index32<std::ranges::range_value_t<Range>>;
+
+/// Numbers of corners, of any integer type.
+template <typename Range>
+concept CountRange = std::ranges::sized_range<Range> && std::integral<std::ranges::range_value_t<Range>>;
+
+/// Whether corners and their counts are taken as they are.
+template <typename Corners, typename Counts>
+concept AreUnsigned = std::convertible_to<const Corners&, std::span<const std::uint32_t>> &&
+    std::convertible_to<const Counts&, std::span<const std::uint32_t>>;
+
+/// All corners one after the other, or an element with `count` corners for each face.
+template <typename Element, std::size_t count>
+concept FaceElement = Index32<Element> || CornerTuple<Element, count>;
+
+/// Faces of `count` corners each, in another form than a span of std::array<std::uint32_t, count>.
+template <typename Range, std::size_t count>
+concept FacesOf = std::ranges::contiguous_range<Range> && std::ranges::sized_range<Range> &&
+    FaceElement<std::ranges::range_value_t<Range>, count> &&
+    !std::convertible_to<const Range&, std::span<const std::array<std::uint32_t, count>>>;
 
 /// Topology and rest shape of a surface of triangles and quads, with its octree of regions. Immutable; share
 /// it between any number of objects and threads.
@@ -34,20 +62,43 @@ class GRAZE_API Mesh {
   /// vertex that is not finite or beyond 2^120, or a face of another number of corners than 3 or 4.
   static Mesh from_triangles(PositionView rest, std::span<const std::array<std::uint32_t, 3>> triangles);
   static Mesh from_quads(PositionView rest, std::span<const std::array<std::uint32_t, 4>> quads);
+  /// Faces as other programs keep them, in a vector, array or span. Either all corners one after the other,
+  /// as 32-bit integers with a sign or without. Or a face in each element: Eigen::Vector3i (Vector4i for
+  /// quads), std::array<int, 3>, or a caller's own struct of so many 32-bit integers. Throws Error also where
+  /// the corners are no whole number of faces. A negative corner names no vertex.
+  template <typename Triangles>
+  requires FacesOf<Triangles, 3>
+  static Mesh from_triangles(PositionView rest, const Triangles& triangles) {
+    return from_corners(rest, 3, triangles);
+  }
+  template <typename Quads>
+  requires FacesOf<Quads, 4>
+  static Mesh from_quads(PositionView rest, const Quads& quads) { return from_corners(rest, 4, quads); }
+  /// A face in each row of a matrix of Eigen's of 32-bit integers, such as libigl's `Eigen::MatrixXi F`.
+  /// Throws Error also where it has not 3 columns, or 4 for quads.
+  template <typename Faces>
+  requires Index32<typename Faces::Scalar>
+  static Mesh from_triangles(PositionView rest, const Eigen::MatrixBase<Faces>& triangles) {
+    return from_rows(rest, 3, triangles);
+  }
+  template <typename Faces>
+  requires Index32<typename Faces::Scalar>
+  static Mesh from_quads(PositionView rest, const Eigen::MatrixBase<Faces>& quads) {
+    return from_rows(rest, 4, quads);
+  }
   /// Triangles and quads mixed: `corners` holds the corners of all faces one after the other, `corner_counts`
   /// how many each face has.
   static Mesh from_polygons(PositionView rest, std::span<const std::uint32_t> corners,
                             std::span<const std::uint32_t> corner_counts);
-  /// The same for counts of any other integer type.
-  template <std::ranges::sized_range Counts>
-  requires std::integral<std::ranges::range_value_t<Counts>> &&
-      (!std::convertible_to<const Counts&, std::span<const std::uint32_t>>)static Mesh
-      from_polygons(PositionView rest, std::span<const std::uint32_t> corners, const Counts& corner_counts) {
+  /// Triangles and quads mixed, from corners with a sign, or counts of any integer type.
+  template <CornerRange Corners, CountRange Counts>
+  requires(!AreUnsigned<Corners, Counts>) static Mesh
+      from_polygons(PositionView rest, const Corners& corners, const Counts& corner_counts) {
     std::vector<std::uint32_t> counts;
     counts.reserve(std::ranges::size(corner_counts));
     for (const auto count : corner_counts)
       counts.push_back(std::in_range<std::uint32_t>(count) ? static_cast<std::uint32_t>(count) : 0);
-    return from_polygons(rest, corners, std::span<const std::uint32_t>(counts));
+    return from_polygons(rest, as_unsigned(corners), std::span<const std::uint32_t>(counts));
   }
 
   [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_.size()); }
@@ -143,6 +194,39 @@ class GRAZE_API Mesh {
   };
 
   Mesh() = default;
+
+  /// Faces of `each` corners.
+  static Mesh from_flat(PositionView rest, std::uint32_t each, std::span<const std::uint32_t> corners);
+  /// Negative corners become numbers of 2^31 and more, which no vertex has.
+  template <CornerRange Corners>
+  static std::span<const std::uint32_t> as_unsigned(const Corners& corners) {
+    return {reinterpret_cast<const std::uint32_t*>(std::ranges::data(corners)), std::ranges::size(corners)};
+  }
+  template <typename Faces>
+  static Mesh from_corners(PositionView rest, std::uint32_t each, const Faces& faces) {
+    if constexpr (CornerRange<Faces>) {
+      return from_flat(rest, each, as_unsigned(faces));
+    } else {
+      std::vector<std::uint32_t> corners(each * std::ranges::size(faces));
+      if (!corners.empty())
+        std::memcpy(corners.data(), static_cast<const void*>(std::ranges::data(faces)),
+                    corners.size() * sizeof(std::uint32_t));
+      return from_flat(rest, each, corners);
+    }
+  }
+  template <typename Faces>
+  static Mesh from_rows(PositionView rest, std::uint32_t each, const Eigen::MatrixBase<Faces>& faces) {
+    if (faces.cols() != static_cast<Eigen::Index>(each))
+      throw Error("mesh: a matrix of " + std::to_string(faces.rows()) + " rows and " +
+                  std::to_string(faces.cols()) + " columns; give a face in each row, in " +
+                  std::to_string(each) + " columns");
+    std::vector<std::uint32_t> corners;
+    corners.reserve(static_cast<std::size_t>(faces.size()));
+    for (Eigen::Index row = 0; row < faces.rows(); ++row)
+      for (Eigen::Index column = 0; column < faces.cols(); ++column)
+        corners.push_back(static_cast<std::uint32_t>(faces.derived().coeff(row, column)));
+    return from_flat(rest, each, corners);
+  }
 
   [[nodiscard]] std::span<const std::uint32_t> of_face(const std::vector<std::uint32_t>& values,
                                                        std::uint32_t face) const {

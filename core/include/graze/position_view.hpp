@@ -4,62 +4,183 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <graze/error.hpp>
+#include <graze/number_tuple.hpp>
+#include <memory>
 #include <ranges>
+#include <string>
 #include <type_traits>
 
 namespace graze {
 
-/// A point type whose memory is three floats or three doubles and nothing else.
+/// A point type whose memory is three floats or three doubles and nothing else: Eigen::Vector3f and Vector3d,
+/// std::array, and a caller's own struct of three such numbers.
 template <typename Point>
-concept PackedPoint = std::same_as<Point, Eigen::Vector3f> || std::same_as<Point, Eigen::Vector3d> ||
-    std::same_as<Point, std::array<float, 3>> || std::same_as<Point, std::array<double, 3>>;
+concept PackedPoint = TupleOf<Point, float, 3> || TupleOf<Point, double, 3>;
 
-/// Positions in somebody else's memory: `size()` points of three consecutive floats or doubles, each
-/// `stride_bytes()` after the one before. Owns nothing; the memory must outlive the view's use.
+/// A member of a caller's struct at which a position begins: its x, an array of three, or a PackedPoint.
+template <typename Member>
+concept PositionMember = PackedPoint<Member> || std::same_as<Member, float> || std::same_as<Member, double> ||
+    std::same_as<Member, float[3]> || std::same_as<Member, double[3]>;
+
+/// A matrix of Eigen's whose entries lie in memory as floats or doubles.
+template <typename Matrix>
+concept MatrixInMemory =
+    std::derived_from<Matrix, Eigen::DenseBase<Matrix>> &&
+        (int(Matrix::Flags) & Eigen::DirectAccessBit) != 0 &&
+    PositionMember<typename Matrix::Scalar>&& std::floating_point<typename Matrix::Scalar>;
+
+/// One that has three columns or may have them, or exactly three rows by its type.
+template <typename Matrix>
+concept PositionMatrix = MatrixInMemory<Matrix> &&
+    (int(Matrix::ColsAtCompileTime) == 3 || int(Matrix::RowsAtCompileTime) == 3 ||
+     int(Matrix::ColsAtCompileTime) == Eigen::Dynamic);
+
+/// Positions in somebody else's memory: `size()` points of three floats or doubles. Owns nothing; the memory
+/// must outlive the view's use.
+///
+/// The x of each point is `stride_bytes()` after the x of the one before. Its y is
+/// `coordinate_stride_bytes()` after its x, and its z as far after its y.
 class PositionView {
  public:
   PositionView() = default;
 
-  /// `first` points at the x of point 0; y and z follow it.
-  PositionView(const float* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(float))
-      : first_(first), count_(count), stride_bytes_(stride_bytes), is_double_(false) {}
-  PositionView(const double* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(double))
-      : first_(first), count_(count), stride_bytes_(stride_bytes) {}
+  /// `first` points at the x of point 0. By default y and z follow x at once, and the next point follows
+  /// them.
+  PositionView(const float* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(float),
+               std::size_t coordinate_stride_bytes = sizeof(float))
+      : PositionView(first, count, stride_bytes, coordinate_stride_bytes, sizeof(float)) {}
+  PositionView(const double* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(double),
+               std::size_t coordinate_stride_bytes = sizeof(double))
+      : PositionView(first, count, stride_bytes, coordinate_stride_bytes, sizeof(double)) {}
 
-  /// A vector, array or span of Eigen::Vector3f, Eigen::Vector3d, std::array<float, 3> or std::array<double,
-  /// 3>.
+  /// A vector, array or span of points: Eigen::Vector3f, Eigen::Vector3d, std::array<float, 3>,
+  /// std::array<double, 3>, or a caller's own struct of three floats or three doubles.
   template <std::ranges::contiguous_range Points>
   requires std::ranges::sized_range<Points> && PackedPoint<std::ranges::range_value_t<Points>> PositionView(
       const Points& points)  // NOLINT(google-explicit-constructor): a range of points is its view
-      : first_(std::ranges::data(points)),
-        count_(std::ranges::size(points)),
-        stride_bytes_(sizeof(std::ranges::range_value_t<Points>)),
-        is_double_(sizeof(std::ranges::range_value_t<Points>) == 3 * sizeof(double)) {}
+      : PositionView(
+            std::ranges::data(points), std::ranges::size(points), sizeof(std::ranges::range_value_t<Points>),
+            sizeof(std::ranges::range_value_t<Points>) / 3, sizeof(std::ranges::range_value_t<Points>) / 3) {}
+
+  /// A vector, array or span of a caller's own structs, with the member at which each one's position begins:
+  /// its x, which y and z follow at once, or all three together.
+  ///
+  ///     struct Vertex { float u, v, x, y, z; };
+  ///     PositionView(vertices, &Vertex::x)
+  ///
+  /// Throws Error where y and z would lie outside the struct.
+  template <std::ranges::contiguous_range Structs, typename Owner, PositionMember Member>
+  requires std::ranges::sized_range<Structs> && std::derived_from<std::ranges::range_value_t<Structs>, Owner>
+  PositionView(const Structs& structs, Member Owner::*position)
+      : PositionView(position_in(structs, position), std::ranges::size(structs),
+                     sizeof(std::ranges::range_value_t<Structs>), sizeof(NumberOf<Member>),
+                     sizeof(NumberOf<Member>)) {}
+
+  /// A matrix of Eigen's with a point in each row, such as libigl's `Eigen::MatrixXd V` of n rows and 3
+  /// columns, by columns or by rows; also a Map, Ref or Block of one. A type with exactly three rows and
+  /// another number of columns, such as Eigen::Matrix3Xd, has a point in each column.
+  ///
+  /// Throws Error where a matrix of any number of columns has not 3 of them.
+  template <PositionMatrix Matrix>
+  PositionView(const Matrix& matrix)  // NOLINT(google-explicit-constructor): a matrix of points is its view
+      : PositionView(
+            matrix.data(),
+            static_cast<std::size_t>(has_points_in_rows<Matrix> ? rows_of_three(matrix) : matrix.cols()),
+            bytes<Matrix>(has_points_in_rows<Matrix> ? matrix.rowStride() : matrix.colStride()),
+            bytes<Matrix>(has_points_in_rows<Matrix> ? matrix.colStride() : matrix.rowStride()),
+            sizeof(typename Matrix::Scalar)) {}
 
   [[nodiscard]] const void* data() const { return first_; }
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] std::size_t stride_bytes() const { return stride_bytes_; }
-  [[nodiscard]] bool is_double() const { return is_double_; }
+  [[nodiscard]] std::size_t coordinate_stride_bytes() const { return coordinate_stride_bytes_; }
+  [[nodiscard]] bool is_double() const { return form_ == Form::doubles || form_ == Form::doubles_apart; }
+  /// Whether y follows x at once, and z follows y.
+  [[nodiscard]] bool has_joined_coordinates() const {
+    return form_ == Form::doubles || form_ == Form::floats;
+  }
 
   /// Point `index` in double (a float converts exactly). No bounds check.
   [[nodiscard]] Eigen::Vector3d operator[](std::size_t index) const {
-    const auto* point = static_cast<const std::byte*>(first_) + index * stride_bytes_;
-    if (is_double_) {
+    const auto* const point = static_cast<const std::byte*>(first_) + index * stride_bytes_;
+    if (form_ == Form::doubles) {
       std::array<double, 3> xyz;
       std::memcpy(xyz.data(), point, sizeof xyz);
       return {xyz[0], xyz[1], xyz[2]};
     }
-    std::array<float, 3> xyz;
-    std::memcpy(xyz.data(), point, sizeof xyz);
-    return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+    if (form_ == Form::floats) {
+      std::array<float, 3> xyz;
+      std::memcpy(xyz.data(), point, sizeof xyz);
+      return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+    }
+    return form_ == Form::doubles_apart ? apart<double>(point) : apart<float>(point);
   }
 
  private:
+  /// Which numbers, and whether a point's coordinates lie apart.
+  enum class Form : std::uint8_t { doubles, floats, doubles_apart, floats_apart };
+
+  template <typename Member>
+  using NumberOf = std::conditional_t<std::same_as<Member, double> || std::same_as<Member, double[3]> ||
+                                          TupleOf<Member, double, 3>,
+                                      double, float>;
+  template <typename Matrix>
+  static constexpr bool has_points_in_rows = int(Matrix::ColsAtCompileTime) == 3 ||
+                                             int(Matrix::RowsAtCompileTime) != 3;
+
+  PositionView(const void* first, std::size_t count, std::size_t stride_bytes,
+               std::size_t coordinate_stride_bytes, std::size_t number_bytes)
+      : first_(first),
+        count_(count),
+        stride_bytes_(stride_bytes),
+        coordinate_stride_bytes_(coordinate_stride_bytes) {
+    const bool joined = coordinate_stride_bytes == number_bytes;
+    if (number_bytes == sizeof(double))
+      form_ = joined ? Form::doubles : Form::doubles_apart;
+    else
+      form_ = joined ? Form::floats : Form::floats_apart;
+  }
+
+  template <typename Structs, typename Owner, typename Member>
+  static const void* position_in(const Structs& structs, Member Owner::*position) {
+    if (std::ranges::empty(structs)) return nullptr;
+    const auto& first = *std::ranges::data(structs);
+    const auto* const found = reinterpret_cast<const std::byte*>(std::addressof(first.*position));
+    const std::byte* const end = reinterpret_cast<const std::byte*>(std::addressof(first)) + sizeof first;
+    if (end - found < static_cast<std::ptrdiff_t>(3 * sizeof(NumberOf<Member>)))
+      throw Error("positions: a member that is x has no y and z after it in its struct of " +
+                  std::to_string(sizeof first) + " bytes");
+    return found;
+  }
+  template <typename Matrix>
+  static Eigen::Index rows_of_three(const Matrix& matrix) {
+    if (matrix.cols() != 3)
+      throw Error("positions: a matrix of " + std::to_string(matrix.rows()) + " rows and " +
+                  std::to_string(matrix.cols()) + " columns; give a point in each row, in 3 columns");
+    return matrix.rows();
+  }
+  template <typename Matrix>
+  static std::size_t bytes(Eigen::Index numbers) {
+    return static_cast<std::size_t>(numbers) * sizeof(typename Matrix::Scalar);
+  }
+  template <typename Number>
+  [[nodiscard]] Eigen::Vector3d apart(const std::byte* point) const {
+    std::array<Number, 3> xyz;
+    for (Number& coordinate : xyz) {
+      std::memcpy(&coordinate, point, sizeof coordinate);
+      point += coordinate_stride_bytes_;
+    }
+    return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+  }
+
   const void* first_ = nullptr;
   std::size_t count_ = 0;
   std::size_t stride_bytes_ = 0;
-  bool is_double_ = true;
+  std::size_t coordinate_stride_bytes_ = sizeof(double);
+  Form form_ = Form::doubles;
 };
 
 }  // namespace graze

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace graze {
 
@@ -15,3 +17,15 @@ struct ObjectId {
 };
 
 }  // namespace graze
+
+/// Ids as keys of std::unordered_map and std::unordered_set.
+template <>
+struct std::hash<graze::ObjectId> {
+  [[nodiscard]] std::size_t operator()(const graze::ObjectId& id) const noexcept {
+    // One to one, and it spreads neighbouring ids over all bits: a step of the generator SplitMix64.
+    std::uint64_t bits = std::uint64_t{id.generation} << 32 | id.index;
+    bits = (bits ^ bits >> 30) * 0xBF58476D1CE4E5B9U;
+    bits = (bits ^ bits >> 27) * 0x94D049BB133111EBU;
+    return static_cast<std::size_t>(bits ^ bits >> 31);
+  }
+};

@@ -135,6 +135,9 @@ class GRAZE_API FrameReport {
 
   /// 1 for the first step; 0 before it.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
+  /// The number that the caller gave to `Scene::step` or `Scene::step_async`; 0 where none was given, and
+  /// before the first step.
+  [[nodiscard]] std::uint64_t tag() const { return tag_; }
   /// Sorted by the order in which a, then b, were added.
   [[nodiscard]] std::span<const PairReport> pairs() const { return shown_->pairs; }
   /// The contacts of all pairs, in the pairs' order; within a pair by (kind, feature a, feature b).
@@ -166,6 +169,7 @@ class GRAZE_API FrameReport {
   };
 
   std::uint64_t frame_ = 0;
+  std::uint64_t tag_ = 0;
   bool complete_ = true;
   Rows rows_;
   /// Its own rows, or those of an earlier report of the scene, which were these.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <graze/export.hpp>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
@@ -68,15 +69,32 @@ class GRAZE_API Scene {
 
   /// Places a rigid or fixed object: vertex = ((r0·x + r1·y) + r2·z) + t of its rest vertex (x, y, z), in
   /// double.
-  void set_pose(ObjectId object, const Eigen::Isometry3d& pose) {
-    std::array<double, 12> rows;
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column)
-        rows[static_cast<std::size_t>(row * 4 + column)] = pose.matrix()(row, column);
-    set_pose_rows(object, rows);
+  void set_pose(ObjectId object, const Eigen::Isometry3d& pose) { set_pose_rows(object, rows_of(pose)); }
+  /// Places it by a transform of either precision, such as Eigen::Isometry3f or Affine3d. Floats are
+  /// converted to double and used as they stand.
+  template <typename Scalar, int mode, int options>
+  requires(mode != Eigen::Projective) void set_pose(ObjectId object,
+                                                    const Eigen::Transform<Scalar, 3, mode, options>& pose) {
+    set_pose_rows(object, rows_of(pose));
   }
-  /// The same from the upper three rows of the 4x4 matrix, row by row.
+  /// Places it by a 4x4 matrix of either precision, for column vectors: the translation is its last column.
+  /// An engine's 16 numbers can be given as `Eigen::Map<const Eigen::Matrix4f>`. Where an entry of the last
+  /// row is further than 1e-6 from (0, 0, 0, 1) the pose is not taken, and a Diagnostic `bad_pose` says so.
+  template <typename Matrix>
+  requires(int(Matrix::RowsAtCompileTime) == 4 &&
+           int(Matrix::ColsAtCompileTime) == 4) void set_pose(ObjectId object,
+                                                              const Eigen::MatrixBase<Matrix>& pose) {
+    const Eigen::Matrix<typename Matrix::Scalar, 4, 4> values = pose;
+    std::array<double, 16> rows;
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column)
+        rows[static_cast<std::size_t>(row * 4 + column)] = static_cast<double>(values(row, column));
+    set_pose_matrix(object, rows);
+  }
+  /// Places it by the upper three rows of the 4x4 matrix, row by row.
   void set_pose_rows(ObjectId object, const std::array<double, 12>& rows);
+  /// Places it by all four rows of the 4x4 matrix, row by row. The last one is checked as above.
+  void set_pose_matrix(ObjectId object, const std::array<double, 16>& rows);
   /// A pose for each object.
   void set_poses(std::span<const ObjectId> objects, std::span<const Eigen::Isometry3d> poses) {
     static_assert(sizeof(Eigen::Isometry3d) == 16 * sizeof(double));
@@ -124,11 +142,12 @@ class GRAZE_API Scene {
 
   /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
   /// of this scene is running, or when 65,536 reports are held by handles; std::bad_alloc without memory.
-  ReportHandle step();
+  /// The report carries `tag`, any number of the caller's.
+  ReportHandle step(std::uint64_t tag = 0);
   /// Begins a step on another thread and returns; it takes up the calls made until now. Throws Error when a
   /// step is running, and std::bad_alloc where it cannot begin. Calls made meanwhile are for the step after;
   /// bound memory stays as it is until `wait` has returned.
-  void step_async();
+  void step_async(std::uint64_t tag = 0);
   /// Whether a step is running.
   [[nodiscard]] bool is_stepping() const;
   /// Waits for the end of the step that is running, if one is, and returns `latest_report`. Throws what went
@@ -139,6 +158,15 @@ class GRAZE_API Scene {
   [[nodiscard]] ReportHandle latest_report() const;
 
  private:
+  /// The upper three rows of a transform. Unpacked here, since what Eigen aligns depends on compiler flags.
+  template <typename Transform>
+  static std::array<double, 12> rows_of(const Transform& pose) {
+    std::array<double, 12> rows;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column)
+        rows[static_cast<std::size_t>(row * 4 + column)] = static_cast<double>(pose.matrix()(row, column));
+    return rows;
+  }
   /// 16 numbers for each object: its 4x4 matrix, column by column.
   void set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices);
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
+#include <graze/export.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,13 +43,19 @@ struct PairRule {
   std::vector<double> epsilon = {};  ///< in place of Accuracy::paper's numbers; empty: the scene's own
 };
 
+/// The most threads that a scene uses: 8 for each processor that this process may run on. More would only
+/// wait for each other, and each of them holds memory.
+[[nodiscard]] GRAZE_API unsigned max_threads();
+
 /// Settings of a scene, fixed when it is made. Distances are in the caller's units.
 struct SceneSettings {
   double contact_distance = 0;  ///< strictly closer than this, plus both margins, is a contact
   double range = 0;             ///< pairs closer than this are listed with their distance
   ContactDetail detail = ContactDetail::features;
   Accuracy accuracy = Accuracy::exact();
-  unsigned threads = 0;  ///< 0: as many as the machine has; 1: all on the thread that calls `step`
+  /// How many threads a step uses. 0: one for each processor. 1: all is done on the thread that calls `step`.
+  /// More than `max_threads()` count as so many. Answers do not depend on it.
+  unsigned threads = 0;
   ArenaPolicy arena = ArenaPolicy::own;
   /// A step's deadline for pairs; positions are always read and bounds refreshed first.
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;

@@ -12,6 +12,8 @@
 #include "accuracy/plot.hpp"
 #include "check_failed.hpp"
 #include "gnuplot.hpp"
+#include "option_checks.hpp"
+#include "output_path.hpp"
 #include "progress.hpp"
 #include "text_format.hpp"
 
@@ -89,8 +91,7 @@ void refuse_bad_output(const AccuracyOptions& options) {
   if (!options.no_times && !has_gnuplot())
     throw io::InputError(
         "gnuplot: not found, and the figure is drawn by it; install gnuplot-nox, or add --no-times");
-  if (!std::ofstream(options.out, std::ios::app))
-    throw io::InputError(options.out.string() + ": cannot be written; name a file in a folder that exists");
+  check_output_file("--out", options.out);
 }
 
 void write_page(const AccuracyOptions& options, const AccuracyResults& results) {
@@ -127,11 +128,14 @@ void add_accuracy_command(CLI::App& app) {
       "Measures every kernel and accuracy setting against exact arithmetic, and writes a page of tables.");
   const auto options = std::make_shared<AccuracyOptions>();
   command->add_option("--out", options->out, "The page, in Markdown; the figure is a PNG beside it")
+      ->check(file_name())
       ->capture_default_str();
   command->add_option("--count", options->count, "How many scenes of each kind of input")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Other scenes and motions")->capture_default_str();
+  command->add_option("--seed", options->seed, "Other scenes and motions")
+      ->check(whole_number(0))
+      ->capture_default_str();
   command->add_flag("--quick", options->quick, "A small count and few frames");
   command->add_flag("--no-times", options->no_times,
                     "Leave out what depends on the machine, figure included: equal seeds, equal pages");

@@ -150,7 +150,10 @@ std::vector<Aim> aims_of(const std::vector<Run>& runs) {
 }
 
 std::string table_of(const std::vector<Aim>& aims) {
-  std::string text = "\n| aim | where | measured | wanted | | |\n| --- | --- | --- | --- | --- | --- |\n";
+  std::string text =
+      "\nAims: what graze's developers want of it (docs/performance.md). Each row compares a figure that was "
+      "measured\nabove with the least or most that is wanted. An aim that is not reached is no error.\n"
+      "\n| aim | where | measured | wanted | | |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const Aim& aim : aims)
     text += format("| %-26s | %-14s | %9.4g | %s %6.4g | %-11s | %s |\n", aim.what.c_str(), aim.where.c_str(),
                    aim.measured, aim.is_at_least ? "≥" : "≤", aim.wanted,

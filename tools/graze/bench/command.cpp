@@ -8,6 +8,7 @@
 #include <graze/instruction_set.hpp>
 #include <graze/io/error.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include "bench/slow_motion.hpp"
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
+#include "option_checks.hpp"
+#include "output_path.hpp"
 
 namespace graze::tools {
 namespace {
@@ -28,10 +31,12 @@ struct BenchOptions {
   std::size_t frames = 0;
   std::vector<std::string> peers = {"all"};
   bool evict = false;
+  bool aims = false;
   std::size_t slow = 1;
   std::vector<std::string> instruction_sets;
   std::string data = GRAZE_SHARED_DATA;
-  std::filesystem::path csv, json, figures;
+  std::optional<std::filesystem::path> csv, json;
+  std::filesystem::path figures;
 };
 
 /// Parts of a scene have its name and a letter.
@@ -84,16 +89,11 @@ void check_scenes(const std::vector<std::string>& wanted) {
                            "\"; there are S1 to S10, and G100 to G10000 and V1000 to V100000");
 }
 
-void check_writable(const std::filesystem::path& file) {
-  if (!file.empty() && !std::ofstream(file, std::ios::app))
-    throw io::InputError(file.string() + ": cannot be written; name a file in a folder that exists");
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  if (file.empty()) return;
-  std::ofstream stream(file, std::ios::binary);
+void write(const std::optional<std::filesystem::path>& file, const std::string& text) {
+  if (!file) return;
+  std::ofstream stream(*file, std::ios::binary);
   stream << text;
-  if (!stream.flush()) throw io::InputError(file.string() + ": could not be written to its end");
+  if (!stream.flush()) throw io::InputError(file->string() + ": could not be written to its end");
 }
 
 void print(const std::string& text) {
@@ -138,15 +138,15 @@ void check_answers(const std::vector<bench::Run>& runs) {
 
 void run(const BenchOptions& options) {
   check_scenes(options.scenes);
-  check_writable(options.csv);
-  check_writable(options.json);
+  if (options.csv) check_output_file("--csv", *options.csv);
+  if (options.json) check_output_file("--json", *options.json);
   const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);
   const bench::PeerModule module;
   const bench::Surroundings surroundings = bench::surroundings(module, sets);
   print(bench::heading(surroundings));
   const std::vector<bench::Run> runs = run_all(options, sets, module);
   const std::vector<bench::Aim> aims = bench::aims_of(runs);
-  print(bench::table_of(aims));
+  if (options.aims) print(bench::table_of(aims));
   write(options.csv, bench::csv_of(runs));
   nlohmann::ordered_json figures = bench::figures_of(surroundings);
   figures["runs"] = nlohmann::ordered_json::array();
@@ -173,26 +173,28 @@ void add_bench_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--threads", options->threads, "One run for each number of threads")
       ->delimiter(',')
-      ->check(CLI::Range(1U, 256U))
+      ->check(thread_number())
       ->capture_default_str();
   command->add_option("--frames", options->frames, "How many are timed; by default each scene's own number")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_option("--peers", options->peers, "all, none, or some by name")
       ->delimiter(',')
       ->capture_default_str();
+  command->add_flag("--aims", options->aims,
+                    "End with a table of graze's own aims beside what was measured (docs/performance.md)");
   command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
   command->add_option("--slow", options->slow, "Play scenes so many times slower")
-      ->check(CLI::Range(1U, 4096U))
+      ->check(whole_number(1, 4096))
       ->capture_default_str();
   command
-      ->add_option(
-          "--instruction-set", options->instruction_sets,
-          "What graze's kernels use; of several, the first is compared with the aims. By default avx2 "
-          "and what is better")
+      ->add_option("--instruction-set", options->instruction_sets,
+                   "What graze's kernels use; of several, the first is compared with --aims. By default avx2 "
+                   "and what is better")
       ->delimiter(',');
   command->add_option("--data", options->data, "The folder of real meshes, for S7")->capture_default_str();
-  command->add_option("--csv", options->csv, "Write a line for each contender of each run into this file");
-  command->add_option("--json", options->json, "Write all figures into this file");
+  command->add_option("--csv", options->csv, "Write a line for each contender of each run into this file")
+      ->check(file_name());
+  command->add_option("--json", options->json, "Write all figures into this file")->check(file_name());
   command
       ->add_option(
           "--figures", options->figures,

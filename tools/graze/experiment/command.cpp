@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <graze/io/error.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "experiment/regions/subdivision_study.hpp"
 #include "experiment/report/run_studies.hpp"
 #include "experiment/speed/speed_against_error.hpp"
+#include "option_checks.hpp"
 
 namespace graze::tools {
 namespace {
@@ -76,11 +78,13 @@ void add_experiment_command(CLI::App& app) {
   command->add_option("--docs", options->docs,
                       "The folder where experiments.md is written, with images beside it");
   command->add_option("--frames", options->experiment.frames, "How many frames; else as many as the paper")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()));
   command->add_option("--runs", options->experiment.runs, "Times are the fastest of so many")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();
-  command->add_option("--seed", options->experiment.seed, "Other motions")->capture_default_str();
+  command->add_option("--seed", options->experiment.seed, "Other motions")
+      ->check(whole_number(0))
+      ->capture_default_str();
   command->add_option("--data", options->experiment.data, "The folder of real meshes")->capture_default_str();
   command->add_flag("--no-times", options->no_times,
                     "Leave out what depends on the machine: equal seeds, equal files");

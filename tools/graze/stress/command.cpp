@@ -6,9 +6,12 @@
 #include <fstream>
 #include <graze/io/error.hpp>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "check_failed.hpp"
+#include "option_checks.hpp"
+#include "output_path.hpp"
 #include "stress/budgets.hpp"
 #include "stress/coinciding.hpp"
 #include "stress/determinism.hpp"
@@ -28,12 +31,11 @@ struct StressOptions {
   DeterminismOptions playing;
   BudgetsOptions budgeted;
   std::size_t frames = 0;
-  std::filesystem::path out;
+  std::optional<std::filesystem::path> out;
 };
 
 void run(StressOptions options) {
-  if (!options.out.empty() && !std::ofstream(options.out, std::ios::app))
-    throw io::InputError(options.out.string() + ": cannot be written; name a file in a folder that exists");
+  if (options.out) check_output_file("--out", *options.out);
   StressResult result;
   if (options.reader) {
     result = run_reader_study(options.seconds);
@@ -53,10 +55,10 @@ void run(StressOptions options) {
     result = run_objects_study(options.objects);
   }
   result.figures["cores"] = std::thread::hardware_concurrency();
-  if (!options.out.empty()) {
-    std::ofstream stream(options.out, std::ios::binary);
+  if (options.out) {
+    std::ofstream stream(*options.out, std::ios::binary);
     stream << result.figures.dump(2) << "\n";
-    if (!stream.flush()) throw io::InputError(options.out.string() + ": could not be written to its end");
+    if (!stream.flush()) throw io::InputError(options.out->string() + ": could not be written to its end");
   }
   if (!result.violations.empty())
     throw CheckFailed(result.violations.front() +
@@ -77,7 +79,7 @@ void add_stress_command(CLI::App& app) {
       ->add_option("--objects", options->objects.counts,
                    "Scenes of so many objects: time, memory and what threads bring")
       ->delimiter(',')
-      ->check(CLI::Range(std::size_t{2}, std::size_t{1'000'000}));
+      ->check(whole_number(2, 1'000'000));
   studies->add_flag("--soak", options->soak, "A long run of everything, bad input included");
   studies->add_flag("--determinism", options->determinism,
                     "The same bits from 1 to 16 threads, again and again");
@@ -85,28 +87,30 @@ void add_stress_command(CLI::App& app) {
                     "Surfaces that coincide exactly beside neighbours in which they do not");
   studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
   command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
-      ->check(CLI::PositiveNumber)
+      ->check(thread_number())
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "How long --reader reads")
-      ->check(CLI::PositiveNumber)
+      ->check(real_number(NumberRange::above_0))
       ->capture_default_str();
   command->add_option("--minutes", options->soaking.minutes, "How long --soak takes")
-      ->check(CLI::PositiveNumber)
+      ->check(real_number(NumberRange::above_0))
       ->capture_default_str();
-  command->add_option("--seed", options->soaking.seed, "Another soak")->capture_default_str();
+  command->add_option("--seed", options->soaking.seed, "Another soak")
+      ->check(whole_number(0))
+      ->capture_default_str();
   command
       ->add_option(
           "--frames", options->frames,
           "How many frames --objects times, --determinism and --coinciding play and --budgets steps each "
           "scene; by default 20, 9 and 100 of the latter three, and more of smaller scenes. --soak takes as "
           "many in place of --minutes")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1))
       ->capture_default_str();
   command->add_flag("--large", options->playing.large,
                     "In --determinism the large pair has 100,000 vertices each, else 10,000");
-  command->add_option("--out", options->out, "Write the figures into this file, as JSON");
+  command->add_option("--out", options->out, "Write the figures into this file, as JSON")->check(file_name());
   command->callback([options] { run(*options); });
 }
 

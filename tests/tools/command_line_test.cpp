@@ -1,0 +1,249 @@
+// `graze` refuses command lines that cannot be meant: numbers out of their range, misspelt words, files that
+// cannot be written. Also the limits of contacts and of threads.
+
+#include <algorithm>
+#include <filesystem>
+#include <graze/settings.hpp>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "tools/program.hpp"
+#include "tools/program_report.hpp"
+#include "tools/shapes.hpp"
+#include "tools/temporary_folder.hpp"
+
+namespace graze::tests {
+namespace {
+
+using Catch::Matchers::Contains;
+using Words = std::vector<std::string>;
+
+struct BadCall {
+  Words arguments;
+  std::string complaint;
+};
+
+/// Each ends with exit code 2 and one line on standard error that has the complaint.
+void check_refused(const std::vector<BadCall>& calls) {
+  for (const BadCall& call : calls) {
+    const ProgramResult result = run_graze(call.arguments);
+    INFO("wanted: " << call.complaint << "\ngot: " << result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(is_one_line(result.err));
+    CHECK(result.out.empty());
+    CHECK_THAT(result.err, Contains("graze: " + call.complaint));
+  }
+}
+
+/// A spike that stands on a sheet of 4 by 4 quads, and another one beside it: 2 pairs in contact.
+struct SpikesOnSheet {
+  TemporaryFolder folder;
+  std::string sheet_file, scene;
+
+  SpikesOnSheet() {
+    sheet_file = folder.write("sheet.obj", obj_text(sheet(4, 0.25, {0, 0, 0}))).string();
+    folder.write("spike.obj", obj_text(spike({0, 0, 0}, 0.5)));
+    scene = folder
+                .write("scene.json", R"({"graze": 1, "contact_distance": 0.3, "objects": [
+      {"name": "sheet", "mesh": "sheet.obj", "motion": "fixed"},
+      {"name": "left", "mesh": "spike.obj", "transform": {"translate": [0.25, 0.5, 0.125]}, "group": 1},
+      {"name": "right", "mesh": "spike.obj", "transform": {"translate": [0.85, 0.6, 0.2]}, "group": 1}]})")
+                .string();
+  }
+  [[nodiscard]] std::string in(const std::string& name) const { return (folder / name).string(); }
+};
+
+}  // namespace
+
+TEST_CASE("numbers out of their range are refused with the range") {
+  const SpikesOnSheet files;
+  const auto run = [&](const char* option, const char* value) {
+    return Words{"run", files.scene, option, value};
+  };
+  const std::string from_1 = "expected a whole number of at least 1, got ";
+  const std::string from_0 = "expected a whole number of at least 0, got ";
+  const std::string threads =
+      "expected a whole number from 1 to " + std::to_string(max_threads()) + " (8 for each processor), got ";
+  check_refused({
+      {run("--frames", "0"), "--frames: " + from_1 + "\"0\""},
+      {run("--frames", "-3"), "--frames: " + from_1 + "\"-3\""},
+      {run("--frames", "2.5"), "--frames: " + from_1 + "\"2.5\""},
+      {run("--frames", "ten"), "--frames: " + from_1 + "\"ten\""},
+      {run("--frames", "5000000000"),
+       "--frames: expected a whole number of at most 4294967295, got \"5000000000\""},
+      {run("--threads", "-1"), "--threads: " + from_0 + "\"-1\""},
+      {run("--threads", "many"), "--threads: " + from_0 + "\"many\""},
+      {run("--threads", "99999999999999999999"), "--threads: " + from_0 + "\"99999999999999999999\""},
+      {run("--contact-distance", "-1"),
+       "--contact-distance: expected a number that is not negative, got \"-1\""},
+      {run("--contact-distance", "inf"),
+       "--contact-distance: expected a number that is not negative, got \"inf\""},
+      {run("--contact-distance", "1cm"),
+       "--contact-distance: expected a number that is not negative, got \"1cm\""},
+      {run("--range", "nan"), "--range: expected a number that is not negative, or inf, got \"nan\""},
+      {run("--frames-per-second", "0"), "--frames-per-second: expected a number above 0, got \"0\""},
+      {run("--frames-per-second", "inf"), "--frames-per-second: expected a number above 0, got \"inf\""},
+      {run("--max-contacts", "0"), "--max-contacts: " + from_1 + "\"0\""},
+      {run("--max-contacts-per-pair", "0"), "--max-contacts-per-pair: " + from_1 + "\"0\""},
+      {run("--picture-frame", "-1"), "--picture-frame: " + from_0 + "\"-1\""},
+      {{"bench", "--frames", "0"}, "--frames: " + from_1 + "\"0\""},
+      {{"bench", "--threads", "1,100000"}, "--threads: " + threads + "\"100000\""},
+      {{"bench", "--slow", "5000"}, "--slow: expected a whole number from 1 to 4096, got \"5000\""},
+      {{"stress", "--budgets", "--threads", "100000"}, "--threads: " + threads + "\"100000\""},
+      {{"stress", "--objects", "10,1"}, "--objects: expected a whole number from 2 to 1000000, got \"1\""},
+      {{"stress", "--reader", "--seconds", "0"}, "--seconds: expected a number above 0, got \"0\""},
+      {{"stress", "--soak", "--minutes", "inf"}, "--minutes: expected a number above 0, got \"inf\""},
+      {{"stress", "--soak", "--seed", "x"}, "--seed: " + from_0 + "\"x\""},
+  });
+}
+
+TEST_CASE("misspelt commands and options are told the nearest ones") {
+  const SpikesOnSheet files;
+  const std::string commands = "; the commands are run, inspect, stress, bench";
+  check_refused({
+      {{}, "expected a command; the commands are run, inspect"},
+      {{"rnu", files.scene}, "there is no command \"rnu\"; did you mean run?" + commands},
+      {{"inspcet"}, "there is no command \"inspcet\"; did you mean inspect?" + commands},
+      {{"stres", "--soak"}, "there is no command \"stres\"; did you mean stress?" + commands},
+      {{"fly"}, "there is no command \"fly\"" + commands},
+      {{"run", files.scene, "--frame", "3"},
+       "graze run has no option --frame; did you mean --frames?; graze run --help lists them"},
+      {{"run", files.scene, "--treads=2"}, "graze run has no option --treads; did you mean --threads?"},
+      {{"run", files.scene, "--contact-distnace", "1"},
+       "graze run has no option --contact-distnace; did you mean --contact-distance?"},
+      {{"run", "--pic", "x.png"}, "graze run has no option --pic; did you mean --picture?"},
+      {{"run", files.scene, "--quack"}, "graze run has no option --quack; graze run --help lists them"},
+      {{"stress", "--sock"}, "graze stress has no option --sock; did you mean --soak?"},
+      {{"bench", "--task", "A"}, "graze bench has no option --task; did you mean --tasks?"},
+      {{"--versoin"}, "graze has no option --versoin; did you mean --version?; graze --help lists them"},
+      {{"stress", "--soak", "now"}, "\"now\" is one argument too many; graze stress --help says"},
+  });
+}
+
+TEST_CASE("recordings and viewers are not offered") {
+  const SpikesOnSheet files;
+  const ProgramResult help = run_graze({"run", "--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(help.out.find("--record") == std::string::npos);
+  CHECK(help.out.find("--html") == std::string::npos);
+  check_refused(
+      {{{"run", files.scene, "--record", "r.graze"},
+        "graze run has no option --record; did you mean --report?"},
+       {{"run", files.scene, "--html", "v.html"}, "graze run has no option --html; graze run --help"}});
+}
+
+TEST_CASE("files that cannot be written are refused before anything is read") {
+  const SpikesOnSheet files;
+  const std::string folder = files.folder.path().string();
+  const std::string none = files.in("none");
+  // The scene is not there, and nothing is said of it: the outputs come first.
+  const auto report = [&](const std::string& file) { return Words{"run", "no.json", "--report", file}; };
+  const auto picture = [&](const std::string& file) { return Words{"run", "no.json", "--picture", file}; };
+  check_refused({
+      {report(none + "/r.jsonl"), "--report: " + none + "/r.jsonl cannot be written: there is no folder " +
+                                      none + "; make it, or name a file in another one"},
+      {report(folder), "--report: " + folder + " cannot be written: it is a folder; name a file in it"},
+      {report("/proc/r.jsonl"), "--report: /proc/r.jsonl cannot be written: "},
+      {report(""), "--report: expected the name of a file, got nothing"},
+      {picture(none + "/p.png"),
+       "--picture: " + none + "/p.png cannot be written: there is no folder " + none},
+      {picture(files.in("p.jpg")), "--picture: " + files.in("p.jpg") +
+                                       " cannot be written: pictures of the format .jpg are not made here; "
+                                       "end it in .png"},
+      {picture(files.in("p")),
+       "--picture: " + files.in("p") + " cannot be written: it has no ending; end it in .png"},
+      {{"run", files.scene, "--report", files.scene},
+       "--report: " + files.scene + " cannot be written: it is what the run reads"},
+      {{"bench", "--scenes", "S1", "--csv", none + "/x.csv"}, "--csv: " + none + "/x.csv cannot be written"},
+      {{"bench", "--scenes", "S1", "--json", folder},
+       "--json: " + folder + " cannot be written: it is a folder"},
+      {{"stress", "--soak", "--out", none + "/x.json"}, "--out: " + none + "/x.json cannot be written"},
+  });
+  CHECK_FALSE(std::filesystem::exists(files.in("p.jpg")));
+  CHECK(read_file(files.scene).starts_with("{\"graze\": 1"));
+}
+
+TEST_CASE("a file that is there is written over, and one whose run fails is left as it was") {
+  const SpikesOnSheet files;
+  const auto report = files.folder.write("report.jsonl", "mine");
+  CHECK(run_graze({"run", "no.json", "--report", report.string()}).exit_code == 2);
+  CHECK(read_file(report) == "mine");
+  CHECK(run_graze({"run", files.in("no.json"), "--report", files.in("new.jsonl")}).exit_code == 2);
+  CHECK_FALSE(std::filesystem::exists(files.in("new.jsonl")));
+  CHECK(run_graze({"run", files.scene, "--report", report.string(), "--picture", files.in("P.PNG")})
+            .exit_code == 0);
+  CHECK(read_report(report).size() == 1);
+  CHECK(read_file(files.in("P.PNG")).substr(1, 3) == "PNG");
+}
+
+TEST_CASE("more threads than 8 for each processor are a warning, and change nothing") {
+  const SpikesOnSheet files;
+  const auto run = [&](const char* threads, const char* name) {
+    return run_graze({"run", files.scene, "--threads", threads, "--no-times", "--report", files.in(name)});
+  };
+  const ProgramResult one = run("1", "one.jsonl");
+  CHECK(one.err.empty());
+  for (const char* const threads : {"5000", "100000", "4294967295"}) {
+    const ProgramResult many = run(threads, "many.jsonl");
+    CHECK(many.exit_code == 0);
+    CHECK(many.err == "warning: " + std::string(threads) + " threads are more than 8 for each processor; " +
+                          std::to_string(max_threads()) + " are used\n");
+    CHECK(read_file(files.in("many.jsonl")) == read_file(files.in("one.jsonl")));
+  }
+  CHECK(run(std::to_string(max_threads()).c_str(), "most.jsonl").err.empty());
+}
+
+TEST_CASE("limits of contacts from the command line keep the nearest") {
+  const SpikesOnSheet files;
+  const auto contacts_with = [&](const Words& limits) {
+    Words arguments = {"run", files.scene, "--detail", "vertices", "--report", files.in("r.jsonl")};
+    arguments.insert(arguments.end(), limits.begin(), limits.end());
+    const ProgramResult result = run_graze(arguments);
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+    CHECK((result.out.find("limits    left out at least ") != std::string::npos) == !limits.empty());
+    const auto frames = read_report(files.in("r.jsonl"));
+    REQUIRE(frames.size() == 1);
+    std::vector<std::vector<double>> distances;
+    for (const auto& pair : frames[0].pairs) {
+      distances.emplace_back();
+      for (const auto& contact : pair.contacts) distances.back().push_back(contact.contact.distance);
+      std::ranges::sort(distances.back());
+    }
+    return distances;
+  };
+  const auto all = contacts_with({});
+  REQUIRE(all.size() == 2);
+  REQUIRE((all[0].size() > 2 && all[1].size() > 2));
+
+  const auto two_each = contacts_with({"--max-contacts-per-pair", "2"});
+  CHECK(two_each[0] == std::vector(all[0].begin(), all[0].begin() + 2));
+  CHECK(two_each[1] == std::vector(all[1].begin(), all[1].begin() + 2));
+
+  std::vector<double> nearest = all[0];
+  nearest.insert(nearest.end(), all[1].begin(), all[1].end());
+  std::ranges::sort(nearest);
+  nearest.resize(3);
+  const auto three = contacts_with({"--max-contacts", "3"});
+  std::vector<double> found = three[0];
+  found.insert(found.end(), three[1].begin(), three[1].end());
+  std::ranges::sort(found);
+  CHECK(found == nearest);
+}
+
+TEST_CASE("bench compares with its aims only where that is asked for, and says what they are") {
+  const Words short_run = {"bench", "--scenes", "S1", "--tasks", "A", "--frames", "2", "--peers", "none"};
+  const ProgramResult plain = run_graze(short_run);
+  CHECK(plain.exit_code == 0);
+  CHECK(plain.out.find("aim") == std::string::npos);
+  Words with_aims = short_run;
+  with_aims.emplace_back("--aims");
+  const ProgramResult asked = run_graze(with_aims);
+  CHECK(asked.exit_code == 0);
+  CHECK_THAT(asked.out, Contains("Aims: what graze's developers want of it (docs/performance.md).") &&
+                            Contains("An aim that is not reached is no error.") &&
+                            Contains("| memory, bytes a vertex"));
+}
+
+}  // namespace graze::tests

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace graze::tools {
+
+/// Says in one sentence why a command line could not be parsed. A command or option that does
+/// not exist is named, with the nearest one that does.
+std::string mistake_of(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace graze::tools
