@@ -36,6 +36,7 @@ const aiScene* load(const std::filesystem::path& path, Assimp::Importer& importe
   const std::string extension = lower_extension(path);
   if (!importer.IsExtensionSupported(extension))
     fail(path, joined("'", extension, "' is no format that is read; save the mesh as OBJ, PLY, STL or glTF"));
+  if (extension == ".glb") fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");
   fail(path, joined("it cannot be read (", problem, "); check that it is whole"));
 }
 
