@@ -34,6 +34,9 @@ const aiScene* load(const std::filesystem::path& path, Assimp::Importer& importe
 [[noreturn]] void refuse(const std::filesystem::path& path, const Assimp::Importer& importer,
                          const std::string& problem) {
   const std::string extension = lower_extension(path);
+  if (extension.empty())
+    fail(path,
+         "its name has no ending that says its format; call it .obj, .ply, .stl or .glb, whichever it is");
   if (!importer.IsExtensionSupported(extension))
     fail(path, joined("'", extension, "' is no format that is read; save the mesh as OBJ, PLY, STL or glTF"));
   if (extension == ".glb") fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");

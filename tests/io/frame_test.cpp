@@ -307,5 +307,7 @@ TEST_CASE("a format that is not read is told apart from a damaged file") {
                Catch::Matchers::Contains("is " + format + ", a format that is not read"));
   CHECK_THAT(refusal_of(folder.write("a.foo", "words")),
              Catch::Matchers::StartsWith("'.foo' is no format that is read"));
+  CHECK_THAT(refusal_of(folder.write("mesh", "words")),
+             Catch::Matchers::StartsWith("its name has no ending"));
   CHECK_THAT(refusal_of(folder.write("a.dae", "words")), Catch::Matchers::StartsWith("it cannot be read ("));
 }
