@@ -76,6 +76,7 @@ RiggedFile read_assimp(const std::filesystem::path& path) {
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
   FileFrame frame;
   if (is_collada(path)) frame = undo_collada_frame(*scene);
+  undo_turn_to_y_up(*scene, extension);
   if (extension == ".fbx") frame = read_fbx_frame(*scene);
   RiggedFile file = convert_scene(path, *scene);
   file.frame = std::move(frame);
