@@ -1,6 +1,7 @@
 #include "assimp_frame.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -79,6 +80,16 @@ FileFrame read_fbx_frame(const aiScene& scene) {
   frame.up = up->text();
   frame.to_z_up = turn;
   return frame;
+}
+
+void undo_turn_to_y_up(aiScene& scene, std::string_view extension) {
+  constexpr std::array<std::string_view, 8> turned = {".3ds", ".ase", ".ask",     ".dxf",
+                                                      ".iqm", ".md2", ".md5mesh", ".mdc"};
+  if (scene.mRootNode == nullptr || std::ranges::find(turned, extension) == turned.end()) return;
+  const aiMatrix4x4 turn(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+  aiMatrix4x4& root = scene.mRootNode->mTransformation;
+  if (!root.Equal(turn, 1e-6F)) return;
+  root = aiMatrix4x4();
 }
 
 }  // namespace graze::io

@@ -4,6 +4,7 @@
 
 #include <graze/io/mesh_file.hpp>
 #include <string>
+#include <string_view>
 
 namespace graze::io {
 
@@ -13,5 +14,9 @@ FileFrame undo_collada_frame(aiScene& scene);
 
 /// What an FBX file's global settings say. assimp does not apply them.
 FileFrame read_fbx_frame(const aiScene& scene);
+
+/// Undoes the turn that assimp (5.2) puts into the root node of formats in which z points up, so that y does.
+/// `extension` is in lower case.
+void undo_turn_to_y_up(aiScene& scene, std::string_view extension);
 
 }  // namespace graze::io

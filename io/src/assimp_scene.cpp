@@ -11,9 +11,9 @@
 namespace graze::io {
 namespace {
 
-/// Names such as "<STL_ROOT>" and "$ColladaAutoName$_0" are assimp's own.
+/// Names such as "<3DSRoot>", "$ColladaAutoName$_0" and "3DSMesh_0" are assimp's own.
 bool is_made_by_assimp(const std::string& name) {
-  return name.empty() || name.front() == '<' || name.front() == '$';
+  return name.empty() || name.front() == '<' || name.front() == '$' || name.starts_with("3DSMesh_");
 }
 
 std::string object_name(const aiScene& scene, const aiNode& node) {

@@ -19,8 +19,8 @@ Eigen::Matrix3d z_up_from(const Eigen::Vector3d& right, const Eigen::Vector3d& u
 /// What a file says of its axes and unit, such as "y up and 0.0254 m a unit"; empty where it says nothing.
 std::string text_of_frame(const FileFrame& frame);
 
-/// Whether a file of a format in which axes or unit are the exporter's choice says anything but "metres, z
-/// up". glTF always has y up and metres, so that its saying so is no news.
+/// Whether the file says anything but "metres, z up", in a format where that is the exporter's choice. glTF
+/// always has y up and metres, which is no news.
 bool says_other_than_scene(const std::filesystem::path& path, const FileFrame& frame);
 
 /// What a conversion does, such as "x y z become x −z y, times 0.0254".

@@ -1,8 +1,11 @@
-// glTF is read here, from its JSON. assimp (5.2) mixes up nodes of one name, forgets a node's own weights,
-// joins cubic keys by straight lines, takes integer weights for floats and ignores extensions without a word.
-// tinygltf (2.7.0) only reads the JSON and the buffers: accessors, sparse ones too, splines and skins are
-// left to its caller. It looks for a buffer in the process's current folder as well, refuses a buffer file
-// that is longer than announced, and takes a value of the wrong type for a missing one.
+// glTF is read here, from its JSON, and not by a library.
+//
+// assimp (5.2) mixes up nodes of one name and forgets a node's own weights. It joins cubic keys by straight
+// lines, takes integer weights for floats, and ignores extensions without a word.
+//
+// tinygltf (2.7.0) reads the JSON and the buffers only: accessors, splines and skins are left to its caller.
+// It also looks for buffers in the current folder and refuses a buffer file that is longer than announced. It
+// takes a value of the wrong type for a missing one, which hides damage.
 
 #include "gltf_document.hpp"
 
@@ -58,9 +61,9 @@ Chunks find_chunks(const std::filesystem::path& path, std::string_view bytes) {
 
 /// Extensions that change where nothing is, only how it looks.
 bool concerns_looks_only(std::string_view extension) {
-  constexpr std::array<std::string_view, 7> beginnings = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
+  constexpr std::array<std::string_view, 8> beginnings = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                                           "MSFT_texture_",  "KHR_lights_",  "EXT_lights_",
-                                                          "KHR_xmp"};
+                                                          "KHR_xmp",        "KHR_technique"};
   return std::ranges::any_of(beginnings,
                              [&](std::string_view start) { return extension.starts_with(start); });
 }

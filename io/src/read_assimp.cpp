@@ -34,8 +34,12 @@ const aiScene* load(const std::filesystem::path& path, Assimp::Importer& importe
 [[noreturn]] void refuse(const std::filesystem::path& path, const Assimp::Importer& importer,
                          const std::string& problem) {
   const std::string extension = lower_extension(path);
+  if (extension.empty())
+    fail(path,
+         "its name has no ending that says its format; call it .obj, .ply, .stl or .glb, whichever it is");
   if (!importer.IsExtensionSupported(extension))
     fail(path, joined("'", extension, "' is no format that is read; save the mesh as OBJ, PLY, STL or glTF"));
+  if (extension == ".glb") fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");
   fail(path, joined("it cannot be read (", problem, "); check that it is whole"));
 }
 
@@ -72,6 +76,7 @@ RiggedFile read_assimp(const std::filesystem::path& path) {
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
   FileFrame frame;
   if (is_collada(path)) frame = undo_collada_frame(*scene);
+  undo_turn_to_y_up(*scene, extension);
   if (extension == ".fbx") frame = read_fbx_frame(*scene);
   RiggedFile file = convert_scene(path, *scene);
   file.frame = std::move(frame);

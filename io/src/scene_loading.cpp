@@ -181,12 +181,15 @@ Eigen::Matrix3d Loader::conversion(const ObjectDescription& entry, const MeshFil
 void Loader::note_frame(const ObjectDescription& entry, const MeshFile& file) {
   const Eigen::Matrix3d map = conversion(entry, file);
   const bool has_keys = entry.up || entry.up_is_the_files || entry.metres_per_unit || entry.unit_is_the_files;
+  std::string note;
   if (map != Eigen::Matrix3d::Identity())
-    scene_.warnings.push_back(entry.mesh.string() + ": converted: " + text_of_map(map));
+    note = entry.mesh.string() + ": converted: " + text_of_map(map);
   else if (!has_keys && says_other_than_scene(entry.mesh, file.frame()))
-    scene_.warnings.push_back(
-        entry.mesh.string() + ": its coordinates are taken as they stand, though it says " +
-        text_of_frame(file.frame()) + R"(; "up": "file" and "unit": "file" in a scene file convert them)");
+    note = entry.mesh.string() + ": its coordinates are taken as they stand, though it says " +
+           text_of_frame(file.frame()) + R"(; "up": "file" and "unit": "file" in a scene file convert them)";
+  // Several entries may name one file.
+  if (!note.empty() && std::ranges::find(scene_.warnings, note) == scene_.warnings.end())
+    scene_.warnings.push_back(std::move(note));
 }
 
 void Loader::load_entry(std::size_t entry_index) {

@@ -110,11 +110,29 @@ C: "OO",100,200
 )";
 }
 
+std::string ase() {
+  std::string text =
+      "*3DSMAX_ASCIIEXPORT 200\n*GEOMOBJECT {\n*NODE_NAME \"arm\"\n*MESH {\n*MESH_NUMVERTEX "
+      "4\n*MESH_NUMFACES 4\n"
+      "*MESH_VERTEX_LIST {\n";
+  for (std::size_t i = 0; i < arm.size(); ++i)
+    text += "*MESH_VERTEX " + std::to_string(i) + " " + std::to_string(arm[i].x()) + " " +
+            std::to_string(arm[i].y()) + " " + std::to_string(arm[i].z()) + "\n";
+  text += "}\n*MESH_FACE_LIST {\n";
+  int number = 0;
+  for (const auto& face : std::vector<Corners>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+    text += "*MESH_FACE " + std::to_string(number++) + ": A: " + std::to_string(face[0]) +
+            " B: " + std::to_string(face[1]) + " C: " + std::to_string(face[2]) +
+            " AB: 1 BC: 1 CA: 1 *MESH_SMOOTHING 0 *MESH_MTLID 0\n";
+  return text + "}\n}\n}\n";
+}
+
 /// Each format with other axes and units; the numbers are the same.
 std::vector<std::pair<std::string, std::string>> arms() {
   return {{"arm.obj", obj()},
           {"arm.stl", stl()},
           {"arm.gltf", gltf()},
+          {"arm.ase", ase()},
           {"named.dae", dae("Z_UP", "1", "arm")},
           {"metres.dae", dae("Z_UP", "1", "")},
           {"inches.dae", dae("Y_UP", "0.0254", "")},
@@ -307,5 +325,7 @@ TEST_CASE("a format that is not read is told apart from a damaged file") {
                Catch::Matchers::Contains("is " + format + ", a format that is not read"));
   CHECK_THAT(refusal_of(folder.write("a.foo", "words")),
              Catch::Matchers::StartsWith("'.foo' is no format that is read"));
+  CHECK_THAT(refusal_of(folder.write("mesh", "words")),
+             Catch::Matchers::StartsWith("its name has no ending"));
   CHECK_THAT(refusal_of(folder.write("a.dae", "words")), Catch::Matchers::StartsWith("it cannot be read ("));
 }

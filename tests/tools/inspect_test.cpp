@@ -68,7 +68,7 @@ TEST_CASE("inspect shows what a file says of its axes and what a scene file make
   const auto mesh = folder.write("thing.obj", obj_text(shape));
   const auto plain = run_graze({"inspect", mesh.string()});
   CHECK_THAT(plain.out, Contains("frame      axes and unit not said; coordinates as they stand in it"));
-  CHECK_THAT(plain.out, Contains("bounds     from 0 1 2 to 10 21 32"));
+  CHECK_THAT(plain.out, Contains("bounds     from 0 1 2 to 10 22 34"));
   const auto scene = run_graze(
       {"inspect",
        folder
@@ -77,5 +77,5 @@ TEST_CASE("inspect shows what a file says of its axes and what a scene file make
            .string()});
   CHECK(scene.exit_code == 0);
   CHECK_THAT(scene.out, Contains("thing.obj: converted: x y z become x -z y, times 0.01"));
-  CHECK_THAT(scene.out, Contains("stands     from 1 -0.32 0.01 to 1.1 -0.02 0.21"));
+  CHECK_THAT(scene.out, Contains("stands     from 1 -0.34 0.01 to 1.1 -0.02 0.22"));
 }

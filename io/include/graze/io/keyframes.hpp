@@ -11,12 +11,12 @@ namespace graze::io {
 /// The rotation by degrees about the fixed x axis, then y, then z. It is exact at multiples of 90.
 GRAZE_API Eigen::Matrix3d rotation_from_degrees(const Eigen::Vector3d& degrees);
 
-/// Where an object stands: a point p of its file goes to rotation · (stretch · p) + translate.
+/// The place of an object. A point p of its file goes to rotation · (stretch · p) + translate.
 struct GRAZE_API Placement {
   Eigen::Vector3d translate = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< a proper rotation
-  /// A scale, uniform or by axis, or the rest of a 4 × 4 matrix. Its determinant is not 0; below 0 it
-  /// mirrors.
+  /// A scale, uniform or by axis, or the rest of a 4 × 4 matrix. Its determinant is not
+  /// 0; a negative one mirrors.
   Eigen::Matrix3d stretch = Eigen::Matrix3d::Identity();
 
   /// Rotation and translation.

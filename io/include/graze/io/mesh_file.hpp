@@ -21,8 +21,8 @@ struct LoadedObject {
       false;  ///< an animation of the file moves it: by its skeleton, its morph targets or its node
 };
 
-/// What a file says about its own coordinates. graze takes them as they stand in every format; the keys `up`
-/// and `unit` of a scene file convert them.
+/// The axes and the unit that a file says its coordinates have. graze takes coordinates as they stand in
+/// every format; the keys `up` and `unit` of a scene file convert them.
 struct FileFrame {
   std::optional<double> metres_per_unit;  ///< the length of 1 in the file; none: the file does not say
   std::optional<std::string> up;  ///< the axis that points up: `x`, `y`, `z`, or `-x`, …; none: not said
@@ -30,16 +30,16 @@ struct FileFrame {
   Eigen::Matrix3d to_z_up = Eigen::Matrix3d::Identity();
 };
 
-/// What a mesh file holds: its objects and their animations. A copy shares the data; every const member may
-/// be called from any number of threads at once.
+/// The objects and animations of a mesh file. A copy shares the data. Every const member may be called from
+/// any number of threads at once.
 ///
 /// OBJ, PLY and OFF keep the file's own vertex numbers, unused vertices included, in double precision. An OBJ
-/// group is one object with the whole file's vertices. glTF 2 and STL are read here too; every other format
-/// is read by assimp, in single precision. In these formats each node with faces is an object. Its vertices
-/// are where the node and the skeleton put them while nothing plays. Vertices repeated for seams are one
-/// again, in order of first appearance, where position, skin weights and morph offsets are equal. A mirrored
-/// node or joint turns the faces, so that the front stays outside. Triangles and quads stay as they are; a
-/// face of more corners is cut into triangles. Coordinates are those of the file: no unit or axis is
+/// group is one object with the whole file's vertices. graze reads glTF 2 and STL itself;
+/// assimp reads every other format, in single precision. In these formats each node with faces is an object.
+/// Its vertices are where the node and the skeleton put them while nothing plays. Vertices repeated for seams
+/// are one again, in order of first appearance, where position, skin weights and morph offsets are equal. A
+/// mirrored node or joint turns the faces, so that the front stays outside. Triangles and quads stay as they
+/// are; a face of more corners is cut into triangles. Coordinates are those of the file: no unit or axis is
 /// converted.
 class GRAZE_API MeshFile {
  public:
@@ -54,7 +54,7 @@ class GRAZE_API MeshFile {
   /// What was left out or changed, one line each.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
-  /// What the file says about its unit and its axes.
+  /// The axes and the unit that the file says its coordinates have.
   [[nodiscard]] const FileFrame& frame() const;
 
   /// How long an animation lasts. Throws Error when `animation` is out of range.
