@@ -4,6 +4,6 @@ set -eu
 cd "$(dirname "$0")/.."
 
 tools/install_packages.sh
-cmake --preset release -DGRAZE_BUILD_TESTS=OFF >/dev/null
+cmake --preset release -DGRAZE_BUILD_TESTS=OFF -DGRAZE_STUDIES=OFF >/dev/null
 cmake --build --preset release --target graze_program graze_demo_scene
 tools/demo/run.sh build/release out/demo

@@ -76,12 +76,9 @@ double last_key(const Clip& clip) {
 
 class ClipReader {
  public:
-  ClipReader(const aiAnimation& source, std::size_t number, const NodeTable& nodes,
-             const SteppedTracks& steps)
+  ClipReader(const aiAnimation& source, const NodeTable& nodes)
       : source_(source),
-        number_(number),
         nodes_(nodes),
-        steps_(steps),
         seconds_per_tick_(1.0 /
                           (source.mTicksPerSecond > 0 ? source.mTicksPerSecond : default_ticks_per_second)) {}
 
@@ -105,34 +102,27 @@ class ClipReader {
     motion.translation = read_track(channel.mPositionKeys, channel.mNumPositionKeys, seconds_per_tick_);
     motion.rotation = read_track(channel.mRotationKeys, channel.mNumRotationKeys, seconds_per_tick_);
     motion.scale = read_track(channel.mScalingKeys, channel.mNumScalingKeys, seconds_per_tick_);
-    motion.translation.is_stepped = steps_.contains({number_, name, "translation"});
-    motion.rotation.is_stepped = steps_.contains({number_, name, "rotation"});
-    motion.scale.is_stepped = steps_.contains({number_, name, "scale"});
   }
 
   void read_morphs(const aiMeshMorphAnim& channel) {
     const std::string name = channel.mName.C_Str();
     const auto node = find_morphed(nodes_, name);
     if (!node) return;
-    auto tracks = read_morph_tracks(channel, seconds_per_tick_);
-    for (auto& track : tracks) track.is_stepped = steps_.contains({number_, name, "weights"});
-    clip_.morph_weights[*node] = std::move(tracks);
+    clip_.morph_weights[*node] = read_morph_tracks(channel, seconds_per_tick_);
   }
 
   const aiAnimation& source_;
-  std::size_t number_;
   const NodeTable& nodes_;
-  const SteppedTracks& steps_;
   double seconds_per_tick_;
   Clip clip_;
 };
 
 }  // namespace
 
-std::vector<Clip> read_clips(const aiScene& scene, const NodeTable& nodes, const SteppedTracks& steps) {
+std::vector<Clip> read_clips(const aiScene& scene, const NodeTable& nodes) {
   std::vector<Clip> clips;
   for (unsigned i = 0; i < scene.mNumAnimations; ++i)
-    clips.push_back(ClipReader(*scene.mAnimations[i], i, nodes, steps).read());
+    clips.push_back(ClipReader(*scene.mAnimations[i], nodes).read());
   return clips;
 }
 

@@ -3,15 +3,18 @@
 #include <assimp/scene.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
-#include "gltf_source.hpp"
 #include "read_assimp.hpp"
 
 namespace graze::io {
 
 /// The objects, nodes and animations of what assimp has read from `path`, whose extension says what the
-/// format means by a morph target's weight. `steps` names the tracks that jump from key to key. Throws
-/// InputError for numbers that name nothing.
-RiggedFile convert_scene(const std::filesystem::path& path, const aiScene& scene, const SteppedTracks& steps);
+/// format means by a morph target's weight. Throws InputError for numbers that name nothing.
+RiggedFile convert_scene(const std::filesystem::path& path, const aiScene& scene);
+
+/// What each node with faces is called, in the order of the objects that `convert_scene` makes.
+std::vector<std::string> object_names(const aiScene& scene);
 
 }  // namespace graze::io

@@ -27,6 +27,26 @@ std::string line_and_column(std::string_view text, std::size_t end) {
   return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_start + 1);
 }
 
+/// Something that people often write and JSON does not have, and where it stands.
+struct Mistake {
+  std::size_t at = 0;
+  std::string_view what;
+};
+
+/// What stopped the parser at `at`, if it is such a thing.
+std::optional<Mistake> common_mistake(std::string_view text, std::size_t at) {
+  constexpr std::string_view comment = "a comment stands here, which JSON does not have; remove it";
+  const auto char_at = [&](std::size_t index) { return index < text.size() ? text[index] : '\0'; };
+  for (const std::size_t start : {at, at - 1})
+    if (char_at(start) == '/' && (char_at(start + 1) == '/' || char_at(start + 1) == '*'))
+      return Mistake{start, comment};
+  if (char_at(at) == '#') return Mistake{at, comment};
+  if (char_at(at) != ']' && char_at(at) != '}') return std::nullopt;
+  const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\n");
+  if (before == std::string_view::npos || text[before] != ',') return std::nullopt;
+  return Mistake{before, "a trailing comma stands before a closing bracket; remove the comma"};
+}
+
 /// Refuses a key that an object has twice (the parser would keep the last without a word), and values so deep
 /// that showing them, which recurses, would end the stack.
 class Guard {
@@ -67,6 +87,10 @@ nlohmann::json parse_json_file(const std::filesystem::path& path) {
     Guard guard(path.string());
     return nlohmann::json::parse(text, std::ref(guard));
   } catch (const nlohmann::json::parse_error& error) {
+    const auto mistake = common_mistake(text, error.byte == 0 ? 0 : error.byte - 1);
+    if (mistake)
+      throw InputError(path.string() + ": " + line_and_column(text, mistake->at + 1) + ": " +
+                       std::string(mistake->what));
     throw InputError(path.string() + ": " + line_and_column(text, error.byte) +
                      ": not valid JSON; look there for a missing comma, quote or bracket");
   } catch (const nlohmann::json::exception&) {
@@ -147,6 +171,13 @@ std::string JsonPlace::text() const {
   if (!value_->is_string() || value_->get_ref<const std::string&>().empty())
     fail("a text", "write it in double quotes, not empty");
   return value_->get<std::string>();
+}
+
+std::vector<double> JsonPlace::numbers(std::size_t count, std::string_view remedy) const {
+  if (!value_->is_array() || value_->size() != count) fail(std::to_string(count) + " numbers", remedy);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) values.push_back(item(i).number());
+  return values;
 }
 
 Eigen::Vector3d JsonPlace::point() const {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace graze::io {
 
@@ -44,6 +45,8 @@ class JsonPlace {
   [[nodiscard]] std::string text() const;
   /// Three numbers.
   [[nodiscard]] Eigen::Vector3d point() const;
+  /// An array of so many numbers.
+  [[nodiscard]] std::vector<double> numbers(std::size_t count, std::string_view remedy) const;
 
  private:
   JsonPlace(std::string file, std::string path, const nlohmann::json& value)

@@ -1,5 +1,7 @@
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <graze/error.hpp>
 #include <graze/io/keyframes.hpp>
 #include <numbers>
 
@@ -30,30 +32,50 @@ Eigen::Isometry3d make_pose(const Eigen::Matrix3d& rotation, const Eigen::Vector
 }
 
 Eigen::Isometry3d pose_of(const KeyPose& key) {
-  return make_pose(rotation_from_degrees(key.rotate_degrees), key.translate);
+  return make_pose(key.rotation, key.translate);
 }
 
 Eigen::Isometry3d pose_between(const KeyPose& before, const KeyPose& after, double part) {
   const Eigen::Vector3d translation = before.translate + part * (after.translate - before.translate);
-  const Eigen::Matrix3d first = rotation_from_degrees(before.rotate_degrees);
-  if (before.rotate_degrees == after.rotate_degrees) return make_pose(first, translation);
-  const Eigen::Quaterniond from(first);
-  const Eigen::Quaterniond to(rotation_from_degrees(after.rotate_degrees));
+  if (before.rotation == after.rotation) return make_pose(before.rotation, translation);
+  const Eigen::Quaterniond from(before.rotation);
+  const Eigen::Quaterniond to(after.rotation);
   return make_pose(from.slerp(part, to).normalized().toRotationMatrix(), translation);
 }
 
 }  // namespace
 
 Eigen::Isometry3d Placement::pose() const {
-  return make_pose(rotation_from_degrees(rotate_degrees), translate);
+  return make_pose(rotation, translate);
 }
 
 Eigen::Vector3d Placement::apply(const Eigen::Vector3d& point) const {
-  return rotation_from_degrees(rotate_degrees) * (scale * point) + translate;
+  return rotation * (stretch * point) + translate;
 }
 
 bool Placement::is_identity() const {
-  return translate.isZero(0) && rotate_degrees.isZero(0) && scale == 1;
+  return translate.isZero(0) && rotation == Eigen::Matrix3d::Identity() &&
+         stretch == Eigen::Matrix3d::Identity();
+}
+
+Placement placement_from_matrix(const Eigen::Matrix4d& matrix) {
+  if (!matrix.allFinite()) throw Error("a number is not finite");
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Error("its last row is not 0 0 0 1");
+  const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
+  Placement placement;
+  placement.translate = matrix.topRightCorner<3, 1>();
+  if (linear.transpose() * linear == Eigen::Matrix3d::Identity() && linear.determinant() > 0) {
+    placement.rotation = linear;
+    return placement;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d sizes = svd.singularValues();
+  constexpr double flattest = 1e-12;
+  if (!(sizes[2] > flattest * sizes[0])) throw Error("it flattens space");
+  const double sign = linear.determinant() < 0 ? -1.0 : 1.0;
+  placement.rotation = sign * svd.matrixU() * svd.matrixV().transpose();
+  placement.stretch = sign * svd.matrixV() * sizes.asDiagonal() * svd.matrixV().transpose();
+  return placement;
 }
 
 Eigen::Matrix3d rotation_from_degrees(const Eigen::Vector3d& degrees) {

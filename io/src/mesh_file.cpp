@@ -8,6 +8,8 @@
 #include "file_bytes.hpp"
 #include "object_file.hpp"
 #include "raw_object.hpp"
+#include "read_gltf.hpp"
+#include "read_stl.hpp"
 #include "rig.hpp"
 #include "text_lines.hpp"
 
@@ -17,6 +19,7 @@ struct MeshFile::Content {
   std::vector<LoadedObject> objects;
   std::vector<std::string> animations;
   std::vector<std::string> warnings;
+  FileFrame frame;
   Rig rig;                           ///< its bodies are those of the animated objects only
   std::vector<std::size_t> body_of;  ///< for each object, no_body where it is not animated
 
@@ -50,9 +53,11 @@ void warn_of_cuts(const std::filesystem::path& path, const std::string& object, 
 
 RiggedFile read_objects(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  if (extension == ".obj") return {read_obj(path), {}};
-  if (extension == ".ply") return {read_ply(path), {}};
-  if (extension == ".off") return {read_off(path), {}};
+  if (extension == ".obj") return {read_obj(path), {}, {}};
+  if (extension == ".ply") return {read_ply(path), {}, {}};
+  if (extension == ".off") return {read_off(path), {}, {}};
+  if (extension == ".stl") return {read_stl(path), {}, {}};
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(path);
   return read_assimp(path);
 }
 
@@ -77,6 +82,7 @@ MeshFile MeshFile::read(const std::filesystem::path& path) {
   }
   if (content->objects.empty()) fail(path, "there is no face in it; a mesh needs at least one");
   for (std::string& warning : content->warnings) warning = one_line(std::move(warning));
+  content->frame = std::move(source.frame);
   source.rig.bodies = std::move(bodies);
   for (const auto& clip : source.rig.clips) content->animations.push_back(clip.name);
   content->rig = std::move(source.rig);
@@ -93,6 +99,10 @@ std::span<const std::string> MeshFile::animations() const {
 
 std::span<const std::string> MeshFile::warnings() const {
   return content_->warnings;
+}
+
+const FileFrame& MeshFile::frame() const {
+  return content_->frame;
 }
 
 double MeshFile::animation_seconds(std::size_t animation) const {

@@ -12,7 +12,7 @@ namespace {
 struct Playback {
   std::unique_ptr<PositionSource> source;
   std::vector<KeyPose> keys;
-  Placement placement;  ///< of every frame of `source`
+  Eigen::Affine3d placement = Eigen::Affine3d::Identity();  ///< of every frame of `source`
   bool is_deformable = false;
   std::vector<Eigen::Vector3d> positions;  ///< of a source: bound to the scene
   const Eigen::Vector3d* bound = nullptr;  ///< what the scene was last told to read
@@ -43,10 +43,8 @@ void read_frame(Playback& playback, std::uint32_t frame, const SceneObject& obje
     throw InputError(std::string(error.what()) + " (object \"" + object.name + "\", frame " +
                      std::to_string(frame) + ")");
   }
-  if (playback.placement.is_identity()) return;
-  const Eigen::Matrix3d rotation = rotation_from_degrees(playback.placement.rotate_degrees);
-  for (Eigen::Vector3d& point : playback.positions)
-    point = rotation * (playback.placement.scale * point) + playback.placement.translate;
+  if (playback.placement.matrix() == Eigen::Matrix4d::Identity()) return;
+  for (Eigen::Vector3d& point : playback.positions) point = playback.placement * point;
 }
 
 }  // namespace
@@ -86,7 +84,7 @@ void Player::State::add(LoadedSceneObject& loaded, const ObjectDescription& entr
   Playback playback;
   playback.source = std::move(loaded.source);
   playback.keys = entry.poses;
-  playback.placement = entry.transform;
+  playback.placement = loaded.placement;
   playback.is_deformable = loaded.settings.motion == Motion::deformable;
   if (playback.source) playback.positions.assign(loaded.mesh->rest().begin(), loaded.mesh->rest().end());
   if (!playback.is_deformable) {

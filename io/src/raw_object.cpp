@@ -30,6 +30,16 @@ void turn_faces(RawSurface& surface) {
   }
 }
 
+void turn_faces(RawSurface& surface, const std::vector<bool>& is_marked) {
+  auto begin = surface.corners.begin();
+  for (const auto count : surface.corner_counts) {
+    const auto end = begin + count;
+    const auto marked = std::count_if(begin, end, [&](std::uint32_t vertex) { return is_marked[vertex]; });
+    if (2 * marked > static_cast<std::ptrdiff_t>(count)) std::reverse(begin + 1, end);
+    begin = end;
+  }
+}
+
 CutFaces cut_large_faces(RawSurface& surface) {
   CutFaces cut;
   RawSurface result;

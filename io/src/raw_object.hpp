@@ -26,6 +26,8 @@ struct RawSurface {
 
 /// Turns every face round, its first corner staying first.
 void turn_faces(RawSurface& surface);
+/// Turns those faces round of whose corners more than half are marked.
+void turn_faces(RawSurface& surface, const std::vector<bool>& is_marked);
 
 /// One object as a reader finds it.
 struct RawObject {

@@ -1,62 +1,63 @@
 #include "read_assimp.hpp"
 
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
 #include <exception>
 #include <memory>
-#include <span>
+#include <utility>
+#include <vector>
 
+#include "assimp_frame.hpp"
 #include "assimp_scene.hpp"
 #include "file_bytes.hpp"
-#include "gltf_source.hpp"
+#include "known_formats.hpp"
 
 namespace graze::io {
 namespace {
 
-/// Serves one file from memory and every other from the disk.
-class PreparedFile : public Assimp::DefaultIOSystem {
- public:
-  PreparedFile(std::string path, const std::string& bytes) : path_(std::move(path)), bytes_(bytes) {}
-
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (path_ != file) return DefaultIOSystem::Open(file, mode);
-    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
-  }
-
- private:
-  std::string path_;
-  const std::string& bytes_;
-};
-
-const aiScene& load(const std::filesystem::path& path, Assimp::Importer& importer) {
+/// Null where assimp refuses the file, for the reason that becomes `problem`.
+const aiScene* load(const std::filesystem::path& path, Assimp::Importer& importer, std::string& problem) {
   // Otherwise a skeleton without a mesh becomes a mesh.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  const aiScene* scene = nullptr;
-  std::string problem;
   try {
-    scene = importer.ReadFile(path.string(), 0);
+    const aiScene* scene = importer.ReadFile(path.string(), 0);
     problem = importer.GetErrorString();
+    return scene;
   } catch (const std::exception& error) {
     problem = error.what();
   }
-  if (scene == nullptr)
-    fail(path,
-         joined("it cannot be read (", problem, "); check that it is whole and in a format that is known"));
-  return *scene;
+  return nullptr;
 }
 
-/// assimp leaves faces out that name no vertex.
-void require_all_faces(const std::filesystem::path& path, const aiScene& scene, const GltfSource& source) {
-  for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes)) {
-    const auto primitive = source.primitives.find(mesh->mName.C_Str());
-    if (primitive != source.primitives.end() && primitive->second.face_count != mesh->mNumFaces)
-      fail(path, joined(primitive->second.place, ": only ", mesh->mNumFaces, " of its ",
-                        primitive->second.face_count, " faces name vertices that exist; export it again"));
-  }
+[[noreturn]] void refuse(const std::filesystem::path& path, const Assimp::Importer& importer,
+                         const std::string& problem) {
+  const std::string extension = lower_extension(path);
+  if (extension.empty())
+    fail(path,
+         "its name has no ending that says its format; call it .obj, .ply, .stl or .glb, whichever it is");
+  if (!importer.IsExtensionSupported(extension))
+    fail(path, joined("'", extension, "' is no format that is read; save the mesh as OBJ, PLY, STL or glTF"));
+  if (extension == ".glb") fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");
+  fail(path, joined("it cannot be read (", problem, "); check that it is whole"));
+}
+
+bool is_collada(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".dae" || extension == ".zae";
+}
+
+/// COLLADA's ids are unique, so assimp names nodes by them. The names are what the file calls its nodes.
+void use_collada_names(const std::filesystem::path& path, const aiScene& scene, RiggedFile& file) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+  std::string problem;
+  const aiScene* named = load(path, importer, problem);
+  if (named == nullptr) return;
+  const std::vector<std::string> names = object_names(*named);
+  if (names.size() == object_names(scene).size() && names.size() == file.file.objects.size())
+    for (std::size_t i = 0; i < names.size(); ++i) file.file.objects[i].name = names[i];
 }
 
 }  // namespace
@@ -66,16 +67,21 @@ RiggedFile read_assimp(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".raw")
     fail(path, "RAW is not read, since assimp makes nodes of it that do not exist; save the mesh as PLY");
-  std::optional<GltfSource> gltf;
-  if (extension == ".gltf" || extension == ".glb") gltf = prepare_gltf(path);
+  if (const auto format = name_of_unread_format(extension))
+    fail(path, joined("'", extension, "' is ", *format,
+                      ", a format that is not read; save the mesh as OBJ, PLY, STL or glTF"));
   Assimp::Importer importer;
-  if (gltf) importer.SetIOHandler(std::make_unique<PreparedFile>(path.string(), gltf->bytes).release());
-  const aiScene& scene = load(path, importer);
-  if (!gltf) return convert_scene(path, scene, {});
-  require_all_faces(path, scene, *gltf);
-  RiggedFile result = convert_scene(path, scene, gltf->steps);
-  result.file.warnings.insert(result.file.warnings.begin(), gltf->warnings.begin(), gltf->warnings.end());
-  return result;
+  std::string problem;
+  if (load(path, importer, problem) == nullptr) refuse(path, importer, problem);
+  const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
+  FileFrame frame;
+  if (is_collada(path)) frame = undo_collada_frame(*scene);
+  undo_turn_to_y_up(*scene, extension);
+  if (extension == ".fbx") frame = read_fbx_frame(*scene);
+  RiggedFile file = convert_scene(path, *scene);
+  file.frame = std::move(frame);
+  if (is_collada(path)) use_collada_names(path, *scene, file);
+  return file;
 }
 
 }  // namespace graze::io

@@ -31,7 +31,7 @@ class Statements {
     first_line_ = lines_.line() + 1;
     while (!lines_.at_end()) {
       std::string_view line = lines_.next();
-      line = trimmed(line.substr(0, line.find('#')));
+      line = trimmed(without_comment(line));
       const bool continued = line.ends_with('\\');
       if (continued) line.remove_suffix(1);
       statement_ += line;

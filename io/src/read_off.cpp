@@ -22,7 +22,7 @@ class OffLines {
   std::string_view next() {
     while (!lines_.at_end()) {
       std::string_view line = lines_.next();
-      line = trimmed(line.substr(0, line.find('#')));
+      line = trimmed(without_comment(line));
       if (!line.empty()) return line;
     }
     return {};

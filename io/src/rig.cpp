@@ -1,6 +1,7 @@
 #include "rig.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace graze::io {
 namespace {
@@ -17,14 +18,64 @@ Eigen::Quaterniond between(const Eigen::Quaterniond& a, const Eigen::Quaterniond
   return a.slerp(part, b);
 }
 
+double scaled(double tangent, double span) {
+  return span * tangent;
+}
+
+Eigen::Vector3d scaled(const Eigen::Vector3d& tangent, double span) {
+  return span * tangent;
+}
+
+Eigen::Quaterniond scaled(const Eigen::Quaterniond& tangent, double span) {
+  return Eigen::Quaterniond(Eigen::Vector4d(span * tangent.coeffs()));
+}
+
+/// The weights of a cubic Hermite spline at `part` of the way between two keys.
+struct Hermite {
+  double from, from_tangent, to, to_tangent;
+
+  explicit Hermite(double part)
+      : from(part * part * (2 * part - 3) + 1),
+        from_tangent(part * (part * (part - 2) + 1)),
+        to(part * part * (3 - 2 * part)),
+        to_tangent(part * part * (part - 1)) {}
+
+  template <typename Value>
+  [[nodiscard]] Value mix(const Value& a, const Value& a_tangent, const Value& b,
+                          const Value& b_tangent) const {
+    return from * a + from_tangent * a_tangent + to * b + to_tangent * b_tangent;
+  }
+};
+
+double spline(const Hermite& h, double a, double a_tangent, double b, double b_tangent) {
+  return h.mix(a, a_tangent, b, b_tangent);
+}
+
+Eigen::Vector3d spline(const Hermite& h, const Eigen::Vector3d& a, const Eigen::Vector3d& a_tangent,
+                       const Eigen::Vector3d& b, const Eigen::Vector3d& b_tangent) {
+  return h.mix<Eigen::Vector3d>(a, a_tangent, b, b_tangent);
+}
+
+Eigen::Quaterniond spline(const Hermite& h, const Eigen::Quaterniond& a, const Eigen::Quaterniond& a_tangent,
+                          const Eigen::Quaterniond& b, const Eigen::Quaterniond& b_tangent) {
+  const Eigen::Quaterniond mixed(
+      h.mix<Eigen::Vector4d>(a.coeffs(), a_tangent.coeffs(), b.coeffs(), b_tangent.coeffs()));
+  const double norm = mixed.norm();
+  return norm > 0 && std::isfinite(norm) ? mixed.normalized() : a;
+}
+
 template <typename Value>
 Value value_at(const Track<Value>& track, double seconds, const Value& without_keys) {
   if (track.values.empty()) return without_keys;
   const auto after = std::upper_bound(track.seconds.begin(), track.seconds.end(), seconds);
   if (after == track.seconds.begin()) return track.values.front();
   const auto left = static_cast<std::size_t>(after - track.seconds.begin()) - 1;
-  if (after == track.seconds.end() || track.is_stepped) return track.values[left];
-  const double part = (seconds - track.seconds[left]) / (*after - track.seconds[left]);
+  if (after == track.seconds.end() || track.interpolation == Interpolation::step) return track.values[left];
+  const double span = *after - track.seconds[left];
+  const double part = (seconds - track.seconds[left]) / span;
+  if (track.interpolation == Interpolation::cubic)
+    return spline(Hermite(part), track.values[left], scaled(track.out_tangents[left], span),
+                  track.values[left + 1], scaled(track.in_tangents[left + 1], span));
   return between(track.values[left], track.values[left + 1], part);
 }
 
@@ -106,8 +157,21 @@ void pose(const Rig& rig, const Body& body, const Clip* clip, double seconds,
     apply_bones(rig, body, clip, seconds, global, positions);
 }
 
-bool is_mirrored(const Rig& rig, const Body& body) {
-  return body.bones.empty() && global_transform(rig, body.node, nullptr, 0).linear().determinant() < 0;
+std::vector<bool> mirrored_vertices(const Rig& rig, const Body& body) {
+  const bool by_node = global_transform(rig, body.node, nullptr, 0).linear().determinant() < 0;
+  std::vector<bool> mirrored(body.vertices.size(), by_node);
+  if (body.bones.empty()) return mirrored;
+  std::vector<Eigen::Matrix3d> transforms;
+  for (const Bone& bone : body.bones)
+    transforms.push_back((global_transform(rig, bone.node, nullptr, 0) * bone.offset).linear());
+  for (std::size_t vertex = 0; vertex < body.vertices.size(); ++vertex) {
+    if (body.influences[vertex].empty()) continue;
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const Influence& influence : body.influences[vertex])
+      sum += influence.weight * transforms[influence.bone];
+    mirrored[vertex] = sum.determinant() < 0;
+  }
+  return mirrored;
 }
 
 bool reaches(const Rig& rig, const Clip& clip, const Body& body) {

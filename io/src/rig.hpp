@@ -10,13 +10,19 @@
 
 namespace graze::io {
 
-/// Values at ascending times; between two of them interpolated or, when stepped, the earlier. Before the
-/// first and after the last they hold. Empty where nothing is animated.
+/// How a track goes from one key to the next: along a straight line (rotations along the shorter arc), not
+/// before the next key, or along a cubic Hermite spline.
+enum class Interpolation : std::uint8_t { linear, step, cubic };
+
+/// Values at ascending times. Before the first and after the last they hold. Empty where nothing is animated.
 template <typename Value>
 struct Track {
   std::vector<double> seconds;
   std::vector<Value> values;
-  bool is_stepped = false;
+  /// Of cubic tracks: the slopes by the second before and after each key.
+  std::vector<Value> in_tangents;
+  std::vector<Value> out_tangents;
+  Interpolation interpolation = Interpolation::linear;
 };
 
 /// What an animation does to one node. A part without keys stays as the node has it.
@@ -82,8 +88,9 @@ struct Rig {
 void pose(const Rig& rig, const Body& body, const Clip* clip, double seconds,
           std::vector<Eigen::Vector3d>& positions);
 
-/// Whether the node of a body without bones mirrors it while nothing plays, which turns its faces inside out.
-bool is_mirrored(const Rig& rig, const Body& body);
+/// For each vertex, whether its node or its bones mirror the space around it while nothing plays. A face of
+/// mirrored vertices is inside out.
+std::vector<bool> mirrored_vertices(const Rig& rig, const Body& body);
 
 /// Whether `clip` has keys for anything that places `body`.
 bool reaches(const Rig& rig, const Clip& clip, const Body& body);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/scene_file.hpp>
 #include <limits>
@@ -62,33 +64,137 @@ NumberOrName read_number_or_name(const JsonPlace& place) {
   place.fail("a number from 0 or a name", "write one of the names or numbers that `graze inspect` lists");
 }
 
+/// A number other than 0, or three for the three axes.
+Eigen::Matrix3d read_scale(const JsonPlace& place) {
+  constexpr std::string_view expected = "a number other than 0, or three of them";
+  constexpr std::string_view remedy = "write 0.5 or [1, -1, 1]";
+  Eigen::Vector3d scale;
+  if (place.value().is_number())
+    scale.setConstant(place.number());
+  else if (place.value().is_array() && place.value().size() == 3)
+    scale = place.point();
+  else
+    place.fail(expected, remedy);
+  if ((scale.array() == 0).any()) place.fail(expected, remedy);
+  return scale.asDiagonal();
+}
+
+Eigen::Matrix3d read_quaternion(const JsonPlace& place) {
+  constexpr double tolerance = 1e-3;  // of single precision, or of few digits
+  const auto numbers = place.numbers(4, "write [x, y, z, w], w last");
+  const Eigen::Quaterniond quaternion(numbers[3], numbers[0], numbers[1], numbers[2]);
+  if (std::abs(quaternion.norm() - 1) > tolerance)
+    place.fail("a quaternion of length 1", "write [x, y, z, w], w last; no turn is [0, 0, 0, 1]");
+  return quaternion.normalized().toRotationMatrix();
+}
+
+/// Four rows of four numbers.
+Placement read_matrix(const JsonPlace& place) {
+  constexpr std::string_view remedy = "write four rows of four numbers, [[1, 0, 0, x], …, [0, 0, 0, 1]]";
+  if (!place.value().is_array() || place.value().size() != 4) place.fail("a 4 × 4 matrix", remedy);
+  Eigen::Matrix4d matrix;
+  for (std::size_t row = 0; row < 4; ++row) {
+    const auto numbers = place.item(row).numbers(4, remedy);
+    for (std::size_t column = 0; column < 4; ++column)
+      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = numbers[column];
+  }
+  try {
+    return placement_from_matrix(matrix);
+  } catch (const Error& error) {
+    place.refuse(std::string(error.what()) + "; " + std::string(remedy));
+  }
+}
+
+/// Reads where something stands into `placement`, which says what holds for the keys that are left out.
+void read_pose(const JsonPlace& place, Placement& placement) {
+  const auto translate = place.find("translate");
+  const auto degrees = place.find("rotate_degrees");
+  const auto quaternion = place.find("rotate_quaternion");
+  const auto matrix = place.find("matrix");
+  if (degrees && quaternion) quaternion->refuse("stands beside rotate_degrees; keep one of the two");
+  if (matrix && (translate || degrees || quaternion || place.find("scale")))
+    matrix->refuse("says all of where it stands; leave out the other keys, or the matrix");
+  if (translate) placement.translate = translate->point();
+  if (degrees) placement.rotation = rotation_from_degrees(degrees->point());
+  if (quaternion) placement.rotation = read_quaternion(*quaternion);
+  if (matrix) placement = read_matrix(*matrix);
+}
+
 Placement read_placement(const JsonPlace& place) {
-  place.expect_keys({"translate", "rotate_degrees", "scale"});
+  place.expect_keys({"translate", "rotate_degrees", "rotate_quaternion", "matrix", "scale"});
   Placement placement;
-  if (const auto translate = place.find("translate")) placement.translate = translate->point();
-  if (const auto degrees = place.find("rotate_degrees")) placement.rotate_degrees = degrees->point();
-  if (const auto scale = place.find("scale")) placement.scale = scale->number_positive();
+  read_pose(place, placement);
+  if (const auto scale = place.find("scale")) placement.stretch = read_scale(*scale);
   return placement;
 }
 
 /// A key states the pose itself; what it leaves out is the transform's.
+KeyPose read_key_pose(const JsonPlace& place, const Placement& transform) {
+  place.expect_keys({"frame", "translate", "rotate_degrees", "rotate_quaternion", "matrix"});
+  const auto frame =
+      place.require("frame", "say at which frame this pose holds").whole_number(0, any_number - 1);
+  Placement placement = transform;
+  read_pose(place, placement);
+  constexpr double tolerance = 1e-3;  // of single precision, or of few digits
+  if (place.find("matrix") && !placement.stretch.isApprox(Eigen::Matrix3d::Identity(), tolerance))
+    place.find("matrix")->refuse(
+        "it scales, shears or mirrors, and a pose only turns and moves; put the scale into transform");
+  return {frame, placement.translate, placement.rotation};
+}
+
 std::vector<KeyPose> read_poses(const JsonPlace& place, const Placement& transform) {
   constexpr std::string_view remedy = R"(write [{"frame": 0, "translate": [x, y, z]}, ...])";
   if (place.array_size(remedy) == 0) place.fail("at least one pose", remedy);
   std::vector<KeyPose> keys;
   for (std::size_t i = 0; i < place.value().size(); ++i) {
     const JsonPlace item = place.item(i);
-    item.expect_keys({"frame", "translate", "rotate_degrees"});
-    KeyPose key{item.require("frame", "say at which frame this pose holds").whole_number(0, any_number - 1),
-                transform.translate, transform.rotate_degrees};
-    if (const auto translate = item.find("translate")) key.translate = translate->point();
-    if (const auto degrees = item.find("rotate_degrees")) key.rotate_degrees = degrees->point();
+    const KeyPose key = read_key_pose(item, transform);
     if (!keys.empty() && key.frame <= keys.back().frame)
       item.find("frame")->fail("a frame after " + std::to_string(keys.back().frame),
                                "list poses in order of frames");
     keys.push_back(key);
   }
   return keys;
+}
+
+UpAxis read_up(const JsonPlace& place) {
+  const std::string word = place.value().is_string() ? place.text() : "";
+  if (word == "x") return UpAxis::x;
+  if (word == "y") return UpAxis::y;
+  if (word == "z") return UpAxis::z;
+  place.fail("an axis that points up", "write x, y or z");
+}
+
+/// Metres in one unit.
+double read_unit(const JsonPlace& place) {
+  constexpr std::array<std::pair<std::string_view, double>, 9> units{{{"m", 1},
+                                                                      {"dm", 0.1},
+                                                                      {"cm", 0.01},
+                                                                      {"mm", 0.001},
+                                                                      {"um", 1e-6},
+                                                                      {"km", 1000},
+                                                                      {"inch", 0.0254},
+                                                                      {"foot", 0.3048},
+                                                                      {"yard", 0.9144}}};
+  if (place.value().is_number()) return place.number_positive();
+  const std::string word = place.value().is_string() ? place.text() : "";
+  const auto* const unit = std::ranges::find(units, word, &std::pair<std::string_view, double>::first);
+  if (unit == units.end())
+    place.fail("a unit of length",
+               "write m, dm, cm, mm, um, km, inch, foot, yard, or its metres as a number");
+  return unit->second;
+}
+
+/// What the object's file means by its numbers; the word "file" stands for what the file says itself.
+void read_frame(const JsonPlace& place, ObjectDescription& object) {
+  if (const auto up = place.find("up")) {
+    object.up_is_the_files = up->value() == "file";
+    if (!object.up_is_the_files) object.up = read_up(*up);
+  }
+  if (const auto unit = place.find("unit")) {
+    object.unit_is_the_files = unit->value() == "file";
+    if (!object.unit_is_the_files) object.metres_per_unit = read_unit(*unit);
+  }
 }
 
 /// What may stand beside which motion.
@@ -104,13 +210,14 @@ void check_motion(const ObjectDescription& object, const JsonPlace& place) {
 }
 
 ObjectDescription read_object(const JsonPlace& place, const std::filesystem::path& folder) {
-  place.expect_keys({"name", "mesh", "node", "motion", "positions", "animation", "transform", "poses",
-                     "layer", "collides_with", "group", "margin", "kind"});
+  place.expect_keys({"name", "mesh", "node", "up", "unit", "motion", "positions", "animation", "transform",
+                     "poses", "layer", "collides_with", "group", "margin", "kind"});
   ObjectDescription object;
   object.place = place.where();
   object.mesh = folder / place.require("mesh", "name the object's mesh file").text();
   if (const auto name = place.find("name")) object.name = name->text();
   if (const auto node = place.find("node")) object.node = read_number_or_name(*node);
+  read_frame(place, object);
   if (const auto positions = place.find("positions")) object.positions = folder / positions->text();
   if (const auto animation = place.find("animation")) object.animation = read_number_or_name(*animation);
   if (const auto transform = place.find("transform")) object.transform = read_placement(*transform);
@@ -151,6 +258,9 @@ void read_settings(const JsonPlace& place, SceneSettings& settings) {
   if (const auto range = place.find("range")) settings.range = read_range(*range);
   if (const auto detail = place.find("detail")) settings.detail = read_detail(*detail);
   if (const auto accuracy = place.find("accuracy")) settings.accuracy = read_accuracy(*accuracy);
+  if (const auto most = place.find("max_contacts")) settings.max_contacts = most->whole_number(1, any_number);
+  if (const auto most = place.find("max_contacts_per_pair"))
+    settings.max_contacts_per_pair = most->whole_number(1, any_number);
 }
 
 void read_objects(const JsonPlace& place, const std::filesystem::path& folder, SceneDescription& scene) {
@@ -171,8 +281,9 @@ void read_objects(const JsonPlace& place, const std::filesystem::path& folder, S
 SceneDescription read_scene_file(const std::filesystem::path& path) {
   const nlohmann::json document = parse_json_file(path);
   const JsonPlace root(path.string(), document);
-  root.expect_keys({"graze", "contact_distance", "range", "detail", "accuracy", "frames", "frames_per_second",
-                    "objects", "rules", "ignore"});
+  root.expect_keys({"graze", "contact_distance", "range", "detail", "accuracy", "max_contacts",
+                    "max_contacts_per_pair", "frames", "frames_per_second", "up", "unit", "objects", "rules",
+                    "ignore"});
   const JsonPlace version = root.require("graze", R"(add "graze": 1, the version of the format)");
   if (version.value() != 1) version.fail("version 1", "this program reads version 1 of the format");
 
@@ -181,6 +292,8 @@ SceneDescription read_scene_file(const std::filesystem::path& path) {
   read_settings(root, scene.settings);
   if (const auto frames = root.find("frames")) scene.frames = frames->whole_number(1, any_number);
   if (const auto rate = root.find("frames_per_second")) scene.frames_per_second = rate->number_positive();
+  if (const auto up = root.find("up")) scene.up = read_up(*up);
+  if (const auto unit = root.find("unit")) scene.metres_per_unit = read_unit(*unit);
   read_objects(root.require("objects", "list the objects of the scene"), path.parent_path(), scene);
   if (const auto rules = root.find("rules"))
     for (std::size_t i = 0; i < rules->array_size(R"(write [{"kinds": [0, 1], ...}])"); ++i)

@@ -7,7 +7,10 @@
 #include <map>
 #include <set>
 
+#include "axes.hpp"
 #include "file_bytes.hpp"
+#include "known_formats.hpp"
+#include "raw_object.hpp"
 
 namespace graze::io {
 namespace {
@@ -69,6 +72,8 @@ class Loader {
   void load_object(std::size_t entry, const MeshFile& file, std::size_t index, bool is_only_one);
   const MeshFile& file_of(const std::filesystem::path& path);
   std::string name_of(const ObjectDescription& entry, const LoadedObject& loaded, bool is_only_one);
+  [[nodiscard]] Eigen::Matrix3d conversion(const ObjectDescription& entry, const MeshFile& file) const;
+  void note_frame(const ObjectDescription& entry, const MeshFile& file);
   [[nodiscard]] std::unique_ptr<PositionSource> open_source(const ObjectDescription& entry,
                                                             const MeshFile& file, std::size_t index) const;
 
@@ -105,25 +110,32 @@ std::unique_ptr<PositionSource> Loader::open_source(const ObjectDescription& ent
   if (extension == ".pc2" || extension == ".mdd") return open_vertex_cache(entry.positions, *object.mesh);
   if (entry.positions.filename().string().find('#') != std::string::npos)
     return open_sequence(entry.positions, *object.mesh, index);
+  if (const auto format = name_of_unread_format(extension))
+    throw InputError(entry.place + ".positions: \"" + entry.positions.string() + "\" is " + *format +
+                     ", a format that is not read; export a vertex cache (.pc2, .mdd)");
   throw InputError(
       entry.place + ".positions: \"" + entry.positions.string() +
       "\" is neither a vertex cache (.pc2, .mdd) nor a numbered sequence; write a name with #, such as "
       "cloth_####.ply");
 }
 
-/// The mesh with its rest positions replaced; topology and numbers stay.
-std::shared_ptr<const Mesh> moved_mesh(const std::shared_ptr<const Mesh>& mesh, const Placement& placement) {
-  if (placement.is_identity()) return mesh;
-  std::vector<Eigen::Vector3d> rest;
-  for (const Eigen::Vector3d& point : mesh->rest()) rest.push_back(placement.apply(point));
-  std::vector<std::uint32_t> corners;
-  std::vector<std::uint32_t> counts;
-  for (std::uint32_t face = 0; face < mesh->face_count(); ++face) {
-    const auto face_corners = mesh->face(face);
-    corners.insert(corners.end(), face_corners.begin(), face_corners.end());
-    counts.push_back(static_cast<std::uint32_t>(face_corners.size()));
-  }
-  return std::make_shared<const Mesh>(Mesh::from_polygons(rest, corners, counts));
+/// The mesh with its rest positions replaced. Numbers stay; a mirror turns the faces, so that the front stays
+/// outside.
+std::shared_ptr<const Mesh> moved_mesh(const std::shared_ptr<const Mesh>& mesh,
+                                       const Eigen::Affine3d& placement) {
+  if (placement.matrix() == Eigen::Matrix4d::Identity()) return mesh;
+  RawSurface surface;
+  for (const Eigen::Vector3d& point : mesh->rest()) surface.positions.push_back(placement * point);
+  for (std::uint32_t face = 0; face < mesh->face_count(); ++face) surface.add_face(mesh->face(face));
+  if (placement.linear().determinant() < 0) turn_faces(surface);
+  return std::make_shared<const Mesh>(
+      Mesh::from_polygons(surface.positions, surface.corners, surface.corner_counts));
+}
+
+Eigen::Affine3d linear_map(const Eigen::Matrix3d& matrix) {
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();
+  map.linear() = matrix;
+  return map;
 }
 
 void Loader::load_object(std::size_t entry_index, const MeshFile& file, std::size_t index, bool is_only_one) {
@@ -138,19 +150,52 @@ void Loader::load_object(std::size_t entry_index, const MeshFile& file, std::siz
   object.settings.group = entry.group;
   object.settings.margin = entry.margin;
   object.settings.kind = entry.kind;
-  Placement baked = entry.transform;
-  if (object.settings.motion != Motion::deformable) baked = {.scale = entry.transform.scale};
+  object.placement = linear_map(entry.transform.stretch) * linear_map(conversion(entry, file));
+  if (object.settings.motion == Motion::deformable)
+    object.placement = entry.transform.pose() * object.placement;
   try {
-    object.mesh = moved_mesh(file.objects()[index].mesh, baked);
+    object.mesh = moved_mesh(file.objects()[index].mesh, object.placement);
   } catch (const Error& error) {
     throw InputError(entry.place + ".transform: " + error.what());
   }
   scene_.objects.push_back(std::move(object));
 }
 
+/// Takes the file's axes and unit to the scene's, as far as the entry says what they are.
+Eigen::Matrix3d Loader::conversion(const ObjectDescription& entry, const MeshFile& file) const {
+  const FileFrame& frame = file.frame();
+  if (entry.up_is_the_files && !frame.up)
+    throw InputError(entry.place + ".up: " + entry.mesh.string() +
+                     " does not say which axis points up; write x, y or z");
+  if (entry.unit_is_the_files && !frame.metres_per_unit)
+    throw InputError(entry.place + ".unit: " + entry.mesh.string() +
+                     " does not say what its unit is; write it, such as mm");
+  Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
+  if (entry.up_is_the_files) map = z_up_from(description_.up).transpose() * frame.to_z_up;
+  if (entry.up) map = z_up_from(description_.up).transpose() * z_up_from(*entry.up);
+  const auto unit = entry.unit_is_the_files ? frame.metres_per_unit : entry.metres_per_unit;
+  return unit ? Eigen::Matrix3d(*unit / description_.metres_per_unit * map) : map;
+}
+
+/// Says what was converted, or that a file that says more than "metres, z up" was taken as it stands.
+void Loader::note_frame(const ObjectDescription& entry, const MeshFile& file) {
+  const Eigen::Matrix3d map = conversion(entry, file);
+  const bool has_keys = entry.up || entry.up_is_the_files || entry.metres_per_unit || entry.unit_is_the_files;
+  std::string note;
+  if (map != Eigen::Matrix3d::Identity())
+    note = entry.mesh.string() + ": converted: " + text_of_map(map);
+  else if (!has_keys && says_other_than_scene(entry.mesh, file.frame()))
+    note = entry.mesh.string() + ": its coordinates are taken as they stand, though it says " +
+           text_of_frame(file.frame()) + R"(; "up": "file" and "unit": "file" in a scene file convert them)";
+  // Several entries may name one file.
+  if (!note.empty() && std::ranges::find(scene_.warnings, note) == scene_.warnings.end())
+    scene_.warnings.push_back(std::move(note));
+}
+
 void Loader::load_entry(std::size_t entry_index) {
   const ObjectDescription& entry = description_.objects[entry_index];
   const MeshFile& file = file_of(entry.mesh);
+  note_frame(entry, file);
   std::vector<std::string> nodes;
   for (const LoadedObject& object : file.objects()) nodes.push_back(object.name);
   if (entry.node) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <graze/io/motion.hpp>
 #include <graze/io/scene_file.hpp>
 #include <graze/mesh.hpp>
@@ -13,8 +14,10 @@ namespace graze::io {
 struct LoadedSceneObject {
   std::size_t entry = 0;  ///< into SceneDescription::objects
   ObjectSettings settings;
-  std::shared_ptr<const Mesh> mesh;        ///< scaled where rigid or fixed, wholly placed where deformable
-  std::unique_ptr<PositionSource> source;  ///< positions before the entry's transform; null: none
+  /// With the file's axes and unit converted; scaled where rigid or fixed, wholly placed where deformable.
+  std::shared_ptr<const Mesh> mesh;
+  std::unique_ptr<PositionSource> source;                   ///< positions before `placement`; null: none
+  Eigen::Affine3d placement = Eigen::Affine3d::Identity();  ///< takes what `source` reads to the scene
 };
 
 struct LoadedScene {

@@ -48,4 +48,15 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
+/// The line up to its comment, which `#` begins. In `1.#IND`, a NaN of some platforms, it does not.
+inline std::string_view without_comment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
+    const char next = at + 1 < line.size() ? line[at + 1] : ' ';
+    const bool is_number =
+        line.substr(0, at).ends_with("1.") && ((next >= 'A' && next <= 'Z') || (next >= 'a' && next <= 'z'));
+    if (!is_number) return line.substr(0, at);
+  }
+  return line;
+}
+
 }  // namespace graze::io

@@ -29,6 +29,10 @@ struct SetPose {
   ObjectId object;
   std::array<double, 12> rows;
 };
+/// A pose that is none. The object's pairs are stale until a good one comes.
+struct RefusePose {
+  Diagnostic problem;  ///< names the object
+};
 struct SetPositions {
   ObjectId object;
   SparePositions::Loan positions;
@@ -67,7 +71,7 @@ struct Reserve {
 };
 
 /// The first holds nothing: it is what a call leaves when it was taken up.
-using Call = std::variant<RemoveObject, AddObject, SetPose, SetPositions, BindPositions, UnbindPositions,
-                          PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
+using Call = std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions,
+                          UnbindPositions, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
 
 }  // namespace graze

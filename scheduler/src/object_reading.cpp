@@ -111,15 +111,20 @@ void note_survey(Object& object, const Box& box) {
   object.has_surface = false;
 }
 
+/// A pose that moves a vertex beyond the limits. The object's pairs are stale until a good one comes.
+Looked refuse_pose(Object& object, std::uint32_t vertex, const Eigen::Vector3d& position) {
+  object.pose.reset();
+  const bool changed = !std::exchange(object.frozen, true);
+  return {false, changed, bad_vertex(object, vertex, position, pose_not_taken), false};
+}
+
 /// By the box that the rest shape has there; by the vertices only where that may be beyond the limits.
 Looked survey_pose(Object& object) {
   Box box = object.mesh->rest_reach().box_at(*object.pose);
   if (!Surface::is_within_limits(box.min) || !Surface::is_within_limits(box.max)) {
     const auto all = object.surface().look_at_pose(*object.pose, 0, object.mesh->vertex_count());
-    if (all.bad_vertex != Surface::ReadResult::no_vertex) {
-      object.pose.reset();
-      return {false, false, bad_vertex(object, all.bad_vertex, all.bad_position, pose_not_taken)};
-    }
+    if (all.bad_vertex != Surface::ReadResult::no_vertex)
+      return refuse_pose(object, all.bad_vertex, all.bad_position);
     box = all.box;
   }
   object.standing_pose = std::exchange(object.pose, std::nullopt);
@@ -130,10 +135,7 @@ Looked survey_pose(Object& object) {
 
 /// What became of an object whose surface was given its pose.
 Looked take_pose(Object& object, const Surface::ReadResult& result) {
-  if (!result.taken()) {
-    object.pose.reset();
-    return {false, false, bad_vertex(object, result.bad_vertex, result.bad_position, pose_not_taken)};
-  }
+  if (!result.taken()) return refuse_pose(object, result.bad_vertex, result.bad_position);
   object.moved = result.changed;
   return {result.changed, result.changed, std::nullopt};
 }
@@ -147,7 +149,7 @@ Looked read_pose(Object& object) {
   if (object.to_survey) return survey_pose(object);
   const Surface::ReadResult result = object.surface_to_write().set_pose(pose_of(object));
   Looked looked = take_pose(object, result);
-  if (result.taken()) finish_pose(object);
+  if (looked.taken) finish_pose(object);
   return looked;
 }
 
@@ -244,7 +246,8 @@ Looked take_seen(Object& object, const Surface::PartSeen& all) {
   // Where a view came before, it shows in the next step whether the object moves.
   object.moved = result.changed && !seems_at_rest;
   looked.changed = looked.changed || object.frozen == result.taken();
-  object.frozen = !result.taken();
+  looked.taken = result.taken();
+  object.frozen = !looked.taken;
   looked.problem = object.frozen
                        ? bad_vertex(object, result.bad_vertex, result.bad_position, stands_still)
                        : check_promise(object, object.has_surface ? result.displacement
@@ -258,10 +261,9 @@ void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
   surface.write_positions(*object.bound, begin, end);
 }
 
-void finish_read(Object& object) {
-  if (object.to_survey) return;
+void finish_read(Object& object, bool taken) {
+  if (object.to_survey || !taken) return;
   if (is_posed(object)) return finish_pose(object);
-  if (object.frozen) return;
   if (object.bound) object.told = false;
   object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
   object.promised = 0;
@@ -294,7 +296,7 @@ Looked read_whole(Object& object) {
   Looked looked = take_seen(object, all);
   if (looked.to_write) write_part(object, 0, count);
   if (object.to_survey && object.to_block && !object.frozen && can_be_viewed(object)) view_memory(object);
-  finish_read(object);
+  finish_read(object, looked.taken);
   return looked;
 }
 

@@ -32,6 +32,7 @@ struct Looked {
   bool to_write = false;  ///< all vertices, and then the read is to be finished
   bool changed = false;   ///< the object stands elsewhere, or has begun or ceased to be frozen
   std::optional<Diagnostic> problem;
+  bool taken = true;  ///< what was seen is where the object is
 };
 
 /// Reads or surveys an object. Its blocks are left to the caller, but for what is viewed.
@@ -42,7 +43,7 @@ Looked read_whole(Object& object);
 [[nodiscard]] Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end);
 Looked take_seen(Object& object, const Surface::PartSeen& all);
 void write_part(Object& object, std::uint32_t begin, std::uint32_t end);
-void finish_read(Object& object);
+void finish_read(Object& object, bool taken);
 /// Has the surface look at the memory that was surveyed, until the next read.
 void view_memory(Object& object);
 

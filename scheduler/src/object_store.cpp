@@ -72,10 +72,12 @@ void ObjectStore::apply(const RemoveObject& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
   make_room_for_one(removed_);
+  make_room_for_one(departed_);
   by_index_[call.object.index] = nullptr;
   surface_bytes_ -= object->counted_bytes;
   object->removed = true;
   const auto place = std::lower_bound(serials_.begin(), serials_.end(), object->serial) - serials_.begin();
+  departed_.push_back({object->id, object->serial});
   removed_.push_back(std::move(objects_[static_cast<std::size_t>(place)]));
   will_have_changed_ = true;
 }
@@ -83,6 +85,7 @@ void ObjectStore::apply(const RemoveObject& call) {
 void ObjectStore::apply(const SetPose& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
+  if (std::exchange(object->frozen, false)) will_have_changed_ = true;
   // It stands there, or a survey has seen it there.
   if (object->standing_pose && std::memcmp(&*object->standing_pose, &call.rows, sizeof(Pose)) == 0) {
     object->pose.reset();
@@ -90,6 +93,14 @@ void ObjectStore::apply(const SetPose& call) {
     expect_input(*object);
     object->pose = call.rows;
   }
+}
+
+/// A good pose of the same step that came before is not taken either.
+void ObjectStore::apply(const RefusePose& call) noexcept {
+  Object* const object = find(call.problem.object);
+  if (object == nullptr) return;
+  object->pose.reset();
+  if (!std::exchange(object->frozen, true)) will_have_changed_ = true;
 }
 
 void ObjectStore::apply(SetPositions& call) {
@@ -165,6 +176,7 @@ void ObjectStore::reserve(std::size_t count) {
   serials_.reserve(count);
   by_index_.reserve(count);
   removed_.reserve(count);
+  departed_.reserve(count);
   with_input_.reserve(count);
   to_read_.reserve(count);
   read_problems_.reserve(count);
@@ -177,14 +189,20 @@ void ObjectStore::count_bytes(Object& object) {
 
 std::size_t ObjectStore::byte_count() const {
   return surface_bytes_ + objects_.size() * sizeof(Object) + bytes_of(objects_) + bytes_of(serials_) +
-         bytes_of(by_index_) + bytes_of(removed_) + bytes_of(with_input_) + bytes_of(to_read_) +
-         bytes_of(large_) + bytes_of(parts_) + bytes_of(read_problems_) + bytes_of(problems_);
+         bytes_of(by_index_) + bytes_of(removed_) + bytes_of(departed_) + bytes_of(with_input_) +
+         bytes_of(to_read_) + bytes_of(large_) + bytes_of(parts_) + bytes_of(read_problems_) +
+         bytes_of(problems_);
 }
 
 void ObjectStore::expect_input(Object& object) {
   if (object.may_have_input) return;
   with_input_.push_back(&object);
   object.may_have_input = true;
+}
+
+void ObjectStore::forget_promises() noexcept {
+  for (const auto& object : objects_)
+    if (object != nullptr) object->promised = std::numeric_limits<double>::infinity();
 }
 
 void ObjectStore::forget() noexcept {
@@ -195,7 +213,6 @@ void ObjectStore::forget() noexcept {
     object->looked_at = object->asked_for_blocks = object->goes_by_lists = object->wanted = false;
     object->to_block = object->to_view = object->to_survey = false;
     object->asked = {};
-    object->promised = std::numeric_limits<double>::infinity();  // no promise holds
     object->may_have_input = false;
     count_bytes(*object);
   }
@@ -221,6 +238,8 @@ void ObjectStore::drop_removed() {
     let_go(object->standing_positions);
   }
   removed_.clear();
+  std::sort(departed_.begin(), departed_.end(),
+            [](const DepartedObject& left, const DepartedObject& right) { return left.id < right.id; });
 }
 
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
@@ -367,7 +386,7 @@ void ObjectStore::take_large(TaskPool& tasks) {
       const AccessScope access({AccessRight::write(object), {}});
       write_part(*object, begin, begin + count);
     });
-    for (const LargeObject& large : std::span(large_).first(taken)) finish_read(*large.object);
+    for (const LargeObject& large : std::span(large_).first(taken)) finish_read(*large.object, large.taken);
   };
   try {
     for (; taken < large_.size(); ++taken) take_parts(taken, to_write);
@@ -380,12 +399,13 @@ void ObjectStore::take_large(TaskPool& tasks) {
 
 /// Takes what was seen of one of them, and lists its parts before `to_write` if they are to be written.
 void ObjectStore::take_parts(std::size_t place, std::size_t& to_write) {
-  auto& [object, end, problem] = large_[place];
+  auto& [object, end, problem, taken] = large_[place];
   const std::size_t begin = place == 0 ? 0 : large_[place - 1].end;
   Surface::PartSeen all;
   for (std::size_t part = begin; part < end; ++part) all.add(parts_[part].seen);
   Looked looked = take_seen(*object, all);
   if (object->to_survey && object->to_block && !object->frozen) view_memory(*object);
+  taken = looked.taken;
   if (looked.changed) changed_ = true;
   if (looked.problem) {
     problem = std::move(looked.problem);

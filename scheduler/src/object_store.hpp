@@ -76,7 +76,8 @@ struct Object {
     bool walked = false;   ///< one of them went from region to region in the last step
     double shares = 0;     ///< of its box that are near the jobs' other objects, where it is read in parts
   } asked;
-  /// Bound memory was bad when last read: the object stands where it was, and its pairs are not looked at.
+  /// Bound memory was bad when last read, or the last pose was not taken: the object stands where it was, and
+  /// its pairs are not looked at.
   bool frozen = false;
 
   bool in_parts = false;          ///< it is so large that several tasks read and refit it
@@ -93,6 +94,12 @@ struct Object {
   }
 };
 
+/// An object that was removed, of which reports may still have something to say.
+struct DepartedObject {
+  ObjectId id;
+  std::uint64_t serial = 0;  ///< Object::serial
+};
+
 /// The objects of a scene in the order in which they were added. Stepping thread only.
 ///
 /// A step's work here follows the objects that were told something and the removals, but for one pass over an
@@ -107,6 +114,7 @@ class ObjectStore {
   void apply(AddObject& call);
   void apply(const RemoveObject& call);
   void apply(const SetPose& call);
+  void apply(const RefusePose& call) noexcept;
   void apply(SetPositions& call);
   void apply(const BindPositions& call);
   /// Appends what is wrong with the memory.
@@ -123,6 +131,9 @@ class ObjectStore {
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
+  /// After a step that came to no end, at any point and also before it began: no promise holds until the
+  /// next one, since its caller may count from positions that no step has seen.
+  void forget_promises() noexcept;
   /// Forgets what steps have remembered of the objects, after one that came to no end at any point. What was
   /// read stays read; the next step reads the rest.
   void forget() noexcept;
@@ -133,6 +144,10 @@ class ObjectStore {
   /// Those that are there after `read_positions`; ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
   [[nodiscard]] Object* find(ObjectId id);
+  /// Those removed since `forget_departed`, in the order of their ids once `read_positions` has returned.
+  [[nodiscard]] std::span<const DepartedObject> departed() const { return departed_; }
+  /// After a report that names the pairs that they ended.
+  void forget_departed() noexcept { departed_.clear(); }
   /// How many objects the last reads left unread because of promises.
   [[nodiscard]] std::size_t unread_count() const { return unread_count_; }
   /// How many were surveyed, those that were then read included.
@@ -155,6 +170,7 @@ class ObjectStore {
     Object* object;
     std::size_t end;  ///< of its parts
     std::optional<Diagnostic> problem = std::nullopt;
+    bool taken = true;
   };
 
   /// Has the object looked at in the next read.
@@ -175,6 +191,7 @@ class ObjectStore {
   std::vector<std::uint64_t> serials_;            ///< of `objects_`, side by side for the search of one
   std::vector<Object*> by_index_;
   std::vector<std::unique_ptr<Object>> removed_;
+  std::vector<DepartedObject> departed_;
   std::vector<Object*> with_input_;  ///< those that may have something to be read, in any order
   std::vector<Object*> to_read_;     ///< small ones
   std::vector<LargeObject> large_;   ///< large ones

@@ -41,12 +41,14 @@ struct PairJob {
   [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }
 };
 
-/// Rows of the last report that stand as they are in this one, before a job's.
+/// Rows of the last report that stand as they are in this one, before a job's; or one that ended since one of
+/// its objects was removed.
 struct RestingRows {
   std::size_t job;
   std::uint32_t listed;  ///< the first, among the pairs that the last report lists
   std::uint32_t row;     ///< the first
   std::uint32_t count;
+  bool ended = false;  ///< then `listed` says nothing
 };
 
 /// What is to be done and said about the pairs of a scene, in the order of addition of a, then b.

@@ -30,6 +30,9 @@ constexpr std::chrono::nanoseconds after_each_pair{150};
 constexpr std::chrono::nanoseconds after_each_contact{60};
 constexpr std::chrono::microseconds after_all{50};
 
+/// So much of a time budget is kept back in a step after one that had no time left to even out memory.
+constexpr int part_for_room = 5;
+
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
 /// Of lists as long as these the report takes the longest as it is, and a job that is expected to have such a
@@ -296,6 +299,7 @@ void PairJobs::keep_time_back(std::size_t last_contacts, ReportBuilder& report) 
   for (const std::uint32_t index : order_)
     if (jobs_[index].last != nullptr) last_contacts -= jobs_[index].last->contact_count;
   deadline_ -= after_all + pair_count_ * after_each_pair + last_contacts * after_each_contact;
+  if (owes_room_) deadline_ -= *settings_.time_budget / part_for_room;
   report_ = &report;
   contacts_with_room_ = last_contacts;
 }
@@ -424,15 +428,26 @@ PairCounters PairJobs::counters() const {
 // ---- Memory
 
 /// Which worker gets which job is chance; what one has needed all have room for.
-void PairJobs::even_out_memory() {
+bool PairJobs::even_out_memory(Clock::time_point start) {
   answers_.even_out();
   for (Worker& worker : workers_) {
     for (PairAnswer& answer : worker.too_long) long_answers_.push_back(std::move(answer));
     worker.too_long.clear();
   }
+  owes_room_ = true;  // until all is done
+  const Clock::time_point end = deadline_of(start, settings_.time_budget);
+  const auto is_over = [end] { return end != PairQuery::no_deadline && Clock::now() >= end; };
   Worker& first = workers_.front();
-  for (const Worker& worker : std::span(workers_).subspan(1)) first.reserve_as(worker);
-  for (Worker& worker : std::span(workers_).subspan(1)) worker.reserve_as(first);
+  for (const Worker& worker : std::span(workers_).subspan(1)) {
+    if (is_over()) return false;
+    first.reserve_as(worker);
+  }
+  for (Worker& worker : std::span(workers_).subspan(1)) {
+    if (is_over()) return false;
+    worker.reserve_as(first);
+  }
+  owes_room_ = is_over();  // for the reports
+  return !owes_room_;
 }
 
 void PairJobs::reserve(std::size_t jobs, std::size_t contacts) {

@@ -38,8 +38,9 @@ class PairJobs {
   [[nodiscard]] PairCounters counters() const;
 
   /// Makes room, so that a step like the last takes no memory, whichever worker gets what. The answers are
-  /// gone then.
-  void even_out_memory();
+  /// gone then. False where a time budget that began at `start` is over before all is done: the next step
+  /// then keeps time back for it.
+  [[nodiscard]] bool even_out_memory(Clock::time_point start);
   /// Makes room for so many jobs, and contacts of all of them together.
   void reserve(std::size_t jobs, std::size_t contacts);
   /// Makes room for pairs of objects of that mesh.
@@ -93,6 +94,7 @@ class PairJobs {
   void share_contacts(const FrameReport& previous);
   [[nodiscard]] bool make_room_in_report(std::size_t contacts);
   [[nodiscard]] Clock::time_point deadline_now() const;
+  bool owes_room_ = false;  ///< the last step had no time to even out memory
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();
   void run_by_urgency();

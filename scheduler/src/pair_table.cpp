@@ -1,6 +1,8 @@
 #include "pair_table.hpp"
 
+#include <algorithm>
 #include <graze/bytes_of.hpp>
+#include <limits>
 #include <utility>
 
 namespace graze {
@@ -18,6 +20,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
   summaries_.refresh(objects, tasks);
   find_listed(previous);
+  find_ended(previous);
   const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), tasks);
   statistics.boxes_tested = broad_phase_.counters().boxes_tested;
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
@@ -52,8 +55,36 @@ void PairTable::look_up_listed(const FrameReport& previous) {
   }
 }
 
+/// The pairs that the last report has in contact and of which an object was removed since, in its order.
+void PairTable::find_ended(const FrameReport& previous) {
+  ended_.clear();
+  ended_listed_ = 0;
+  if (store_.departed().empty()) return;
+  for (std::uint32_t row = 0; row < previous.pairs().size(); ++row) {
+    const PairReport& pair = previous.pairs()[row];
+    if (!is_contact(pair.phase)) continue;
+    if (store_.find(pair.a) != nullptr && store_.find(pair.b) != nullptr) continue;
+    ended_.push_back({{serial_of(pair.a), serial_of(pair.b)}, row});
+  }
+}
+
+/// Of an object that is there or was in the last report.
+std::uint64_t PairTable::serial_of(ObjectId id) {
+  if (const Object* const object = store_.find(id)) return object->serial;
+  return std::lower_bound(store_.departed().begin(), store_.departed().end(), id,
+                          [](const DepartedObject& departed, ObjectId value) { return departed.id < value; })
+      ->serial;
+}
+
+/// Has the rows of ended pairs that come before a pair stand before what is listed next.
+void PairTable::list_ended(SerialPair before) {
+  for (; ended_listed_ < ended_.size() && ended_[ended_listed_].pair < before; ++ended_listed_)
+    resting_.push_back({jobs_.size(), 0, ended_[ended_listed_].row, 1, true});
+}
+
 void PairTable::begin_rows(std::uint64_t frame) {
   rows_.clear();
+  row_count_ = 0;
   rows_frame_ = frame;
   std::size_t most = jobs_.size();
   for (const RestingRows& rows : resting_) most += rows.count;
@@ -102,6 +133,8 @@ void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameRep
   for (std::size_t i = 0; i < selected.size(); ++i) {
     if (i + ahead < selected.size()) selection_.prefetch(selected[i + ahead]);
     const SelectedPair& each = selected[i];
+    if (ended_listed_ < ended_.size())
+      list_ended({summaries_[first_of(each.pair)].serial, summaries_[second_of(each.pair)].serial});
     if (each.kind == SelectedPair::Kind::resting) {
       resting_.push_back({jobs_.size(), each.listed, listed_[each.listed].row, each.count});
       continue;
@@ -112,6 +145,8 @@ void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameRep
     else
       selection_.forget(each);
   }
+  constexpr std::uint64_t behind_all = std::numeric_limits<std::uint64_t>::max();
+  list_ended({behind_all, behind_all});
 }
 
 PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previous) const {
@@ -174,13 +209,14 @@ void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemory
   resting_.reserve(pairs);
   listed_.reserve(pairs);
   rows_.reserve(pairs);
+  ended_.reserve(pairs);
   wanted_.reserve(objects);
 }
 
 std::size_t PairTable::byte_count() const {
   return filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
          selection_.byte_count() + bytes_of(jobs_) + bytes_of(resting_) + bytes_of(listed_) +
-         bytes_of(rows_) + bytes_of(wanted_);
+         bytes_of(rows_) + bytes_of(ended_) + bytes_of(wanted_);
 }
 
 }  // namespace graze

@@ -2,6 +2,7 @@
 
 #include <graze/report.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "broad_phase.hpp"
@@ -32,6 +33,8 @@ class PairTable {
   void begin_rows(std::uint64_t frame);
   void add_row(const PairJob& job) { add_row(job.places); }
   void add_rows(const RestingRows& rows);
+  /// A row that the next step has nothing to say about.
+  void pass_row() { ++row_count_; }
 
   /// Makes room for so many objects, and pairs whose loose boxes meet.
   /// Before a step's `list` only.
@@ -40,8 +43,19 @@ class PairTable {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
+  /// Two objects by Object::serial. Pairs of rows ascend by them.
+  using SerialPair = std::pair<std::uint64_t, std::uint64_t>;
+  /// A pair that was in contact, of which an object was removed.
+  struct EndedPair {
+    SerialPair pair;
+    std::uint32_t row;  ///< in the last report
+  };
+
   void find_listed(const FrameReport& previous);
   void look_up_listed(const FrameReport& previous);
+  void find_ended(const FrameReport& previous);
+  [[nodiscard]] std::uint64_t serial_of(ObjectId id);
+  void list_ended(SerialPair before);
   void read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
                          std::vector<Diagnostic>& diagnostics);
   void list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous);
@@ -50,7 +64,7 @@ class PairTable {
   [[nodiscard]] bool says_something(PairJob& job) const;
   [[nodiscard]] bool is_unchanged(const PairJob& job) const;
   void count_jobs(StepStatistics& statistics) const;
-  void add_row(PlacePair pair) { rows_.push_back({pair, static_cast<std::uint32_t>(rows_.size())}); }
+  void add_row(PlacePair pair) { rows_.push_back({pair, row_count_++}); }
 
   ObjectStore& store_;
   PairFilter& filter_;
@@ -64,7 +78,10 @@ class PairTable {
   std::vector<ListedPair> listed_;  ///< by the last report
   std::vector<ListedPair> rows_;    ///< by the report of `rows_frame_`
   std::uint64_t rows_frame_ = 0;
-  std::vector<Object*> wanted_;  ///< to be read after all
+  std::uint32_t row_count_ = 0;  ///< of that report
+  std::vector<EndedPair> ended_;
+  std::size_t ended_listed_ = 0;  ///< of `ended_`
+  std::vector<Object*> wanted_;   ///< to be read after all
 };
 
 }  // namespace graze

@@ -10,20 +10,21 @@
 
 namespace graze {
 
-/// What keeps the rows (r0, r1, r2, t) from being a pose: not finite, or further than 1e-9 from a rotation.
-/// Nothing for a good one.
+/// Says why the rows (r0, r1, r2, t) are not a pose. Nothing for a good one. A pose is finite, and its matrix
+/// R is within 1e-3 of a rotation: no entry of RᵀR − 1 is larger, and R is no reflection. So an engine's
+/// float rotations are poses.
 inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows) {
-  constexpr double furthest = 1e-9;
-  Eigen::Matrix3d rotation;
+  constexpr double furthest = 1e-3;
+  Eigen::Matrix3d matrix;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
-      rotation(row, column) = rows[static_cast<std::size_t>(row * 4 + column)];
-  if (!rotation.allFinite() || !Eigen::Vector3d(rows[3], rows[7], rows[11]).allFinite())
-    return "the pose is not finite";
-  // For a matrix at a small distance d from a rotation, |RᵀR − 1| is 2d to first order (Frobenius norms).
-  const double off = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm() / 2;
-  if (!(off <= furthest)) return "the pose is " + number_text(off) + " from a rotation";
-  if (rotation.determinant() < 0) return "the pose is a reflection";
+      matrix(row, column) = rows[static_cast<std::size_t>(row * 4 + column)];
+  if (!matrix.allFinite() || !Eigen::Vector3d(rows[3], rows[7], rows[11]).allFinite())
+    return "its matrix is not finite";
+  const double off = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(off <= furthest))
+    return "its matrix is no rotation: an entry of RᵀR - 1 is " + number_text(off, 4) + ", more than 1e-3";
+  if (matrix.determinant() < 0) return "its matrix is a reflection";
   return std::nullopt;
 }
 

@@ -126,12 +126,12 @@ void ReportPool::count_bytes(std::uint32_t index) {
   byte_count_ += bytes - std::exchange(slot(index).counted_bytes, bytes);
 }
 
-void ReportPool::even_out() {
+void ReportPool::even_out(bool has_time) {
   const ReportRoom needed = ReportBuilder(slot(filling_).report).room();
   if (!room_.covers(needed)) all_have_room_ = false;
   room_.include(needed);
   count_bytes(filling_);
-  if (all_have_room_) return;
+  if (all_have_room_ || !has_time) return;
   bool all_have_room = true;
   for (std::uint32_t index = 0; index < slot_count_; ++index) {
     if (index != filling_ && is_free(index)) make_room(index);

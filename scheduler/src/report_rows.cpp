@@ -18,6 +18,8 @@ std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer) {
   PairReport row;
   row.a = job.a->id;
   row.b = job.b->id;
+  row.user_data_a = job.a->settings.user_data;
+  row.user_data_b = job.b->settings.user_data;
   row.contacts_cut = answer.cut || answer.contacts_left_out > 0;
   row.complete = answer.complete && !row.contacts_cut;
   row.distance = answer.distance;

@@ -203,8 +203,8 @@ void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 1
     return add_problem(calls, object, DiagnosticKind::wrong_motion,
                        name(object) + " is deformable; give it positions, not a pose");
   if (const auto problem = problem_of_pose(rows, last_row))
-    return add_problem(calls, object, DiagnosticKind::bad_pose,
-                       name(object) + ": " + *problem + "; the pose was not taken");
+    return calls.add(RefusePose{
+        {object, DiagnosticKind::bad_pose, name(object) + ": " + *problem + "; the pose was not taken"}});
   calls.add(SetPose{object, rows});
 }
 

@@ -83,13 +83,14 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
-    even_out();
+    even_out(start);
     count_bytes_of_pairs(list.jobs, statistics);
   }
   statistics.objects_unread = store_.unread_count();
   statistics.objects_surveyed = store_.surveyed_count();
   statistics.object_bytes = store_.byte_count() + staging_.byte_count();
   statistics.report_bytes = reports_.byte_count();
+  store_.forget_departed();  // the report is made: nothing throws from here on
   statistics.publish_ms = lap();
   statistics.step_ms = Lap(start)();
 }
@@ -111,6 +112,10 @@ void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
                    if (const Object* const object = store_.find(removed.object))
                      pairs_.filter().forget(*object);
                    store_.apply(removed);
+                 },
+                 [&](RefusePose& refused) {
+                   diagnostics.push_back(refused.problem);
+                   store_.apply(refused);
                  },
                  [&](BindPositions& bound) {
                    store_.apply(bound);
@@ -222,8 +227,19 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   statistics.contacts_left_out += std::max<std::size_t>(left_out, 1);
 }
 
+/// The last row of a pair of which an object was removed while it was in contact.
+void Step::end_pair(PairReport row, ReportBuilder& builder) {
+  row.phase = PairPhase::ended;
+  row.complete = true;
+  row.stale = row.contacts_cut = false;
+  builder.add(row, 0, {});
+  pairs_.pass_row();
+  ++builder.statistics().pairs_near;
+}
+
 /// Rows of the last report, with all that belongs to them.
 void Step::repeat_pairs(const RestingRows& resting, const FrameReport& previous, ReportBuilder& builder) {
+  if (resting.ended) return end_pair(previous.pairs()[resting.row], builder);
   StepStatistics& statistics = builder.statistics();
   const auto rows = previous.pairs().subspan(resting.row, resting.count);
   const PairReport& first = rows.front();
@@ -260,12 +276,11 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
   is_settled_ = true;
 }
 
-/// Makes room for steps like this one. It is complete without: where there is no memory for that, later steps
-/// take some.
-void Step::even_out() {
+/// Makes room for steps like this one. A step is complete without: where there is no memory for that, or no
+/// time within the budget, later steps take some.
+void Step::even_out(Clock::time_point start) {
   try {
-    jobs_.even_out_memory();
-    reports_.even_out();
+    reports_.even_out(jobs_.even_out_memory(start));
   } catch (const std::bad_alloc&) {
     return;
   }

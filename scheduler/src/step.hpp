@@ -36,9 +36,10 @@ class Step {
   void make_ready_to_copy(Object& object);
   void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
   void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);
+  void end_pair(PairReport row, ReportBuilder& builder);
   void repeat_pairs(const RestingRows& resting, const FrameReport& previous, ReportBuilder& builder);
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
-  void even_out();
+  void even_out(Clock::time_point start);
   void sum_counters(StepStatistics& statistics);
   void count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics);
 

@@ -14,7 +14,7 @@ ReportHandle Stepper::run(std::uint64_t tag) {
     if (step_ == nullptr) step_ = begun_afresh();
     fill(reports_.begin(), tag);
   } catch (...) {
-    staging_.step_failed();
+    step_failed();
     throw;
   }
   return reports_.publish();
@@ -24,9 +24,14 @@ void Stepper::start(std::function<void()> work) {
   try {
     content_.tasks.start(std::move(work));
   } catch (...) {
-    staging_.step_failed();
+    step_failed();
     throw;
   }
+}
+
+void Stepper::step_failed() noexcept {
+  staging_.step_failed();
+  content_.store.forget_promises();
 }
 
 /// With the room that was reserved. Where there is no memory for that it is not tried again: the scene may do

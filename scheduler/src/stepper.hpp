@@ -33,6 +33,7 @@ class Stepper {
 
  private:
   [[nodiscard]] std::unique_ptr<Step> begun_afresh();
+  void step_failed() noexcept;
   void fill(FrameReport& report, std::uint64_t tag);
 
   const SceneSettings& settings_;

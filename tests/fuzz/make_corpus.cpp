@@ -125,6 +125,18 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// A binary file of two faces whose header begins with "solid", and texts of one and two solids.
+std::vector<std::string> stl_texts() {
+  std::string binary = "solid binary" + std::string(68, ' ') + bytes_of(std::uint32_t{2}, false);
+  for (int i = 0; i < 24; ++i)
+    binary += bytes_of(static_cast<float>(i % 5), false) + (i % 12 == 11 ? "ab" : "");
+  const std::string face =
+      "facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 -1.#IND\n "
+      "endloop\nendfacet\n";
+  return {binary, binary + "tail", "solid a b\n" + face + "endsolid a b\n",
+          "SOLID a\n" + face + face + "end solid\nsolid\n" + face + "endsolid"};
+}
+
 /// The models that are small enough to be mutated usefully.
 void add_models(const std::filesystem::path& models, Seeds& mesh_seeds, Seeds& gltf_seeds) {
   constexpr std::uintmax_t largest = 16384;
@@ -160,6 +172,8 @@ void make_corpus(const std::filesystem::path& corpus, const std::filesystem::pat
   for (const std::string& text : scene_file_seeds()) scene_seeds.add(text);
   Seeds gltf_seeds(corpus, "gltf");
   for (const std::string& text : gltf_texts()) gltf_seeds.add('\0' + text);
+  Seeds stl_seeds(corpus, "stl");
+  for (const std::string& text : stl_texts()) stl_seeds.add(text);
   Seeds report_seeds(corpus, "report_json");
   write_reports(report_seeds);
   Seeds assimp_seeds(corpus, "assimp_data");

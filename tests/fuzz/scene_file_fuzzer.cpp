@@ -22,7 +22,8 @@ void check(const io::SceneDescription& scene) {
   std::set<std::string> names;
   for (const io::ObjectDescription& object : scene.objects) {
     expect(object.name.empty() || names.insert(object.name).second, "a name stands twice");
-    expect(object.margin >= 0 && object.kind <= 255 && object.transform.scale > 0, "a value out of range");
+    expect(object.margin >= 0 && object.kind <= 255 && (object.transform.stretch.array() != 0).any(),
+           "a value out of range");
     expect(object.poses.empty() || object.motion == Motion::rigid, "poses of what is not rigid");
     for (std::size_t i = 1; i < object.poses.size(); ++i)
       expect(object.poses[i - 1].frame < object.poses[i].frame, "poses out of order");

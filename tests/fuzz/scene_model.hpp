@@ -54,7 +54,7 @@ class SceneModel {
 
   [[nodiscard]] const std::vector<ModelBody>& bodies() const { return bodies_; }
 
-  void add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
+  void add(std::shared_ptr<const Mesh> mesh, ObjectSettings settings);
   void remove(std::size_t body);
   void set_positions(std::size_t body, const Positions& positions, Promise promise);
   void bind(std::size_t body, const Positions& positions, bool as_floats, BindPolicy policy);
@@ -92,6 +92,7 @@ class SceneModel {
   void check_row(const FrameReport& report, const PairReport& row, const BodyPair& pair,
                  const Fresh* fresh) const;
   void check_values(const FrameReport& report, const PairReport& row, const Fresh& fresh) const;
+  [[nodiscard]] bool is_gone(const BodyPair& pair) const;
   [[nodiscard]] bool is_frozen(const BodyPair& pair) const;
   [[nodiscard]] bool must_be_listed(const BodyPair& pair, const Fresh& fresh) const;
 

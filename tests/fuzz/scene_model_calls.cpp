@@ -57,7 +57,8 @@ bool ModelBody::can_take(const Positions& positions) const {
 
 SceneModel::SceneModel(const SceneSettings& settings) : scene_(settings) {}
 
-void SceneModel::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+void SceneModel::add(std::shared_ptr<const Mesh> mesh, ObjectSettings settings) {
+  settings.user_data = bodies_.size() + 1;
   const bool is_good = settings.margin >= 0 && std::isfinite(settings.margin) && settings.kind <= 255;
   ModelBody body;
   try {
@@ -80,7 +81,6 @@ void SceneModel::remove(std::size_t index) {
   body.is_alive = false;
   body.doubles.reset();
   body.floats.reset();
-  std::erase_if(in_contact_, [&](const BodyPair& p) { return p.first == index || p.second == index; });
 }
 
 ModelBody* SceneModel::deformable(std::size_t index) {
@@ -169,10 +169,13 @@ void SceneModel::set_pose(std::size_t index, const PoseRows& rows, bool is_rotat
     expect_diagnostic(body.id, DiagnosticKind::stale_id);
   else if (body.settings.motion == Motion::deformable)
     expect_diagnostic(body.id, DiagnosticKind::wrong_motion);
-  else if (!is_rotation)
-    expect_diagnostic(body.id, DiagnosticKind::bad_pose);
-  else
+  else if (is_rotation)
     body.staged_pose = rows;
+  else {
+    expect_diagnostic(body.id, DiagnosticKind::bad_pose);
+    body.staged_pose.reset();
+    body.is_frozen = true;
+  }
 }
 
 void SceneModel::set_ignored(std::size_t a, std::size_t b, bool ignored) {
@@ -228,10 +231,11 @@ void SceneModel::read(ModelBody& body) {
     read_bound(body);
   } else if (body.staged_pose) {
     const Positions positions = posed(*body.mesh, *body.staged_pose);
-    if (body.can_take(positions))
-      body.pose = body.staged_pose;
-    else
+    body.is_frozen = !body.can_take(positions);
+    if (body.is_frozen)
       expect_diagnostic(body.id, problem_of(*body.mesh, positions));
+    else
+      body.pose = body.staged_pose;
     body.staged_pose.reset();
   }
   body.is_promised = false;

@@ -24,6 +24,10 @@ std::string timeless(const FrameReport& report, PairReport row) {
 
 }  // namespace
 
+bool SceneModel::is_gone(const BodyPair& pair) const {
+  return !bodies_[pair.first].is_alive || !bodies_[pair.second].is_alive;
+}
+
 bool SceneModel::is_frozen(const BodyPair& pair) const {
   return bodies_[pair.first].is_frozen || bodies_[pair.second].is_frozen;
 }
@@ -117,7 +121,9 @@ void SceneModel::check_rows(const FrameReport& report, const std::map<BodyPair, 
     const BodyPair pair(body_of_.at(row.a), body_of_.at(row.b));
     expect(pair.first < pair.second && (listed.empty() || *listed.rbegin() < pair), "rows out of order");
     listed.insert(pair);
-    expect(bodies_[pair.first].is_alive && bodies_[pair.second].is_alive, "a row of an object that is gone");
+    expect(row.user_data_a == bodies_[pair.first].settings.user_data &&
+               row.user_data_b == bodies_[pair.second].settings.user_data,
+           "other user data than the objects have");
     const auto known = fresh.find(pair);
     check_row(report, row, pair, known == fresh.end() ? nullptr : &known->second);
     if (is_contact(row)) now_in_contact.insert(pair);
@@ -127,13 +133,18 @@ void SceneModel::check_rows(const FrameReport& report, const std::map<BodyPair, 
     if (must_be_listed(pair, known) && !is_paper)
       expect(listed.contains(pair), "a pair that is near is not listed");
   for (const BodyPair& pair : in_contact_)
-    if (!is_frozen(pair)) expect(listed.contains(pair), "a pair that was in contact is not listed");
+    if (is_gone(pair) || !is_frozen(pair))
+      expect(listed.contains(pair), "a pair that was in contact is not listed");
   in_contact_ = now_in_contact;
 }
 
 void SceneModel::check_row(const FrameReport& report, const PairReport& row, const BodyPair& pair,
                            const Fresh* fresh) const {
   const bool was = in_contact_.contains(pair);
+  if (is_gone(pair)) {
+    expect(row.phase == PairPhase::ended && was, "a row of an object that is gone");
+    return expect(!row.stale && row.complete && row.contact_count == 0, "what the last row of a pair says");
+  }
   if (is_frozen(pair)) {
     expect(row.stale || row.phase == PairPhase::ended, "a row of an object that cannot be read is not stale");
     return;

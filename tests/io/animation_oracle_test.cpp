@@ -1,3 +1,4 @@
+#include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
@@ -155,6 +156,8 @@ double size_of(const std::vector<Eigen::Vector3d>& positions) {
 
 void check_against_oracle(const std::filesystem::path& path) {
   Assimp::Importer importer;
+  // Coordinates are taken as they stand; left alone, assimp turns COLLADA files until y points up.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   REQUIRE(scene != nullptr);
   const aiNode* node = node_with_meshes(*scene->mRootNode);

@@ -120,10 +120,10 @@ TEST_CASE("a scene file that is nested without end is refused") {
 TEST_CASE("what an importer leaves unfinished is refused") {
   const std::filesystem::path path = "scene.fbx";
   const auto refusal = [&](const aiScene& scene) {
-    return message_of([&] { io::convert_scene(path, scene, {}); });
+    return message_of([&] { io::convert_scene(path, scene); });
   };
   const auto scene = triangle_scene();
-  REQUIRE(io::convert_scene(path, *scene, {}).file.objects.size() == 1);
+  REQUIRE(io::convert_scene(path, *scene).file.objects.size() == 1);
   scene->mRootNode->mMeshes[0] = 1;
   CHECK_THAT(refusal(*scene), Catch::Matchers::Contains("node 'root' names mesh 1 of 1"));
   scene->mRootNode->mMeshes[0] = 0;

@@ -152,3 +152,39 @@ TEST_CASE("an animation is sampled at frames of its rate up to its end") {
   CHECK_THROWS_AS(io::open_animation(file, 0, 0, 0), graze::Error);
   CHECK_THROWS_AS(io::open_animation(file, 0, 0, NAN), graze::Error);
 }
+
+TEST_CASE("every platform's NaN and infinity in a frame is a number that is not finite") {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, double>> words = {
+      {"nan", 0},        {"-nan", 0},       {"NaN", 0},     {"nan(ind)", 0},    {"-nan(ind)", 0},
+      {"nan(snan)", 0},  {"-nan(snan)", 0}, {"NaNQ", 0},    {"-NaNS", 0},       {"1.#IND", 0},
+      {"-1.#IND", 0},    {"-1.#IND00", 0},  {"1.#QNAN", 0}, {"1.#QNAN0", 0},    {"1.#SNAN", 0},
+      {"1.#J", 0},       {"1.#R", 0},       {"inf", 1},     {"-inf", -1},       {"+INF", 1},
+      {"Infinity", 1},   {"-infinity", -1}, {"1.#INF", 1},  {"-1.#INF", -1},    {"1.#INF00e+000", 1},
+      {"-1.#INF00", -1}, {"1.#INFe+00", 1}, {"1.#IO", 0},   {"-1.#QNANe+00", 0}};
+  const std::string face = "f 1 2 3\n";
+  const auto mesh =
+      io::MeshFile::read(folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + face)).objects()[0].mesh;
+  for (const auto& [word, sign] : words) {
+    INFO(word);
+    folder.write("frame_0.obj", "v " + word + " 0 0\nv 1 0 0\nv 0 1 0\n" + face);
+    folder.write(
+        "ply_0.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+            word + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    folder.write("off_0.off", "OFF\n3 1 0\n" + word + " 0 0\n1 0 0 # corner\n0 1 0\n3 0 1 2\n");
+    for (const char* pattern : {"frame_#.obj", "ply_#.ply", "off_#.off"}) {
+      std::vector<Eigen::Vector3d> positions;
+      graze::io::open_sequence(folder / pattern, *mesh, 0)->read(0, positions);
+      CHECK(std::isnan(positions[0].x()) == (sign == 0));
+      if (sign != 0) CHECK(positions[0].x() == sign * std::numeric_limits<double>::infinity());
+      CHECK(positions[1] == Eigen::Vector3d(1, 0, 0));
+    }
+  }
+  for (const char* word : {"nano", "1.#", "1.#INFINITE", "1.#IND x", "#IND", "in", "infinit", "1.#1x"}) {
+    INFO(word);
+    folder.write("bad_0.obj", "v " + std::string(word) + " 0 0\nv 1 0 0\nv 0 1 0\n" + face);
+    CHECK_THROWS_AS(graze::io::open_sequence(folder / "bad_#.obj", *mesh, 0), graze::io::InputError);
+  }
+}

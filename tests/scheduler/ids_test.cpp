@@ -138,10 +138,11 @@ TEST_CASE("pairs are sorted by the order of addition, also where indices are use
   CHECK(scene.step()->statistics().pairs_total == all_pairs_of(in_order).size());
 }
 
-TEST_CASE("a removed object's pairs vanish, in contact or not") {
+TEST_CASE("a removed object's pair in contact ends, and another object's contact begins") {
   NeedleOverPlate pair(settings_of(0.5, 10));
   CHECK(only_pair(*pair.step_at(0.25)).phase == PairPhase::began);
   pair.scene.remove(pair.needle);
+  CHECK(only_pair(*pair.scene.step()).phase == PairPhase::ended);
   CHECK(pair.scene.step()->pairs().empty());
 
   const ObjectId again = pair.scene.add(needle_mesh());
@@ -149,8 +150,13 @@ TEST_CASE("a removed object's pairs vanish, in contact or not") {
   CHECK(only_pair(*pair.scene.step()).phase == PairPhase::touching);
   // Removed and replaced between two steps: the newcomer's contact begins.
   pair.scene.remove(again);
-  pair.scene.add(needle_mesh());
-  CHECK(only_pair(*pair.scene.step()).phase == PairPhase::began);
+  const ObjectId newcomer = pair.scene.add(needle_mesh());
+  const ReportHandle report = pair.scene.step();
+  REQUIRE(report->pairs().size() == 2);
+  CHECK(report->pairs()[0].b == again);
+  CHECK(report->pairs()[0].phase == PairPhase::ended);
+  CHECK(report->pairs()[1].b == newcomer);
+  CHECK(report->pairs()[1].phase == PairPhase::began);
 }
 
 TEST_CASE("an object that was added and removed between two steps was never there") {

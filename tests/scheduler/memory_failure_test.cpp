@@ -147,6 +147,41 @@ void fail_in(FailureStory story, std::size_t event, Lack lack, std::uint64_t eac
     }
 }
 
+/// A needle over a plate jumps before a step that fails at `place`, and moves a little, as promised, before
+/// the next one, which must see it there. So many reports are held: a new one takes memory before a step
+/// begins. Whether the step failed.
+bool jump_and_promise(std::uint64_t place, std::size_t reports_held, bool is_bound) {
+  NeedleOverPlate pair(settings_of(0.5, 2, ContactDetail::vertices));
+  Positions positions = lifted(*needle_mesh(), 90);
+  const auto tell = [&](double height, double promise) {
+    const Positions now = lifted(*needle_mesh(), height);
+    std::copy(now.begin(), now.end(), positions.begin());
+    if (is_bound)
+      pair.scene.positions_changed(pair.needle, promise);
+    else
+      pair.scene.set_positions(pair.needle, positions, promise);
+  };
+  if (is_bound) pair.scene.bind_positions(pair.needle, positions, BindPolicy::when_told);
+  tell(90, Scene::any_displacement);
+  std::vector<ReportHandle> held{pair.scene.step()};
+  while (held.size() < reports_held) held.push_back(pair.scene.step());
+  tell(0.25, Scene::any_displacement);
+  bool has_thrown = false;
+  FailingAllocator::begin(place, Lack::from_then_on);
+  try {
+    (void)pair.scene.step();
+  } catch (const std::bad_alloc&) {
+    has_thrown = true;
+  }
+  (void)FailingAllocator::end();
+  tell(0.125, 0.126);
+  const ReportHandle report = pair.scene.step();
+  const PairReport* const row = find_pair(*report, pair.plate, pair.needle);
+  REQUIRE(row != nullptr);
+  CHECK(row->distance.upper < 1);
+  return has_thrown;
+}
+
 /// In the first frame of all, when everything is made, and in a later one; one allocation, or all from it on
 /// until the frame ends.
 void fail_in(FailureStory story) {
@@ -163,6 +198,17 @@ void fail_in(FailureStory story) {
 }
 
 }  // namespace
+
+TEST_CASE("memory failure: a promise counts from where a step has seen the object") {
+  std::size_t thrown = 0;
+  for (const bool is_bound : {false, true})
+    for (std::size_t reports_held = 1; reports_held < 70; ++reports_held)
+      for (std::uint64_t place = 0; place < 20; ++place) {
+        CAPTURE(is_bound, reports_held, place);
+        thrown += jump_and_promise(place, reports_held, is_bound) ? 1U : 0U;
+      }
+  CHECK(thrown > 500);
+}
 
 TEST_CASE("memory failure: positions are copied") {
   fail_in(FailureStory::copied);

@@ -90,7 +90,7 @@ TEST_CASE("removals among many objects leave the others, in order") {
   Scene scene(settings_of(0.25, 0.25, ContactDetail::none));
   const auto mesh = needle_mesh();
   std::vector<ObjectId> all;
-  // Objects 2k and 2k + 1 are near each other and nothing else.
+  // Objects 2k and 2k + 1 are in contact with each other and with nothing else.
   for (std::size_t i = 0; i < count; ++i) {
     all.push_back(scene.add(mesh));
     const double place = 10.0 * static_cast<double>(i / 2) + 0.125 * static_cast<double>(i % 2);
@@ -104,15 +104,16 @@ TEST_CASE("removals among many objects leave the others, in order") {
     if (!removed[object]) scene.remove(all[object]);
     removed[object] = true;
   }
-  std::vector<std::pair<ObjectId, ObjectId>> expected;
+  std::vector<std::tuple<ObjectId, ObjectId, PairPhase>> expected;
   std::size_t left = 0;
   for (std::size_t i = 0; i < count; i += 2) {
     left += (removed[i] ? 0U : 1U) + (removed[i + 1] ? 0U : 1U);
-    if (!removed[i] && !removed[i + 1]) expected.emplace_back(all[i], all[i + 1]);
+    const bool ends = removed[i] || removed[i + 1];
+    expected.push_back({all[i], all[i + 1], ends ? PairPhase::ended : PairPhase::touching});
   }
   const ReportHandle report = scene.step();
-  std::vector<std::pair<ObjectId, ObjectId>> listed;
-  for (const PairReport& pair : report->pairs()) listed.emplace_back(pair.a, pair.b);
+  std::vector<std::tuple<ObjectId, ObjectId, PairPhase>> listed;
+  for (const PairReport& pair : report->pairs()) listed.emplace_back(pair.a, pair.b, pair.phase);
   CHECK(listed == expected);
   CHECK(report->statistics().objects == left);
   CHECK(report->diagnostics().empty());

@@ -87,9 +87,6 @@ TEST_CASE("numbers out of their range are refused with the range") {
       {run("--max-contacts", "0"), "--max-contacts: " + from_1 + "\"0\""},
       {run("--max-contacts-per-pair", "0"), "--max-contacts-per-pair: " + from_1 + "\"0\""},
       {run("--picture-frame", "-1"), "--picture-frame: " + from_0 + "\"-1\""},
-      {{"bench", "--frames", "0"}, "--frames: " + from_1 + "\"0\""},
-      {{"bench", "--threads", "1,100000"}, "--threads: " + threads + "\"100000\""},
-      {{"bench", "--slow", "5000"}, "--slow: expected a whole number from 1 to 4096, got \"5000\""},
       {{"stress", "--budgets", "--threads", "100000"}, "--threads: " + threads + "\"100000\""},
       {{"stress", "--objects", "10,1"}, "--objects: expected a whole number from 2 to 1000000, got \"1\""},
       {{"stress", "--reader", "--seconds", "0"}, "--seconds: expected a number above 0, got \"0\""},
@@ -100,7 +97,7 @@ TEST_CASE("numbers out of their range are refused with the range") {
 
 TEST_CASE("misspelt commands and options are told the nearest ones") {
   const SpikesOnSheet files;
-  const std::string commands = " the commands are run, inspect, stress, bench";
+  const std::string commands = " the commands are run, inspect";
   check_refused({
       {{}, "expected a command; the commands are run, inspect"},
       {{"rnu", files.scene}, "there is no command \"rnu\"; did you mean run?" + commands},
@@ -115,7 +112,6 @@ TEST_CASE("misspelt commands and options are told the nearest ones") {
       {{"run", "--pic", "x.png"}, "graze run has no option --pic; did you mean --picture?"},
       {{"run", files.scene, "--quack"}, "graze run has no option --quack; graze run --help lists them"},
       {{"stress", "--sock"}, "graze stress has no option --sock; did you mean --soak?"},
-      {{"bench", "--task", "A"}, "graze bench has no option --task; did you mean --tasks?"},
       {{"--versoin"}, "graze has no option --versoin; did you mean --version? graze --help lists them"},
       {{"stress", "--soak", "now"}, "\"now\" is one argument too many; graze stress --help says"},
   });
@@ -155,9 +151,6 @@ TEST_CASE("files that cannot be written are refused before anything is read") {
        "--picture: " + files.in("p") + " cannot be written: it has no ending; end it in .png"},
       {{"run", files.scene, "--report", files.scene},
        "--report: " + files.scene + " cannot be written: it is what the run reads"},
-      {{"bench", "--scenes", "S1", "--csv", none + "/x.csv"}, "--csv: " + none + "/x.csv cannot be written"},
-      {{"bench", "--scenes", "S1", "--json", folder},
-       "--json: " + folder + " cannot be written: it is a folder"},
       {{"stress", "--soak", "--out", none + "/x.json"}, "--out: " + none + "/x.json cannot be written"},
   });
   CHECK_FALSE(std::filesystem::exists(files.in("p.jpg")));
@@ -232,6 +225,23 @@ TEST_CASE("limits of contacts from the command line keep the nearest") {
   CHECK(found == nearest);
 }
 
+#if GRAZE_HAS_STUDIES
+
+TEST_CASE("what is wrong with the command line of graze bench is said in a line") {
+  const SpikesOnSheet files;
+  const std::string none = files.in("none");
+  const std::string folder = files.folder.path().string();
+  check_refused({
+      {{"bench", "--frames", "0"}, "--frames: expected a whole number of at least 1, got \"0\""},
+      {{"bench", "--threads", "1,100000"}, "--threads: expected a whole number"},
+      {{"bench", "--slow", "5000"}, "--slow: expected a whole number from 1 to 4096, got \"5000\""},
+      {{"bench", "--task", "A"}, "graze bench has no option --task; did you mean --tasks?"},
+      {{"bench", "--scenes", "S1", "--csv", none + "/x.csv"}, "--csv: " + none + "/x.csv cannot be written"},
+      {{"bench", "--scenes", "S1", "--json", folder},
+       "--json: " + folder + " cannot be written: it is a folder"},
+  });
+}
+
 TEST_CASE("bench compares with its aims only where that is asked for, and says what they are") {
   const Words short_run = {"bench", "--scenes", "S1", "--tasks", "A", "--frames", "2", "--peers", "none"};
   const ProgramResult plain = run_graze(short_run);
@@ -245,5 +255,7 @@ TEST_CASE("bench compares with its aims only where that is asked for, and says w
                             Contains("An aim that is not reached is no error.") &&
                             Contains("| memory, bytes a vertex"));
 }
+
+#endif
 
 }  // namespace graze::tests

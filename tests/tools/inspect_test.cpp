@@ -61,3 +61,21 @@ TEST_CASE("inspect's levels and epsilon are those of the method") {
   CHECK_THAT(text, Contains("regions    " + levels + " by level; leaves: "));
   CHECK_THAT(text, Contains("epsilon    " + epsilon + " by level, at rest"));
 }
+
+TEST_CASE("inspect shows what a file says of its axes and what a scene file makes of them") {
+  const TemporaryFolder folder;
+  const Shape shape = box({0, 1, 2}, {10, 21, 32});
+  const auto mesh = folder.write("thing.obj", obj_text(shape));
+  const auto plain = run_graze({"inspect", mesh.string()});
+  CHECK_THAT(plain.out, Contains("frame      axes and unit not said; coordinates as they stand in it"));
+  CHECK_THAT(plain.out, Contains("bounds     from 0 1 2 to 10 22 34"));
+  const auto scene = run_graze(
+      {"inspect",
+       folder
+           .write("scene.json", R"({"graze": 1, "objects": [{"mesh": "thing.obj", "up": "y", "unit": "cm",
+                        "transform": {"translate": [1, 0, 0]}}]})")
+           .string()});
+  CHECK(scene.exit_code == 0);
+  CHECK_THAT(scene.out, Contains("thing.obj: converted: x y z become x -z y, times 0.01"));
+  CHECK_THAT(scene.out, Contains("stands     from 1 -0.34 0.01 to 1.1 -0.02 0.22"));
+}

@@ -46,15 +46,16 @@ TEST_CASE("quarter turns are exact") {
 }
 
 TEST_CASE("a placement scales, turns and moves, in this order") {
-  const Placement placement{{10, 20, 30}, {0, 0, 90}, 2};
+  const Placement placement{{10, 20, 30}, rotation_from_degrees({0, 0, 90}), 2 * Eigen::Matrix3d::Identity()};
   CHECK(placement.apply({1, 0, 0}) == Vector3d(10, 22, 30));
   CHECK_FALSE(placement.is_identity());
   CHECK(Placement{}.is_identity());
 }
 
 TEST_CASE("poses are held outside their keys, exact at them, and interpolated between") {
-  const std::vector<KeyPose> keys = {
-      {10, {1, 0, 0}, {0, 0, 0}}, {20, {3, 0, 4}, {0, 0, 80}}, {30, {3, 0, 4}, {0, 0, 80}}};
+  const std::vector<KeyPose> keys = {{10, {1, 0, 0}, rotation_from_degrees({0, 0, 0})},
+                                     {20, {3, 0, 4}, rotation_from_degrees({0, 0, 80})},
+                                     {30, {3, 0, 4}, rotation_from_degrees({0, 0, 80})}};
   CHECK(pose_at(keys, 0).matrix() == pose_at(keys, 10).matrix());
   CHECK(pose_at(keys, 10).translation() == Vector3d(1, 0, 0));
   CHECK(pose_at(keys, 1000).matrix() == pose_at(keys, 30).matrix());
@@ -68,9 +69,11 @@ TEST_CASE("poses are held outside their keys, exact at them, and interpolated be
 }
 
 TEST_CASE("a rotation between keys takes the shorter way and stays a rotation") {
-  const std::vector<KeyPose> keys = {{0, {0, 0, 0}, {0, 0, 170}}, {4, {0, 0, 0}, {0, 0, -170}}};
+  const std::vector<KeyPose> keys = {{0, {0, 0, 0}, rotation_from_degrees({0, 0, 170})},
+                                     {4, {0, 0, 0}, rotation_from_degrees({0, 0, -170})}};
   CHECK((pose_at(keys, 2).linear() * Vector3d(1, 0, 0) - Vector3d(-1, 0, 0)).norm() < 1e-14);
-  const std::vector<KeyPose> general = {{0, {0, 0, 0}, {31, -77, 12}}, {7, {0, 0, 0}, {-120, 15, 66}}};
+  const std::vector<KeyPose> general = {{0, {0, 0, 0}, rotation_from_degrees({31, -77, 12})},
+                                        {7, {0, 0, 0}, rotation_from_degrees({-120, 15, 66})}};
   for (std::uint32_t frame = 0; frame <= 7; ++frame) {
     const Eigen::Matrix3d rotation = pose_at(general, frame).linear();
     CHECK((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-14);

@@ -11,6 +11,7 @@ namespace {
 
 using graze::io::InputError;
 using graze::io::read_scene_file;
+using graze::io::rotation_from_degrees;
 using graze::io::SceneDescription;
 using graze::tests::TemporaryFolder;
 
@@ -43,6 +44,15 @@ struct BadScene {
 const std::vector<BadScene> bad_scenes = {
     {"", "line 1, column 1: not valid JSON"},
     {"{\n  \"graze\": 1,\n  \"objects\": [,]\n}", "line 3, column 15: not valid JSON"},
+    {"{\n  \"graze\": 1,\n  \"objects\": [{\"mesh\": \"a.obj\"},\n  ]\n}",
+     "line 3, column 32: a trailing comma stands before a closing bracket"},
+    {"{\n  \"graze\": 1,\n}", "line 2, column 13: a trailing comma stands before a closing bracket"},
+    {"{\n  // the version\n  \"graze\": 1}", "line 2, column 3: a comment stands here"},
+    {"{\n  \"graze\": 1, /* the\n version */ \"objects\": []}", "line 2, column 15: a comment stands here"},
+    {"{\n  \"graze\": 1 // the version\n}", "line 2, column 14: a comment stands here"},
+    {"{\n  \"graze\": 1,\n  # objects\n}", "line 3, column 3: a comment stands here"},
+    {"// a scene\n{\"graze\": 1}", "line 1, column 1: a comment stands here"},
+    {"{\"graze\": 1} // a scene\n", "line 1, column 14: a comment stands here"},
     {R"({"graze": 1, "objects": [{"mesh": "a.obj"}], "graze": 1})", R"(key "graze" stands twice)"},
     {R"({"graze": 1, "range": 1e999, "objects": [{"mesh": "a.obj"}]})", "holds a number too large"},
     {"[]", "expected an object, got []"},
@@ -86,8 +96,35 @@ const std::vector<BadScene> bad_scenes = {
      "objects[0].transform.translate: expected three numbers"},
     {scene_with("", R"("transform": {"translate": [1, 2, "z"]})"),
      R"(objects[0].transform.translate[2]: expected a number, got "z")"},
+    {scene_with(R"("max_contacts": 0)", ""), "max_contacts: expected a whole number from 1 to"},
+    {scene_with(R"("max_contacts_per_pair": 1.5)", ""),
+     "max_contacts_per_pair: expected a whole number from 1 to"},
+    {scene_with(R"("up": "w")", ""), R"(up: expected an axis that points up, got "w"; write x, y or z)"},
+    {scene_with("", R"("unit": "furlong")"), R"(objects[0].unit: expected a unit of length, got "furlong")"},
+    {scene_with("", R"("unit": 0)"), "objects[0].unit: expected a number above 0, got 0"},
+    {scene_with("", R"("up": 2)"), "objects[0].up: expected an axis that points up, got 2"},
+    {scene_with("", R"("transform": {"scale": [1, 0, 1]})"),
+     "objects[0].transform.scale: expected a number other than 0, or three of them, got [1,0,1]"},
+    {scene_with("", R"("transform": {"scale": [1, 2]})"),
+     "objects[0].transform.scale: expected a number other"},
+    {scene_with("", R"("transform": {"rotate_quaternion": [0, 0, 0, 2]})"),
+     "objects[0].transform.rotate_quaternion: expected a quaternion of length 1, got [0,0,0,2]"},
+    {scene_with("", R"("transform": {"rotate_quaternion": [0, 0, 1]})"),
+     "objects[0].transform.rotate_quaternion: expected 4 numbers"},
+    {scene_with("", R"("transform": {"rotate_quaternion": [0, 0, 0, 1], "rotate_degrees": [0, 0, 1]})"),
+     "objects[0].transform.rotate_quaternion: stands beside rotate_degrees"},
+    {scene_with("", R"("transform": {"matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})"),
+     "objects[0].transform.matrix: expected a 4 × 4 matrix"},
+    {scene_with("", R"("transform": {"matrix": [[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,1]]})"),
+     "objects[0].transform.matrix: it flattens space"},
+    {scene_with("", R"("transform": {"matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[5,5,5,1]]})"),
+     "objects[0].transform.matrix: its last row is not 0 0 0 1"},
+    {scene_with("", R"("transform": {"matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], "scale": 2})"),
+     "objects[0].transform.matrix: says all of where it stands"},
+    {scene_with("", R"("poses": [{"frame": 0, "matrix": [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]}])"),
+     "objects[0].poses[0].matrix: it scales, shears or mirrors"},
     {scene_with("", R"("transform": {"scale": 0})"),
-     "objects[0].transform.scale: expected a number above 0, got 0"},
+     "objects[0].transform.scale: expected a number other than 0, or three of them, got 0"},
     {scene_with("", R"("transform": {"rotate": [0, 0, 0]})"), "objects[0].transform.rotate: unknown key"},
     {scene_with("", R"("poses": [])"), "objects[0].poses: expected at least one pose"},
     {scene_with("", R"("poses": [{"translate": [0, 0, 0]}])"),
@@ -165,8 +202,8 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(liver.motion == graze::Motion::deformable);  // because it has positions
   CHECK(liver.positions == folder / "liver_####.ply");
   CHECK(liver.transform.translate == Eigen::Vector3d(1, 2, 3));
-  CHECK(liver.transform.rotate_degrees == Eigen::Vector3d(10, 20, 30));
-  CHECK(liver.transform.scale == 0.5);
+  CHECK(liver.transform.rotation == rotation_from_degrees({10, 20, 30}));
+  CHECK(liver.transform.stretch == Eigen::Matrix3d(0.5 * Eigen::Matrix3d::Identity()));
   CHECK((liver.layer == 1 && liver.collides_with == 0xFFFFFFFFU && liver.margin == 0 && liver.kind == 0));
 
   const auto& tool = scene.objects[1];
@@ -177,10 +214,10 @@ TEST_CASE("a scene file with every key is read as it says") {
          tool.kind == 255));
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's
   CHECK(tool.poses[0].translate == Eigen::Vector3d(0, 0, 1));
-  CHECK(tool.poses[0].rotate_degrees == Eigen::Vector3d(0, 90, 0));
+  CHECK(tool.poses[0].rotation == rotation_from_degrees({0, 90, 0}));
   CHECK((tool.poses[1].frame == 100 && tool.poses[1].translate == Eigen::Vector3d(0, 0, 0)));
-  CHECK(tool.poses[1].rotate_degrees == Eigen::Vector3d(0, 90, 0));
-  CHECK(tool.poses[2].rotate_degrees == Eigen::Vector3d(1, 2, 3));
+  CHECK(tool.poses[1].rotation == rotation_from_degrees({0, 90, 0}));
+  CHECK(tool.poses[2].rotation == rotation_from_degrees({1, 2, 3}));
 
   CHECK(std::get<std::string>(scene.objects[2].animation.value()) == "Run");
   CHECK(scene.objects[3].motion == graze::Motion::fixed);

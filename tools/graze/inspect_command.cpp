@@ -4,20 +4,48 @@
 #include <cstdio>
 #include <filesystem>
 #include <graze/io/mesh_file.hpp>
+#include <graze/io/player.hpp>
+#include <graze/io/scene_file.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mesh_summary.hpp"
+#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
 
-void inspect(const std::filesystem::path& path) {
+/// What the file says of its axes and unit. A mesh file is never converted; a scene file may ask for it.
+std::string frame_line(const io::FileFrame& frame) {
+  std::string said = frame.up ? *frame.up + " up" : "";
+  if (frame.metres_per_unit)
+    said += format("%s%.6g m a unit", said.empty() ? "" : ", ", *frame.metres_per_unit);
+  return (said.empty() ? "axes and unit not said" : "the file says " + said) +
+         "; coordinates as they stand in it";
+}
+
+void inspect_scene(const std::filesystem::path& path) {
+  const io::Player player(io::read_scene_file(path));
+  std::printf("%s: %zu %s\n", path.string().c_str(), player.objects().size(),
+              player.objects().size() == 1 ? "object" : "objects");
+  for (const std::string& warning : player.warnings()) std::printf("  note       %s\n", warning.c_str());
+  for (std::size_t i = 0; i < player.objects().size(); ++i) {
+    const io::SceneObject& object = player.objects()[i];
+    std::printf("  object %zu \"%s\"\n", i, object.name.c_str());
+    std::vector<Eigen::Vector3d> positions;
+    player.read_positions(i, positions);
+    std::printf("    stands     %s\n", bounds_text(positions).c_str());
+    std::fputs(summarise_mesh(*object.mesh, "    ").c_str(), stdout);
+  }
+}
+
+void inspect_mesh(const std::filesystem::path& path) {
   const io::MeshFile file = io::MeshFile::read(path);
   std::printf("%s: %zu %s\n", path.string().c_str(), file.objects().size(),
               file.objects().size() == 1 ? "object" : "objects");
   for (const std::string& warning : file.warnings()) std::printf("  note       %s\n", warning.c_str());
+  std::printf("  frame      %s\n", frame_line(file.frame()).c_str());
   for (std::size_t i = 0; i < file.animations().size(); ++i)
     std::printf("  animation  %zu \"%s\", %.3g s\n", i, file.animations()[i].c_str(),
                 file.animation_seconds(i));
@@ -28,14 +56,22 @@ void inspect(const std::filesystem::path& path) {
   }
 }
 
+void inspect(const std::filesystem::path& path) {
+  if (path.extension() == ".json")
+    inspect_scene(path);
+  else
+    inspect_mesh(path);
+}
+
 }  // namespace
 
 void add_inspect_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "inspect",
-      "Says what mesh files hold: objects, animations, counts, what is odd, the regions of each, and bytes.");
+  CLI::App* command = app.add_subcommand("inspect",
+                                         "Says what mesh or scene files hold: axes and unit, objects, "
+                                         "animations, counts, what is odd, regions, bytes.");
   const auto files = std::make_shared<std::vector<std::string>>();
-  command->add_option("files", *files, "Mesh files, in any format that graze reads")->required();
+  command->add_option("files", *files, "Mesh files, in any format that graze reads, or scene files (.json)")
+      ->required();
   command->callback([files] {
     for (const std::string& file : *files) inspect(file);
   });

@@ -8,7 +8,9 @@
 #include "accuracy/command.hpp"
 #include "experiment/command.hpp"
 #endif
+#if GRAZE_HAS_BENCH
 #include "bench/command.hpp"
+#endif
 #include "check_failed.hpp"
 #include "command_mistake.hpp"
 #include "inspect_command.hpp"
@@ -34,7 +36,12 @@ int run_program(int argument_count, char** arguments) {
   graze::tools::add_run_command(app);
   graze::tools::add_inspect_command(app);
   graze::tools::add_stress_command(app);
+#if GRAZE_HAS_BENCH
   graze::tools::add_bench_command(app);
+#else
+  app.footer(
+      "Built without bench, accuracy and experiment: configure graze with -DGRAZE_STUDIES=ON for them.");
+#endif
 #if GRAZE_HAS_ORACLES
   graze::tools::add_accuracy_command(app);
   graze::tools::add_experiment_command(app);

@@ -1,5 +1,6 @@
 #include "mesh_summary.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -70,10 +71,18 @@ std::string epsilon_line(const Mesh& mesh) {
 
 }  // namespace
 
+std::string bounds_text(std::span<const Eigen::Vector3d> positions) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : positions) box.extend(point);
+  return format("from %.6g %.6g %.6g to %.6g %.6g %.6g", box.min().x(), box.min().y(), box.min().z(),
+                box.max().x(), box.max().y(), box.max().z());
+}
+
 std::string summarise_mesh(const Mesh& mesh, const std::string& indent) {
   const std::size_t bytes = mesh.byte_count();  // before more lists are made for what follows
   std::string lines;
   lines += indent + "counts     " + counts_line(mesh) + "\n";
+  lines += indent + "bounds     " + bounds_text(mesh.rest()) + "\n";
   lines += indent + "surface    " + oddities_line(mesh) + "\n";
   lines += indent + "regions    " + levels_line(mesh.regions()) + leaves_line(mesh.regions()) + "\n";
   lines += indent + "epsilon    " + epsilon_line(mesh) + "\n";

@@ -15,20 +15,27 @@
 namespace graze {
 
 /// What has happened between two steps: `near` is not in contact, `began` is in contact and was not,
-/// `touching` is and was, `ended` is not and was.
+/// `touching` is and was, `ended` is not and was. Every contact that began ends in one row: also where an
+/// object is removed, or the pair is taken out by a filter.
 enum class PairPhase : std::uint8_t { near, began, touching, ended };
 
 /// One listed pair of objects; a was added before b.
 struct PairReport {
+  /// The objects. An id stays good as a key in the row in which the pair ended because its object was
+  /// removed.
   ObjectId a;
   ObjectId b;
+  std::uint64_t user_data_a = 0;  ///< ObjectSettings::user_data of a, also after a's removal
+  std::uint64_t user_data_b = 0;  ///< and of b
   PairPhase phase = PairPhase::near;
   /// False: a budget ran out; bounds hold, the phase is the last one, no contacts. Or `contacts_cut`.
   bool complete = true;
-  bool stale = false;  ///< one of the objects could not be read: these are the last values
+  /// The positions or the pose of one of the objects were not taken: these are the last values.
+  bool stale = false;
   /// There are more contacts than SceneSettings::max_contacts or max_contacts_per_pair let be listed: the
   /// nearest are. All else is said of all.
   bool contacts_cut = false;
+  /// Of a pair that ended because an object was removed, the bounds and the witness of the last report.
   DistanceBounds distance;
   Witness witness;
   std::size_t first_contact = 0;  ///< into FrameReport::contacts()
@@ -43,7 +50,7 @@ enum class DiagnosticKind : std::uint8_t {
   null_memory,        ///< no memory given
   misaligned_memory,  ///< memory or stride not aligned to its number type
   wrong_motion,       ///< positions for a rigid or fixed object, or a pose for a deformable one
-  bad_pose,           ///< further than 1e-9 from a rotation, or not finite
+  bad_pose,           ///< further than 1e-3 from a rotation, or not finite
   not_finite,         ///< NaN or infinity in a used vertex
   too_large,          ///< a coordinate of a used vertex beyond 2^120
   broken_promise,     ///< a vertex moved further than max_displacement

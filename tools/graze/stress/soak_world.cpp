@@ -54,6 +54,7 @@ void SoakWorld::remake_scene() {
   settings_.threads = mode_ % 3 == 2 ? 1 : 2;
   ++mode_;
   scene_ = std::make_unique<Scene>(settings_);
+  for (Owner& owner : owners_) owner.gone = {};  // the new scene may give that id to another object
   for (const auto& [kinds, rule] : rules_) scene_->set_rule(kinds.first, kinds.second, rule);
   std::map<std::uint64_t, ObjectId> ids;
   for (Body* const body : all_bodies()) {
@@ -139,7 +140,8 @@ void SoakWorld::place(Body& body) {
     scene_->set_positions(body.id, body.positions);
 }
 
-/// Every one is refused with a diagnostic, so that the model does not change.
+/// Every one is refused with a diagnostic. A bad pose is followed by the good one, so that the model does not
+/// change.
 void SoakWorld::make_mistake(Owner& owner) {
   Body& body = any(owner);
   std::vector<Eigen::Vector3d> positions = body.positions;
@@ -155,7 +157,9 @@ void SoakWorld::make_mistake(Owner& owner) {
       return scene_->set_positions(body.id, PositionView());
     case 3:
       pose.linear() *= 1.01;
-      return scene_->set_pose(body.id, pose);
+      scene_->set_pose(body.id, pose);
+      if (body.given == Given::posed) place(body);
+      return;
     case 4:
       return scene_->set_pose(owner.gone, pose);
     case 5:

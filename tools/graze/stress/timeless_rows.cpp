@@ -26,6 +26,8 @@ std::vector<TimelessRow> timeless_rows(const FrameReport& report,
                                        const std::map<ObjectId, std::size_t>& places, bool is_exact) {
   std::vector<TimelessRow> rows;
   for (const PairReport& pair : report.pairs()) {
+    if (!places.contains(pair.a) || !places.contains(pair.b))
+      continue;  // it ended since an object was removed
     const bool in_contact = pair.phase == PairPhase::began || pair.phase == PairPhase::touching;
     if (!in_contact && !is_exact) continue;
     scenes::ReportHash hash;

@@ -8,12 +8,16 @@
 
 namespace graze::io {
 
-/// Where an object stands: a point p of its file goes to rotation · (scale · p) + translate.
+/// The rotation by degrees about the fixed x axis, then y, then z. It is exact at multiples of 90.
+GRAZE_API Eigen::Matrix3d rotation_from_degrees(const Eigen::Vector3d& degrees);
+
+/// The place of an object. A point p of its file goes to rotation · (stretch · p) + translate.
 struct GRAZE_API Placement {
   Eigen::Vector3d translate = Eigen::Vector3d::Zero();
-  Eigen::Vector3d rotate_degrees =
-      Eigen::Vector3d::Zero();  ///< about the fixed axes, x first, then y, then z
-  double scale = 1;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< a proper rotation
+  /// A scale, uniform or by axis, or the rest of a 4 × 4 matrix. Its determinant is not
+  /// 0; a negative one mirrors.
+  Eigen::Matrix3d stretch = Eigen::Matrix3d::Identity();
 
   /// Rotation and translation.
   [[nodiscard]] Eigen::Isometry3d pose() const;
@@ -21,19 +25,20 @@ struct GRAZE_API Placement {
   [[nodiscard]] bool is_identity() const;
 };
 
+/// The placement that does what an affine 4 × 4 matrix does: the rotation is the nearest one to its linear
+/// part. Throws Error when its last row is not 0 0 0 1, a number is not finite, or it flattens space.
+GRAZE_API Placement placement_from_matrix(const Eigen::Matrix4d& matrix);
+
 /// The pose of a rigid object at one frame.
 struct KeyPose {
   std::uint32_t frame = 0;
   Eigen::Vector3d translate = Eigen::Vector3d::Zero();
-  Eigen::Vector3d rotate_degrees = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 };
 
-/// The rotation by degrees about the fixed x axis, then y, then z; exact at multiples of 90.
-GRAZE_API Eigen::Matrix3d rotation_from_degrees(const Eigen::Vector3d& degrees);
-
-/// The pose at `frame`: the keys' own at their frames, the translation linear and the rotation along the
-/// shorter arc (slerp) in between, held before the first and after the last. `keys` ascend by frame; at least
-/// one.
+/// The pose at `frame`. At the keys' own frames it is theirs. In between the translation is linear and the
+/// rotation follows the shorter arc at constant speed (slerp). Before the first and after the last key it is
+/// held. `keys` ascend by frame; there is at least one.
 GRAZE_API Eigen::Isometry3d pose_at(std::span<const KeyPose> keys, std::uint32_t frame);
 
 }  // namespace graze::io

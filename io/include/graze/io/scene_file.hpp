@@ -17,6 +17,10 @@ namespace graze::io {
 /// A part of a file by its number or by its name.
 using NumberOrName = std::variant<std::uint32_t, std::string>;
 
+/// An axis that points up. With z up, x points right and y away from the viewer. With y up, x points right
+/// and z towards the viewer. With x up, y points left and z towards the viewer.
+enum class UpAxis : std::uint8_t { x, y, z };
+
 /// One entry of a scene's `objects`: what to load, how it moves, what it may touch. An entry without `node`
 /// whose file holds several objects stands for all of them.
 struct ObjectDescription {
@@ -27,6 +31,10 @@ struct ObjectDescription {
   std::filesystem::path positions;        ///< a numbered sequence or a vertex cache; empty: none
   std::optional<NumberOrName> animation;  ///< an animation of the mesh file itself
   bool animate_where_possible = false;    ///< the first animation for each object that the file animates
+  std::optional<UpAxis> up;               ///< which axis of the file points up; none: axes are left alone
+  bool up_is_the_files = false;           ///< `up` is what the file says
+  std::optional<double> metres_per_unit;  ///< the length of 1 in the file; none: lengths are left alone
+  bool unit_is_the_files = false;         ///< `metres_per_unit` is what the file says
   Placement transform;
   std::vector<KeyPose> poses;  ///< ascending by frame
   std::uint32_t layer = 1;
@@ -57,6 +65,8 @@ struct SceneDescription {
   SceneSettings settings;
   std::optional<std::uint32_t> frames;  ///< none: as long as the longest motion
   double frames_per_second = 30;
+  UpAxis up = UpAxis::z;       ///< which axis of the scene points up
+  double metres_per_unit = 1;  ///< the length of 1 in the scene
   std::vector<ObjectDescription> objects;
   std::vector<RuleDescription> rules;
   std::vector<IgnoreDescription> ignore;
