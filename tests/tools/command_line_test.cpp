@@ -97,22 +97,22 @@ TEST_CASE("numbers out of their range are refused with the range") {
 
 TEST_CASE("misspelt commands and options are told the nearest ones") {
   const SpikesOnSheet files;
-  const std::string commands = "; the commands are run, inspect, stress";
+  const std::string commands = " the commands are run, inspect";
   check_refused({
       {{}, "expected a command; the commands are run, inspect"},
       {{"rnu", files.scene}, "there is no command \"rnu\"; did you mean run?" + commands},
       {{"inspcet"}, "there is no command \"inspcet\"; did you mean inspect?" + commands},
       {{"stres", "--soak"}, "there is no command \"stres\"; did you mean stress?" + commands},
-      {{"fly"}, "there is no command \"fly\"" + commands},
+      {{"fly"}, "there is no command \"fly\";" + commands},
       {{"run", files.scene, "--frame", "3"},
-       "graze run has no option --frame; did you mean --frames?; graze run --help lists them"},
+       "graze run has no option --frame; did you mean --frames? graze run --help lists them"},
       {{"run", files.scene, "--treads=2"}, "graze run has no option --treads; did you mean --threads?"},
       {{"run", files.scene, "--contact-distnace", "1"},
        "graze run has no option --contact-distnace; did you mean --contact-distance?"},
       {{"run", "--pic", "x.png"}, "graze run has no option --pic; did you mean --picture?"},
       {{"run", files.scene, "--quack"}, "graze run has no option --quack; graze run --help lists them"},
       {{"stress", "--sock"}, "graze stress has no option --sock; did you mean --soak?"},
-      {{"--versoin"}, "graze has no option --versoin; did you mean --version?; graze --help lists them"},
+      {{"--versoin"}, "graze has no option --versoin; did you mean --version? graze --help lists them"},
       {{"stress", "--soak", "now"}, "\"now\" is one argument too many; graze stress --help says"},
   });
 }

@@ -7,9 +7,10 @@
 namespace graze::tools {
 namespace {
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
+/// The nearest word as a question, then what else there is.
+std::string advice(const std::string& word, const std::vector<std::string>& words, const std::string& other) {
   const auto nearest = nearest_word(word, words);
-  return nearest ? "; did you mean " + *nearest + "?" : "";
+  return "; " + (nearest ? "did you mean " + *nearest + "? " : "") + other;
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -48,8 +49,8 @@ std::string unknown_option(const CLI::App& command, const std::string& argument)
   const std::string name = argument.substr(0, argument.find('='));
   const bool is_app = command.get_parent() == nullptr;
   const std::string full_name = is_app ? "graze" : "graze " + command.get_name();
-  return full_name + " has no option " + name + did_you_mean(name, option_names(command)) + "; " + full_name +
-         " --help lists them";
+  return full_name + " has no option " + name +
+         advice(name, option_names(command), full_name + " --help lists them");
 }
 
 }  // namespace
@@ -62,8 +63,7 @@ std::string mistake_of(const CLI::App& app, const CLI::ParseError& error) {
   if (commands.empty()) {
     const std::string there_are = "the commands are " + listed(command_names(app));
     if (unknown.empty()) return "expected a command; " + there_are;
-    return "there is no command \"" + unknown + "\"" + did_you_mean(unknown, command_names(app)) + "; " +
-           there_are;
+    return "there is no command \"" + unknown + "\"" + advice(unknown, command_names(app), there_are);
   }
   const std::string help = "; graze " + commands.front()->get_name() + " --help says what can be asked for";
   if (!unknown.empty()) return "\"" + unknown + "\" is one argument too many" + help;
