@@ -105,20 +105,18 @@ class PositionView {
 
   /// Point `index` in double (a float converts exactly). No bounds check.
   [[nodiscard]] Eigen::Vector3d operator[](std::size_t index) const {
-    if (has_joined_coordinates()) return joined(index);
-    return form_ == Form::doubles_apart ? apart<double>(index) : apart<float>(index);
-  }
-  /// Point `index` of a view that has joined coordinates. It asks one question less than `[]`.
-  [[nodiscard]] Eigen::Vector3d joined(std::size_t index) const {
     const auto* const point = static_cast<const std::byte*>(first_) + index * stride_bytes_;
     if (form_ == Form::doubles) {
       std::array<double, 3> xyz;
       std::memcpy(xyz.data(), point, sizeof xyz);
       return {xyz[0], xyz[1], xyz[2]};
     }
-    std::array<float, 3> xyz;
-    std::memcpy(xyz.data(), point, sizeof xyz);
-    return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+    if (form_ == Form::floats) {
+      std::array<float, 3> xyz;
+      std::memcpy(xyz.data(), point, sizeof xyz);
+      return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+    }
+    return form_ == Form::doubles_apart ? apart<double>(point) : apart<float>(point);
   }
 
  private:
@@ -169,8 +167,7 @@ class PositionView {
     return static_cast<std::size_t>(numbers) * sizeof(typename Matrix::Scalar);
   }
   template <typename Number>
-  [[nodiscard]] Eigen::Vector3d apart(std::size_t index) const {
-    const auto* point = static_cast<const std::byte*>(first_) + index * stride_bytes_;
+  [[nodiscard]] Eigen::Vector3d apart(const std::byte* point) const {
     std::array<Number, 3> xyz;
     for (Number& coordinate : xyz) {
       std::memcpy(&coordinate, point, sizeof coordinate);

@@ -42,7 +42,7 @@ class GRAZE_API Surface {
   [[nodiscard]] const std::shared_ptr<const Mesh>& shared_mesh() const { return mesh_; }
   /// That of an unused vertex means nothing.
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t vertex) const {
-    if (viewed_.data() != nullptr) return viewed_.joined(vertex);  // as `can_view` says
+    if (viewed_.data() != nullptr) return viewed_[vertex];
     if (in_double_.empty()) return in_float_[vertex].cast<double>();
     return in_double_[vertex];
   }
