@@ -200,11 +200,6 @@ void ObjectStore::expect_input(Object& object) {
   object.may_have_input = true;
 }
 
-void ObjectStore::forget_promises() noexcept {
-  for (const auto& object : objects_)
-    if (object != nullptr) object->promised = std::numeric_limits<double>::infinity();
-}
-
 void ObjectStore::forget() noexcept {
   for (const auto& object : objects_) {
     if (object == nullptr) continue;
@@ -247,6 +242,8 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   changed_ = std::exchange(will_have_changed_, false);
   ++steps_;
   drop_removed();
+  if (!std::exchange(promises_count_, true))
+    for (const auto& object : objects_) object->promised = std::numeric_limits<double>::infinity();
   begin_list();
   unread_count_ = surveyed_count_ = 0;
   // One pass: by the next one the first objects would have left the caches.

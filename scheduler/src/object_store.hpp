@@ -131,9 +131,9 @@ class ObjectStore {
   /// Reads those of `wanted`, which are unread and there once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
-  /// After a step that came to no end, at any point and also before it began: no promise holds until the
-  /// next one, since its caller may count from positions that no step has seen.
-  void forget_promises() noexcept;
+  /// After a step that came to no end, at any point and also before it began: no promise made before the next
+  /// read counts, since its caller may count from positions that no step has seen.
+  void forget_promises() noexcept { promises_count_ = false; }
   /// Forgets what steps have remembered of the objects, after one that came to no end at any point. What was
   /// read stays read; the next step reads the rest.
   void forget() noexcept;
@@ -206,6 +206,7 @@ class ObjectStore {
   std::size_t surveyed_count_ = 0;
   std::atomic<bool> some_problems_ = false;  ///< were not told yet
   std::atomic<bool> changed_ = false;
+  bool promises_count_ = true;
   bool will_have_changed_ = false;  ///< at the next `read_positions`, whatever that sees
 };
 
