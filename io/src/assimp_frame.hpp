@@ -12,7 +12,7 @@ namespace graze::io {
 /// into the root node. Returns what the file says.
 FileFrame undo_collada_frame(aiScene& scene);
 
-/// What an FBX file's global settings say. assimp does not apply them.
+/// Reads axes and unit from an FBX file's global settings, which assimp does not apply.
 FileFrame read_fbx_frame(const aiScene& scene);
 
 /// Undoes the turn that assimp (5.2) puts into the root node of formats in which z points up, so that y does.

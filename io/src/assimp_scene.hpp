@@ -14,7 +14,7 @@ namespace graze::io {
 /// format means by a morph target's weight. Throws InputError for numbers that name nothing.
 RiggedFile convert_scene(const std::filesystem::path& path, const aiScene& scene);
 
-/// What each node with faces is called, in the order of the objects that `convert_scene` makes.
+/// The names of the nodes with faces, in the order of the objects that `convert_scene` makes.
 std::vector<std::string> object_names(const aiScene& scene);
 
 }  // namespace graze::io

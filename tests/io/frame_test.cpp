@@ -189,6 +189,16 @@ TEST_CASE("one arm is at one place, under its own name, from every format") {
   }
 }
 
+TEST_CASE("a COLLADA node's name wins over its geometry's, and both over its id") {
+  const TemporaryFolder folder;
+  const AssimpLeaks leaks;
+  const auto name = [&](const std::string& node_name) {
+    return MeshFile::read(folder.write("file.dae", dae("Z_UP", "1", node_name))).objects()[0].name;
+  };
+  CHECK(name("elbow") == "elbow");
+  CHECK(name("") == "arm");
+}
+
 TEST_CASE("a file's own axes and unit are told, and applied where a scene file asks for them") {
   const TemporaryFolder folder;
   const Eigen::Matrix3d y_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};

@@ -51,7 +51,7 @@ class GRAZE_API MeshFile {
   [[nodiscard]] std::span<const LoadedObject> objects() const;
   /// The animations' names in file order; a name may be empty.
   [[nodiscard]] std::span<const std::string> animations() const;
-  /// What was left out or changed, one line each.
+  /// A line for each thing that was left out or changed.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
   /// The axes and the unit that the file says its coordinates have.
@@ -59,9 +59,9 @@ class GRAZE_API MeshFile {
 
   /// How long an animation lasts. Throws Error when `animation` is out of range.
   [[nodiscard]] double animation_seconds(std::size_t animation) const;
-  /// Where the vertices of an object's mesh are at `seconds` of an animation, clamped to its length. Node and
-  /// bone keys are interpolated linearly (rotations along the shorter arc); glTF steps and cubic splines are
-  /// kept. `positions` becomes vertex_count long. Throws Error when a number is out of range.
+  /// Gives the positions of an object's vertices at `seconds` of an animation, clamped to its length. Node
+  /// and bone keys are interpolated linearly (rotations along the shorter arc); glTF steps and cubic splines
+  /// are kept. `positions` becomes vertex_count long. Throws Error when a number is out of range.
   void animate(std::size_t object, std::size_t animation, double seconds,
                std::vector<Eigen::Vector3d>& positions) const;
 
