@@ -22,6 +22,12 @@ bool is_in_contact(const PairReport& row) {
   return row.phase == PairPhase::began || row.phase == PairPhase::touching;
 }
 
+/// Whether the pair ended because one of its objects was removed.
+bool is_gone(const PairReport& row, const std::vector<ObjectId>& ids) {
+  return std::find(ids.begin(), ids.end(), row.a) == ids.end() ||
+         std::find(ids.begin(), ids.end(), row.b) == ids.end();
+}
+
 /// Every bit of each row and its contacts but for ids, and of the phase only whether it is a contact.
 std::map<Places, std::string> rows_by_place(const FrameReport& report, const std::vector<ObjectId>& ids) {
   std::map<Places, std::string> rows;
@@ -29,6 +35,7 @@ std::map<Places, std::string> rows_by_place(const FrameReport& report, const std
     return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
   };
   for (PairReport row : report.pairs()) {
+    if (is_gone(row, ids)) continue;
     const Places places(place_of(row.a), place_of(row.b));
     row.a = row.b = {};
     row.phase = is_in_contact(row) ? PairPhase::touching : PairPhase::near;
@@ -92,6 +99,11 @@ class Judge {
       const PairPhase phase =
           is ? (was ? PairPhase::touching : PairPhase::began) : (was ? PairPhase::ended : PairPhase::near);
       phases_.insert(row.phase);
+      if (is_gone(row, ids_)) {
+        if (row.phase != PairPhase::ended || !was)
+          return "a row of an object that is gone: " + text_of(report, row);
+        continue;
+      }
       if (row.phase != phase) return "phase " + std::string(to_string(row.phase)) + shapes_of(place->first);
       if (!expected.contains(place->first) && phase != PairPhase::ended)
         return "too much: " + place->second + shapes_of(place->first);
