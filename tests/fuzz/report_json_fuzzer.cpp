@@ -62,7 +62,7 @@ bool is_writable(const Report& report, const std::vector<io::SceneObject>& objec
 FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::SceneObject>& objects) {
   FrameReport report;
   ReportBuilder builder(report);
-  builder.begin(frame.frame);
+  builder.begin(frame.frame, 0);
   std::vector<Contact> contacts;
   for (const io::ReportedPair& read : frame.pairs) {
     PairReport pair;
