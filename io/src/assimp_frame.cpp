@@ -53,13 +53,14 @@ FileFrame undo_collada_frame(aiScene& scene) {
   const double unit = std::cbrt(linear.determinant());
   scene.mRootNode->mTransformation = aiMatrix4x4();
   if (!(unit > 0) || !std::isfinite(unit)) return frame;
-  // The file's unit has been rounded to a float.
-  frame.metres_per_unit = std::round(unit * 1e7) / 1e7 > 0 ? std::round(unit * 1e7) / 1e7 : unit;
+  // assimp has rounded the file's unit to a float.
+  const double rounded = std::round(unit * 1e7) / 1e7;
+  frame.metres_per_unit = rounded > 0 ? rounded : unit;
   const Eigen::Matrix3d to_y_up = linear / unit;
-  frame.up = "y";
-  if (to_y_up(1, 2) > 0.5) frame.up = "z";
-  if (to_y_up(1, 0) > 0.5) frame.up = "x";
-  frame.to_z_up = z_up_from(*frame.up == "x" ? UpAxis::x : *frame.up == "y" ? UpAxis::y : UpAxis::z);
+  const bool is_x = to_y_up(1, 0) > 0.5;
+  const bool is_z = to_y_up(1, 2) > 0.5;
+  frame.up = is_x ? "x" : is_z ? "z" : "y";
+  frame.to_z_up = z_up_from(is_x ? UpAxis::x : is_z ? UpAxis::z : UpAxis::y);
   return frame;
 }
 

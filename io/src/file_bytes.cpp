@@ -40,11 +40,22 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t limit) {
   return bytes;
 }
 
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
+  return lower;
+}
+
+std::uint32_t word_at(std::string_view bytes, std::size_t offset, bool is_big_endian) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    word = (word << 8U) | static_cast<unsigned char>(bytes[offset + (is_big_endian ? i : 3 - i)]);
+  return word;
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
 }
 
 }  // namespace graze::io

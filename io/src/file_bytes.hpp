@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -39,6 +40,12 @@ inline constexpr std::size_t header_bytes = 65536;
 /// The whole file, or its first `limit` bytes. Throws InputError when it is missing, empty or unreadable.
 std::string read_bytes(const std::filesystem::path& path,
                        std::size_t limit = std::numeric_limits<std::size_t>::max());
+
+/// The text with small letters for the capitals of ASCII.
+std::string lower_case(std::string_view text);
+
+/// The 32-bit word that begins at `offset`. There are four bytes.
+std::uint32_t word_at(std::string_view bytes, std::size_t offset, bool is_big_endian = false);
 
 /// The path's extension in lower case, with its dot.
 std::string lower_extension(const std::filesystem::path& path);

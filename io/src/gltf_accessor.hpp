@@ -10,7 +10,8 @@
 
 namespace graze::io {
 
-/// What an accessor holds: `width` numbers for each of its elements. Normalised integers are their fractions.
+/// The numbers of an accessor: `width` numbers for each of its elements. Normalised integers are their
+/// fractions.
 struct GltfNumbers {
   std::size_t width = 1;
   std::vector<double> values;

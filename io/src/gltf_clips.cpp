@@ -44,19 +44,6 @@ Eigen::Quaterniond value_from(const double* numbers, const Eigen::Quaterniond& /
   return {numbers[3], numbers[0], numbers[1], numbers[2]};
 }
 
-bool is_usable(double& value) {
-  return std::isfinite(value);
-}
-bool is_usable(Eigen::Vector3d& value) {
-  return value.allFinite();
-}
-bool is_usable(Eigen::Quaterniond& value) {
-  const double norm = value.norm();
-  if (!(norm > 0) || !std::isfinite(norm)) return false;
-  value.normalize();
-  return true;
-}
-
 bool is_finite(double value) {
   return std::isfinite(value);
 }
@@ -67,6 +54,18 @@ bool is_finite(const Eigen::Quaterniond& value) {
   return value.coeffs().allFinite();
 }
 
+/// Whether a value can be taken. A rotation then has the length 1.
+template <typename Value>
+bool make_usable(Value& value) {
+  return is_finite(value);
+}
+bool make_usable(Eigen::Quaterniond& value) {
+  const double norm = value.norm();
+  if (!(norm > 0) || !std::isfinite(norm)) return false;
+  value.normalize();
+  return true;
+}
+
 /// Keys whose value is not finite are left out.
 template <typename Value>
 Track<Value> make_track(const Keys& keys, std::size_t offset, const Value& zero) {
@@ -74,7 +73,7 @@ Track<Value> make_track(const Keys& keys, std::size_t offset, const Value& zero)
   track.interpolation = keys.interpolation;
   for (const std::size_t key : keys.order) {
     Value value = value_from(keys.at(key, 1, offset), zero);
-    if (!is_usable(value)) continue;
+    if (!make_usable(value)) continue;
     if (keys.interpolation == Interpolation::cubic) {
       const Value before = value_from(keys.at(key, 0, offset), zero);
       const Value after = value_from(keys.at(key, 2, offset), zero);

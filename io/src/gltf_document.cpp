@@ -27,13 +27,6 @@ constexpr std::size_t chunk_header_bytes = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A;
 constexpr std::uint32_t binary_chunk = 0x004E4942;
 
-std::uint32_t little_endian_at(std::string_view bytes, std::size_t offset) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 4; i > 0; --i)
-    number = (number << 8U) | static_cast<unsigned char>(bytes[offset + i - 1]);
-  return number;
-}
-
 /// The JSON of a file: all of it, or the first chunk of a binary one, whose second chunk is a buffer.
 struct Chunks {
   std::string_view text;
@@ -42,17 +35,16 @@ struct Chunks {
 
 Chunks find_chunks(const std::filesystem::path& path, std::string_view bytes) {
   if (!bytes.starts_with("glTF")) return {bytes, std::nullopt};
-  if (bytes.size() < glb_header_bytes + chunk_header_bytes || little_endian_at(bytes, 8) > bytes.size())
+  if (bytes.size() < glb_header_bytes + chunk_header_bytes || word_at(bytes, 8) > bytes.size())
     fail(path, joined("byte ", bytes.size(), ": the file ends before its announced length; write it again"));
-  const std::size_t size = little_endian_at(bytes, glb_header_bytes);
+  const std::size_t size = word_at(bytes, glb_header_bytes);
   const std::size_t begin = glb_header_bytes + chunk_header_bytes;
-  if (little_endian_at(bytes, glb_header_bytes + 4) != json_chunk || size > bytes.size() - begin)
+  if (word_at(bytes, glb_header_bytes + 4) != json_chunk || size > bytes.size() - begin)
     fail(path, "byte 12: the first chunk is no whole JSON chunk; write the file again");
   Chunks chunks{bytes.substr(begin, size), std::nullopt};
   const std::size_t second = begin + size;
-  if (bytes.size() - second < chunk_header_bytes || little_endian_at(bytes, second + 4) != binary_chunk)
-    return chunks;
-  const std::size_t length = little_endian_at(bytes, second);
+  if (bytes.size() - second < chunk_header_bytes || word_at(bytes, second + 4) != binary_chunk) return chunks;
+  const std::size_t length = word_at(bytes, second);
   if (length > bytes.size() - second - chunk_header_bytes)
     fail(path, joined("byte ", second, ": the binary chunk is cut off; write the file again"));
   chunks.binary = bytes.substr(second + chunk_header_bytes, length);
@@ -77,7 +69,7 @@ bool has_scheme(std::string_view uri) {
 
 GltfDocument::GltfDocument(const std::filesystem::path& path) : path_(path) {
   const std::string bytes = read_bytes(path);
-  if (bytes.starts_with("glTF") && bytes.size() >= 8 && little_endian_at(bytes, 4) == 1) {
+  if (bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1) {
     is_version_1_ = true;
     return;
   }

@@ -218,7 +218,7 @@ class GltfMeshReader {
       influences.insert(at, {bone, weight});
   }
 
-  /// Where a primitive's vertices are among the body's.
+  /// The range of a primitive's vertices among those of the body.
   struct Vertices {
     std::uint32_t first = 0;
     std::size_t count = 0;

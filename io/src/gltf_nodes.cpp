@@ -74,7 +74,7 @@ class GltfNodeReader {
   }
 
  private:
-  /// Those that are no node's child.
+  /// Nodes that are no other node's child and were not read yet.
   [[nodiscard]] std::vector<std::uint64_t> other_roots() const {
     std::vector<bool> is_child(sources_.size(), false);
     for (const json& node : sources_)

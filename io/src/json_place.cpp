@@ -33,7 +33,7 @@ struct Mistake {
   std::string_view what;
 };
 
-/// What stopped the parser at `at`, if it is such a thing.
+/// Looks for such a mistake where the parser stopped, at `at`.
 std::optional<Mistake> common_mistake(std::string_view text, std::size_t at) {
   constexpr std::string_view comment = "a comment stands here, which JSON does not have; remove it";
   const auto char_at = [&](std::size_t index) { return index < text.size() ? text[index] : '\0'; };

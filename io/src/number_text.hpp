@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "file_bytes.hpp"
+
 namespace graze::io {
 
 /// The next word of `rest`, which is cut off it; empty at the end. Words are parted by blanks.
@@ -23,12 +25,11 @@ inline std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
-/// What a platform's printf writes for NaN and infinity, without a sign: `nan`, `nan(ind)`, `NaNQ`, `1.#IND`,
-/// `1.#QNAN0`, `inf`, `Infinity`, `1.#INF`. Nothing for another word.
+/// NaN or infinity from a word without a sign, as the printf of any platform writes them: `nan`, `nan(ind)`,
+/// `NaNQ`, `1.#IND`, `1.#QNAN0`, `inf`, `Infinity`, `1.#INF`. Nothing for another word.
 inline std::optional<double> not_finite_number(std::string_view word) {
-  std::string text;
-  for (const char c : word.substr(0, std::min<std::size_t>(word.size(), 64)))
-    text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  constexpr std::size_t longest = 64;
+  const std::string text = lower_case(word.substr(0, longest));
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (text == "inf" || text == "infinity") return infinity;

@@ -8,7 +8,7 @@
 
 namespace graze::io {
 
-/// What a reader makes of a file with nodes. Object i of `file` is body i of `rig`, posed as it stands while
+/// A file with nodes, as its reader gives it. Object i of `file` is body i of `rig`, posed as it stands while
 /// nothing plays.
 struct RiggedFile {
   RawFile file;

@@ -14,6 +14,7 @@
 #include "number_text.hpp"
 #include "raw_object.hpp"
 #include "text_lines.hpp"
+#include "vertex_text.hpp"
 
 namespace graze::io {
 namespace {
@@ -84,16 +85,7 @@ class ObjReader {
 
  private:
   void add_vertex(std::string_view rest) {
-    Eigen::Vector3d position;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const std::string_view word = next_word(rest);
-      const auto number = parse_number<double>(word);
-      if (!number)
-        fail(path_, line_,
-             joined("a vertex needs three numbers and has '", word, "' as number ", axis + 1,
-                    "; correct the line"));
-      position[axis] = *number;
-    }
+    const Eigen::Vector3d position = read_vertex(rest, path_, line_);
     if (positions_.size() + 1 >= Mesh::no_edge)
       fail(path_, line_, "the file has too many vertices; split it");
     positions_.push_back(position);

@@ -9,6 +9,7 @@
 #include "number_text.hpp"
 #include "raw_object.hpp"
 #include "text_lines.hpp"
+#include "vertex_text.hpp"
 
 namespace graze::io {
 namespace {
@@ -71,7 +72,7 @@ class OffReader {
     const OffHeader header = read_off_header(path_, lines_);
     RawSurface surface;
     for (std::uint64_t i = 0; i < header.vertex_count; ++i)
-      surface.positions.push_back(read_vertex(i, header));
+      surface.positions.push_back(next_vertex(i, header));
     for (std::uint64_t i = 0; i < header.face_count; ++i) read_face(i, header, surface);
     RawFile file;
     file.objects.push_back({"", std::move(surface)});
@@ -82,20 +83,10 @@ class OffReader {
   }
 
  private:
-  Eigen::Vector3d read_vertex(std::uint64_t index, const OffHeader& header) {
+  Eigen::Vector3d next_vertex(std::uint64_t index, const OffHeader& header) {
     std::string_view line = lines_.next();
     if (line.empty()) fail_end("vertex", index, header.vertex_count);
-    Eigen::Vector3d position;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const std::string_view word = next_word(line);
-      const auto number = parse_number<double>(word);
-      if (!number)
-        fail(path_, lines_.line(),
-             joined("a vertex needs three numbers and has '", word, "' as number ", axis + 1,
-                    "; correct the line"));
-      position[axis] = *number;
-    }
-    return position;
+    return read_vertex(line, path_, lines_.line());
   }
 
   void read_face(std::uint64_t index, const OffHeader& header, RawSurface& surface) {

@@ -14,6 +14,7 @@
 #include "number_text.hpp"
 #include "raw_object.hpp"
 #include "text_lines.hpp"
+#include "vertex_text.hpp"
 #include "weld.hpp"
 
 namespace graze::io {
@@ -22,12 +23,6 @@ namespace {
 constexpr std::size_t header_size = 80;
 constexpr std::size_t first_face = 84;
 constexpr std::size_t face_size = 50;
-
-std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i > 0; --i) word = (word << 8U) | static_cast<unsigned char>(bytes[offset + i - 1]);
-  return word;
-}
 
 /// A surface whose vertices are given face by face.
 class Soup {
@@ -53,13 +48,6 @@ class Soup {
   RawSurface surface_;
 };
 
-std::string lower(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 /// Faces that would fit into the bytes behind the header.
 std::uint64_t faces_there(std::string_view bytes) {
   return (bytes.size() - first_face) / face_size;
@@ -70,7 +58,7 @@ std::uint64_t faces_there(std::string_view bytes) {
 bool is_text(std::string_view bytes) {
   std::string_view start = bytes.substr(0, 1024);
   if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
-  if (lower(next_word(start)) != "solid") return false;
+  if (lower_case(next_word(start)) != "solid") return false;
   if (bytes.size() >= first_face &&
       first_face + face_size * std::uint64_t{word_at(bytes, header_size)} == bytes.size())
     return false;
@@ -120,7 +108,7 @@ class TextReader {
   RawFile read() {
     while (!lines_.at_end()) {
       std::string_view rest = lines_.next();
-      read_line(lower(next_word(rest)), rest);
+      read_line(lower_case(next_word(rest)), rest);
     }
     if (is_in_solid_)
       fail(path_, lines_.line(),
@@ -142,7 +130,7 @@ class TextReader {
       corners_ = 0;
     else if (word == "endloop")
       end_loop();
-    else if (word == "endsolid" || (word == "end" && lower(next_word(rest)) == "solid"))
+    else if (word == "endsolid" || (word == "end" && lower_case(next_word(rest)) == "solid"))
       end_solid();
     else if (word != "facet" && word != "endfacet" && !word.empty())
       fail(path_, lines_.line(), joined("'", word, "' is no word of an STL file; correct the line"));
@@ -156,17 +144,7 @@ class TextReader {
   }
 
   void add_vertex(std::string_view rest) {
-    Eigen::Vector3d vertex;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const std::string_view word = next_word(rest);
-      const auto number = parse_number<double>(word);
-      if (!number)
-        fail(path_, lines_.line(),
-             joined("a vertex needs three numbers and has '", word, "' as number ", axis + 1,
-                    "; correct the line"));
-      vertex[axis] = *number;
-    }
-    soup_.add(vertex);
+    soup_.add(read_vertex(rest, path_, lines_.line()));
     ++corners_;
   }
 

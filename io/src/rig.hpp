@@ -19,7 +19,7 @@ template <typename Value>
 struct Track {
   std::vector<double> seconds;
   std::vector<Value> values;
-  /// Of cubic tracks: the slopes by the second before and after each key.
+  /// The slopes before and after each key, by the second. Only cubic tracks have them.
   std::vector<Value> in_tangents;
   std::vector<Value> out_tangents;
   Interpolation interpolation = Interpolation::linear;
@@ -84,7 +84,7 @@ struct Rig {
   std::vector<Body> bodies;
 };
 
-/// Where a body's vertices are at `seconds` of `clip`, or while nothing plays (null).
+/// Computes a body's vertices at `seconds` of `clip`, or while nothing plays (null).
 void pose(const Rig& rig, const Body& body, const Clip* clip, double seconds,
           std::vector<Eigen::Vector3d>& positions);
 

@@ -18,13 +18,6 @@ constexpr std::size_t pc2_header_bytes = 32;
 constexpr std::size_t mdd_header_bytes = 8;
 constexpr std::size_t position_bytes = 3 * sizeof(float);
 
-std::uint32_t word_at(std::span<const char> bytes, std::size_t offset, bool is_big_endian) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    word = (word << 8U) | static_cast<unsigned char>(bytes[offset + (is_big_endian ? i : 3 - i)]);
-  return word;
-}
-
 struct CacheHeader {
   bool is_big_endian = false;
   std::uint32_t vertex_count = 0;
@@ -37,8 +30,8 @@ CacheHeader read_header(const std::filesystem::path& path) {
   CacheHeader header;
   if (std::string_view(bytes).starts_with(pc2_signature)) {
     if (bytes.size() < pc2_header_bytes) fail(path, "the PC2 header is cut off; write the file again");
-    header.vertex_count = word_at(bytes, 16, false);
-    header.frame_count = word_at(bytes, 28, false);
+    header.vertex_count = word_at(bytes, 16);
+    header.frame_count = word_at(bytes, 28);
     header.first_frame = pc2_header_bytes;
     return header;
   }
@@ -89,7 +82,8 @@ class VertexCache : public PositionSource {
     for (std::size_t vertex = 0; vertex < positions.size(); ++vertex)
       for (std::size_t axis = 0; axis < 3; ++axis)
         positions[vertex][static_cast<Eigen::Index>(axis)] = static_cast<double>(std::bit_cast<float>(
-            word_at(bytes_, vertex * position_bytes + axis * sizeof(float), header_.is_big_endian)));
+            word_at({bytes_.data(), bytes_.size()}, vertex * position_bytes + axis * sizeof(float),
+                    header_.is_big_endian)));
   }
 
  private:

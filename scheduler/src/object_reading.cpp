@@ -133,7 +133,7 @@ Looked survey_pose(Object& object) {
   return {false, true, std::nullopt};
 }
 
-/// What became of an object whose surface was given its pose.
+/// Takes up a pose that the surface was given, or refuses it.
 Looked take_pose(Object& object, const Surface::ReadResult& result) {
   if (!result.taken()) return refuse_pose(object, result.bad_vertex, result.bad_position);
   object.moved = result.changed;

@@ -144,7 +144,8 @@ class ObjectStore {
   /// Those that are there after `read_positions`; ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
   [[nodiscard]] Object* find(ObjectId id);
-  /// Those removed since `forget_departed`, in the order of their ids once `read_positions` has returned.
+  /// The objects removed since `forget_departed`. They are in the order of their ids once `read_positions`
+  /// has returned.
   [[nodiscard]] std::span<const DepartedObject> departed() const { return departed_; }
   /// After a report that names the pairs that they ended.
   void forget_departed() noexcept { departed_.clear(); }

@@ -41,9 +41,9 @@ struct PairJob {
   [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }
 };
 
-/// Rows of the last report that stand as they are in this one, before a job's; or one that ended since one of
-/// its objects was removed.
-struct RestingRows {
+/// Rows of the last report that this one has too, before a job's: some that rest and stand as they are, or
+/// one of which an object was removed, and which ends.
+struct LastRows {
   std::size_t job;
   std::uint32_t listed;  ///< the first, among the pairs that the last report lists
   std::uint32_t row;     ///< the first
@@ -54,8 +54,8 @@ struct RestingRows {
 /// What is to be done and said about the pairs of a scene, in the order of addition of a, then b.
 struct PairList {
   std::span<const PairJob> jobs;
-  std::span<const RestingRows> resting;  ///< ascending by the job they stand before
-  std::size_t pair_count = 0;            ///< of all pairs with a memory
+  std::span<const LastRows> last_rows;  ///< ascending by the job they stand before
+  std::size_t pair_count = 0;           ///< of all pairs with a memory
 };
 
 }  // namespace graze

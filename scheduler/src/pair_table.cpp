@@ -29,7 +29,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   // Those counted so far rest, and have no job.
   const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
   count_jobs(statistics);
-  return {jobs_, resting_, pair_count};
+  return {jobs_, last_rows_, pair_count};
 }
 
 /// The pairs that the last report lists, by the places that their objects have now.
@@ -68,7 +68,7 @@ void PairTable::find_ended(const FrameReport& previous) {
   }
 }
 
-/// Of an object that is there or was in the last report.
+/// Object::serial, also of an object that was removed since the last report.
 std::uint64_t PairTable::serial_of(ObjectId id) {
   if (const Object* const object = store_.find(id)) return object->serial;
   return std::lower_bound(store_.departed().begin(), store_.departed().end(), id,
@@ -79,7 +79,7 @@ std::uint64_t PairTable::serial_of(ObjectId id) {
 /// Has the rows of ended pairs that come before a pair stand before what is listed next.
 void PairTable::list_ended(SerialPair before) {
   for (; ended_listed_ < ended_.size() && ended_[ended_listed_].pair < before; ++ended_listed_)
-    resting_.push_back({jobs_.size(), 0, ended_[ended_listed_].row, 1, true});
+    last_rows_.push_back({jobs_.size(), 0, ended_[ended_listed_].row, 1, true});
 }
 
 void PairTable::begin_rows(std::uint64_t frame) {
@@ -87,11 +87,11 @@ void PairTable::begin_rows(std::uint64_t frame) {
   row_count_ = 0;
   rows_frame_ = frame;
   std::size_t most = jobs_.size();
-  for (const RestingRows& rows : resting_) most += rows.count;
+  for (const LastRows& rows : last_rows_) most += rows.count;
   rows_.reserve(most);
 }
 
-void PairTable::add_rows(const RestingRows& rows) {
+void PairTable::add_rows(const LastRows& rows) {
   for (std::uint32_t i = 0; i < rows.count; ++i) add_row(listed_[rows.listed + i].pair);
 }
 
@@ -128,7 +128,7 @@ void PairTable::read_what_is_near(std::span<const PlacePair> pairs, TaskPool& ta
 
 void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous) {
   jobs_.clear();
-  resting_.clear();
+  last_rows_.clear();
   jobs_.reserve(selected.size());  // no more than that: with millions of pairs half as much again is felt
   for (std::size_t i = 0; i < selected.size(); ++i) {
     if (i + ahead < selected.size()) selection_.prefetch(selected[i + ahead]);
@@ -136,7 +136,7 @@ void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameRep
     if (ended_listed_ < ended_.size())
       list_ended({summaries_[first_of(each.pair)].serial, summaries_[second_of(each.pair)].serial});
     if (each.kind == SelectedPair::Kind::resting) {
-      resting_.push_back({jobs_.size(), each.listed, listed_[each.listed].row, each.count});
+      last_rows_.push_back({jobs_.size(), each.listed, listed_[each.listed].row, each.count});
       continue;
     }
     PairJob job = job_of(each, previous);
@@ -206,7 +206,7 @@ void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemory
   broad_phase_.reserve(objects, pairs);
   selection_.reserve(pairs, room);
   jobs_.reserve(pairs);
-  resting_.reserve(pairs);
+  last_rows_.reserve(pairs);
   listed_.reserve(pairs);
   rows_.reserve(pairs);
   ended_.reserve(pairs);
@@ -215,7 +215,7 @@ void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemory
 
 std::size_t PairTable::byte_count() const {
   return filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
-         selection_.byte_count() + bytes_of(jobs_) + bytes_of(resting_) + bytes_of(listed_) +
+         selection_.byte_count() + bytes_of(jobs_) + bytes_of(last_rows_) + bytes_of(listed_) +
          bytes_of(rows_) + bytes_of(ended_) + bytes_of(wanted_);
 }
 

@@ -32,7 +32,7 @@ class PairTable {
   /// Begins to be told which pairs a report lists, in its order.
   void begin_rows(std::uint64_t frame);
   void add_row(const PairJob& job) { add_row(job.places); }
-  void add_rows(const RestingRows& rows);
+  void add_rows(const LastRows& rows);
   /// A row that the next step has nothing to say about.
   void pass_row() { ++row_count_; }
 
@@ -74,7 +74,7 @@ class PairTable {
   BroadPhase broad_phase_;
   PairSelection selection_;
   std::vector<PairJob> jobs_;
-  std::vector<RestingRows> resting_;
+  std::vector<LastRows> last_rows_;
   std::vector<ListedPair> listed_;  ///< by the last report
   std::vector<ListedPair> rows_;    ///< by the report of `rows_frame_`
   std::uint64_t rows_frame_ = 0;

@@ -28,8 +28,8 @@ inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& 
   return std::nullopt;
 }
 
-/// What keeps a 4x4 matrix from being a pose: also a last row that is not (0, 0, 0, 1). The rounding of an
-/// inverse in float is let pass.
+/// Says why a 4x4 matrix is not a pose. Nothing for a good one. Its last row is (0, 0, 0, 1), but for what
+/// the inverse of a float matrix is rounded by.
 inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows,
                                                   const std::array<double, 4>& last_row) {
   constexpr double furthest = 1e-6;

@@ -185,13 +185,16 @@ void Step::write_pairs(const PairList& list, const FrameReport& previous, Report
   rows_again_ = 0;
   contacts_.begin();
   pairs_.begin_rows(builder.frame());
-  auto resting = list.resting.begin();
+  auto rows = list.last_rows.begin();
+  const auto write_rows_before = [&](std::size_t job) {
+    for (; rows != list.last_rows.end() && rows->job == job; ++rows)
+      rows->ended ? end_pair(previous.pairs()[rows->row], builder) : repeat_pairs(*rows, previous, builder);
+  };
   for (std::size_t index = 0; index < list.jobs.size(); ++index) {
-    for (; resting != list.resting.end() && resting->job == index; ++resting)
-      repeat_pairs(*resting, previous, builder);
+    write_rows_before(index);
     write_pair(list.jobs[index], index, previous, builder);
   }
-  for (; resting != list.resting.end(); ++resting) repeat_pairs(*resting, previous, builder);
+  write_rows_before(list.jobs.size());
   if (std::vector<Contact>* const longest = jobs_.longest_list()) contacts_.take(*longest, builder);
   contacts_.write(tasks_, builder.contacts(), builder.frame());
   is_settled_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
@@ -238,8 +241,7 @@ void Step::end_pair(PairReport row, ReportBuilder& builder) {
 }
 
 /// Rows of the last report, with all that belongs to them.
-void Step::repeat_pairs(const RestingRows& resting, const FrameReport& previous, ReportBuilder& builder) {
-  if (resting.ended) return end_pair(previous.pairs()[resting.row], builder);
+void Step::repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
   const auto rows = previous.pairs().subspan(resting.row, resting.count);
   const PairReport& first = rows.front();

@@ -37,7 +37,7 @@ class Step {
   void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
   void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);
   void end_pair(PairReport row, ReportBuilder& builder);
-  void repeat_pairs(const RestingRows& resting, const FrameReport& previous, ReportBuilder& builder);
+  void repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder);
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
   void even_out(Clock::time_point start);
   void sum_counters(StepStatistics& statistics);

@@ -203,9 +203,9 @@ TEST_CASE("2,000 objects in one place: memory bounded, degradation reported") {
       if (!row.complete && row.contact_count != 0) FAIL("contacts of a pair that is not complete");
     }
     CHECK(incomplete > 0);
-    // Less than a thousand bytes for every pair that is listed: its row in each of two reports, its job,
-    // memory and answer, all of which may have grown to more than is used; and a few thousand for every
-    // object.
+    // Less than a thousand bytes for every pair that is listed, and a few thousand for every object. A pair
+    // has a row in each of two reports, a job, a memory and an answer. All of these may have grown to more
+    // than is used.
     CHECK(bytes_of(statistics) <= report->pairs().size() * 999 + count * 4500 + 20'000'000);
     if (frame == 1) first_bytes = bytes_of(statistics);
     if (frame == 2) CHECK(bytes_of(statistics) <= first_bytes * 3 / 2);

@@ -31,7 +31,7 @@ class GltfBuffer {
 
   /// A glTF file of the buffer and of these further members of the document.
   [[nodiscard]] std::string gltf(const std::string& members) const;
-  /// The same with the buffer in a file of its own, whose bytes are `bytes()`.
+  /// A glTF file whose buffer is a file of its own, named by `uri`, with the bytes of `bytes()`.
   [[nodiscard]] std::string gltf(const std::string& members, const std::string& uri) const;
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
   [[nodiscard]] std::string glb(const std::string& members) const;

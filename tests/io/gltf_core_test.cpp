@@ -36,7 +36,8 @@ std::string refusal_of_gltf(const std::string& text) {
   return refusal_of(folder.write("file.gltf", text));
 }
 
-/// Where the triangle's vertices are when vertex i hangs on joint i with weights[i], the rest on joint 3.
+/// The positions of the triangle's vertices when vertex i hangs on joint i with weights[i], the rest on
+/// joint 3.
 std::vector<Eigen::Vector3d> hung(const std::array<double, 3>& weights) {
   std::vector<Eigen::Vector3d> expected;
   for (std::size_t i = 0; i < 3; ++i)
@@ -281,7 +282,7 @@ TEST_CASE("a required glTF extension that is not read is refused by its name") {
              Catch::Matchers::StartsWith("it requires EXT_meshopt_compression (meshopt), which is not read"));
   CHECK_THAT(refusal("ACME_magic"),
              Catch::Matchers::StartsWith("it requires the extension 'ACME_magic', which is not read"));
-  // What concerns the looks alone moves no vertex.
+  // An extension that concerns looks only is accepted.
   CHECK_THAT(refusal("KHR_texture_transform"), Catch::Matchers::StartsWith("there is no face in it"));
   // Compressed data that is not required has nothing beside it here.
   GltfBuffer buffer;

@@ -24,9 +24,9 @@ struct Golden {
   std::string_view scene;
   std::uint64_t hash;
 };
-/// Of 20 frames. In exact mode the contract fixes every bit of a report, so that a change of one of these is
-/// a change of an answer; but for the witness of surfaces that touch where distances alone are asked for,
-/// which follows the order of leaf pairs (docs/method.md, section 2).
+/// Hashes of 20 frames each. In exact mode the contract fixes every bit of a report, so a changed hash is a
+/// changed answer. One thing is not fixed: the witness of surfaces that touch, where distances alone are
+/// asked for. It follows the order of leaf pairs (docs/method.md, section 2).
 constexpr std::array<Golden, 5> golden = {{
     {"paths", 0xd408f6c0d8d3dc6eU},
     {"pile", 0x4f9c901d801cd595U},

@@ -158,7 +158,7 @@ TEST_CASE("a bad pose leaves its object's pairs as they were until a good one co
   CHECK(only_pair(*report).phase == PairPhase::touching);
   CHECK(only_pair(*report).distance.upper == 0.25);
   CHECK(report->contacts().size() == 1);
-  // What the other object does changes nothing.
+  // The other object moves, and the stale row stays.
   pair.scene.set_pose(pair.plate, lift_pose(-10));
   CHECK(only_pair(*pair.scene.step()).distance.upper == 0.25);
   SECTION("another one") {

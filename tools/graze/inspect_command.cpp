@@ -16,7 +16,8 @@
 namespace graze::tools {
 namespace {
 
-/// What the file says of its axes and unit. A mesh file is never converted; a scene file may ask for it.
+/// A line about the axes and the unit that the file states. A mesh file is never converted; a scene file may
+/// ask for it.
 std::string frame_line(const io::FileFrame& frame) {
   std::string said = frame.up ? *frame.up + " up" : "";
   if (frame.metres_per_unit)

@@ -34,7 +34,6 @@ int problem_of_writing(const fs::path& file) {
 
 void check_output_file(const std::string& option, const fs::path& file) {
   std::error_code ignored;
-
   if (fs::is_directory(file, ignored)) refuse(option, file, "it is a folder; name a file in it");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored))

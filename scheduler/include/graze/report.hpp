@@ -14,9 +14,9 @@
 
 namespace graze {
 
-/// What has happened between two steps: `near` is not in contact, `began` is in contact and was not,
-/// `touching` is and was, `ended` is not and was. Every contact that began ends in one row: also where an
-/// object is removed, or the pair is taken out by a filter.
+/// Whether a pair is in contact, and was in the report before: `near` is not in contact, `began` is and was
+/// not, `touching` is and was, `ended` is not and was. Every contact that began ends in one row: also where
+/// an object is removed, or the pair is taken out by a filter.
 enum class PairPhase : std::uint8_t { near, began, touching, ended };
 
 /// One listed pair of objects; a was added before b.
@@ -35,7 +35,7 @@ struct PairReport {
   /// There are more contacts than SceneSettings::max_contacts or max_contacts_per_pair let be listed: the
   /// nearest are. All else is said of all.
   bool contacts_cut = false;
-  /// Of a pair that ended because an object was removed, the bounds and the witness of the last report.
+  /// A pair that ended because an object was removed has the bounds and the witness of the report before.
   DistanceBounds distance;
   Witness witness;
   std::size_t first_contact = 0;  ///< into FrameReport::contacts()

@@ -136,8 +136,9 @@ class GRAZE_API Scene {
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
 
   /// Makes room ahead of time: for calls at once, for all else in the next step. Calls and steps that need no
-  /// more than that take no memory from the allocator, the first contacts included; but for pairs of two
-  /// surfaces of 4,096 vertices or more, more than 4,096 pairs of objects about one place, and diagnostics.
+  /// more than that take no memory from the allocator, the first contacts included. Three things still do:
+  /// pairs of two surfaces of 4,096 vertices or more, more than 4,096 pairs of objects about one place, and
+  /// diagnostics.
   void reserve(const SceneCapacity& capacity);
 
   /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
