@@ -25,7 +25,7 @@ endfunction()
 
 # The file's command in which mesh.cpp is compiled; ends at the next file.
 macro(find_mesh_command)
-  string(REGEX MATCH "\"command\": \"[^\n]*core/src/mesh\\.cpp" mesh_command "${commands}")
+  string(REGEX MATCH "\"command\": \"[^\n]*core/src/mesh/mesh\\.cpp" mesh_command "${commands}")
   expect("${mesh_command}" "mesh" "no command compiles mesh.cpp")
 endmacro()
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <graze/box.hpp>
 #include <limits>
 
+#include "core/base/box.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "core/pair/pair_counters.hpp"
+#include "core/search/pair_detector.hpp"
 #include "support/catch.hpp"
 
 namespace graze::tests {

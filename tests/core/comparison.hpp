@@ -1,13 +1,14 @@
 #pragma once
 
 #include <graze/mesh.hpp>
-#include <graze/pair_query.hpp>
-#include <graze/surface.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_query.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/comparison.hpp"
 #include "support/mesh_of.hpp"
 

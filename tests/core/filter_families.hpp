@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "feature_block.hpp"
-#include "filter_frame.hpp"
-#include "leaf_slab.hpp"
-#include "leaf_vertices.hpp"
+#include "leaves/feature_block.hpp"
+#include "leaves/filter_frame.hpp"
+#include "leaves/leaf_vertices.hpp"
 #include "support/random_scenes.hpp"
+#include "surface/leaf_slab.hpp"
 
 /// Features that are hard for float, and blocks of them as the kernels read them.
 namespace graze::tests {

@@ -12,7 +12,7 @@
 
 #include "core/filter_families.hpp"
 #include "core/nearest_places.hpp"
-#include "float_filter.hpp"
+#include "leaves/float_filter.hpp"
 #include "support/catch.hpp"
 
 namespace graze::tests {

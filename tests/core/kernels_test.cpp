@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "core/comparison.hpp"
+#include "core/pair/pair_answer.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 

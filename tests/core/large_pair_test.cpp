@@ -1,8 +1,6 @@
 // A pair that is cut into slices has the answer of one that is not, whoever runs the slices.
 
 #include <array>
-#include <graze/floating_point_scope.hpp>
-#include <graze/large_pair.hpp>
 #include <iostream>
 #include <limits>
 #include <numeric>
@@ -10,8 +8,15 @@
 #include <sstream>
 #include <string>
 
+#include "core/base/floating_point_scope.hpp"
 #include "core/comparison.hpp"
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_counters.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/large_pair.hpp"
+#include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 

@@ -1,21 +1,25 @@
 // What is remembered of the nearest points: never nearer than the surfaces are, and not to be seen in any
 // answer.
 
-#include "last_witness.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <graze/floating_point_scope.hpp>
 #include <limits>
 #include <vector>
 
+#include "core/base/floating_point_scope.hpp"
 #include "core/comparison.hpp"
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_counters.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
-#include "naming.hpp"
+#include "core/surface/surface.hpp"
+#include "names/naming.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"
+#include "walk/last_witness.hpp"
 
 namespace graze::tests {
 namespace {

@@ -1,16 +1,17 @@
 // A leaf's features are laid out from its vertices, each brought into the frame once; here every corner is
 // brought there by itself.
 
-#include "leaf_features.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
 #include <vector>
 
+#include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
-#include "naming.hpp"
+#include "core/surface/surface.hpp"
+#include "leaves/leaf_features.hpp"
+#include "names/naming.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
 
@@ -79,7 +80,7 @@ class Expected {
 };
 
 void check_leaf(const Surface& surface, const Region& leaf, const FilterFrame& frame, LeafVertices& corners) {
-  const Mesh& mesh = surface.mesh();
+  const IndexedMesh& mesh = surface.mesh();
   const RegionTree& tree = mesh.regions();
   LeafFeatures all;
   all.collect(surface, leaf, frame, corners);
@@ -110,7 +111,7 @@ TEST_CASE("leaf features: each corner is what it is by itself in the frame, what
     // A vertex that float does not reach, in every other scene.
     if (seed % 2 == 1) shape.positions[mesh->face(7)[0]].y() = 1e9;
     surface.set_positions(shape.positions);
-    for (const Region& region : mesh->regions().regions()) {
+    for (const Region& region : indexed(*mesh).regions().regions()) {
       if (!region.is_leaf()) continue;
       Box box;
       box.add(Vector3d(0.1, 0.2, 0.3));

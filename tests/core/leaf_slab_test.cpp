@@ -1,17 +1,17 @@
 // Slabs of leaves, in long double: what they are to hold, and that leaves which they say to be apart are.
 
-#include "leaf_slab.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
-#include "made_of_leaves.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"
+#include "surface/leaf_slab.hpp"
+#include "surface/made_of_leaves.hpp"
 
 namespace graze::tests {
 namespace {

@@ -1,8 +1,6 @@
 // Listed vertices are brought into a frame as one by one: bit for bit, for every instruction set, from floats
 // and from doubles.
 
-#include "listed_vertices.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,6 +9,8 @@
 #include <vector>
 
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
+#include "leaves/listed_vertices.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
 #include "support/random_scenes.hpp"

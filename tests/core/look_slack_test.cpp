@@ -2,12 +2,16 @@
 // shows in no answer: each is that of a query that knows nothing of the steps before.
 
 #include <array>
-#include <graze/floating_point_scope.hpp>
-#include <graze/pair_query.hpp>
 #include <iostream>
 
+#include "core/base/floating_point_scope.hpp"
 #include "core/comparison.hpp"
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_counters.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 

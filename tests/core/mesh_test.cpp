@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/comparison.hpp"
+#include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 
@@ -184,7 +185,7 @@ TEST_CASE("mesh: a vertex that no face uses may hold anything") {
   const auto mesh = Mesh::from_triangles(rest, std::vector<std::array<std::uint32_t, 3>>{{1, 2, 4}});
   CHECK(mesh.vertex_count() == 6);
   CHECK(std::isnan(mesh.rest()[0].x()));
-  CHECK(listed(mesh.regions().vertices()) == Numbers{1, 2, 4});
+  CHECK(listed(indexed(mesh).regions().vertices()) == Numbers{1, 2, 4});
   for (const std::uint32_t unused : {0U, 3U, 5U}) CHECK_FALSE(mesh.is_used(unused));
 }
 
@@ -259,7 +260,7 @@ TEST_CASE("mesh: its bytes count what it holds") {
   const auto small = mesh_of(box({0, 0, 0}, {1, 1, 1}));
   const auto large = mesh_of(shape_of(models::torus()));
   CHECK(small->byte_count() > sizeof(Mesh) + 8 * sizeof(Vector3d));
-  CHECK(large->byte_count() > sizeof(Mesh) + 768 * sizeof(Vector3d) + large->regions().byte_count());
+  CHECK(large->byte_count() > sizeof(Mesh) + 768 * sizeof(Vector3d) + indexed(*large).regions().byte_count());
 }
 
 }  // namespace graze::tests

@@ -1,11 +1,10 @@
 // NameSet holds what a std::set would.
 
-#include "name_set.hpp"
-
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "names/name_set.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 

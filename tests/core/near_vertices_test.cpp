@@ -1,22 +1,26 @@
 // Pairs of vertices, and the closest ones, of surfaces that meet in one place, of those that lie along each
 // other, small and large, far away and of any scale, beside going through all pairs.
 
-#include "near_vertices.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <graze/instruction_set.hpp>
-#include <graze/large_pair.hpp>
 #include <iostream>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/comparison.hpp"
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_counters.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/large_pair.hpp"
+#include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
+#include "vertices/near_vertices.hpp"
 
 namespace graze::tests {
 namespace {

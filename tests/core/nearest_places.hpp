@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "certain.hpp"
+#include "arithmetic/certain.hpp"
 #include "support/exact.hpp"
 
 /// Where the closest points of two features lie, in rational arithmetic.

@@ -1,10 +1,10 @@
 // Positions as programs keep them: each form gives the same points as a plain list of them.
 
 #include <graze/position_view.hpp>
-#include <graze/surface.hpp>
 #include <limits>
 #include <vector>
 
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
 #include "support/random_scenes.hpp"

@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <graze/box.hpp>
-#include <graze/region_tree.hpp>
-#include <graze/surface.hpp>
 #include <iostream>
 #include <limits>
 #include <tuple>
 
+#include "core/base/box.hpp"
 #include "core/comparison.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/mesh/region_tree.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 
@@ -97,7 +98,7 @@ bool same(const Box& box, const Box& other) {
 /// Radii and boxes at `now` against recomputation; radii are sums of three squares, so a few 2^-53 off.
 void check_bounds(const Surface& surface, const std::vector<oracle::OracleRegion>& expected,
                   const std::vector<Listed>& regions, const std::vector<Vector3d>& now) {
-  const Mesh& mesh = surface.mesh();
+  const IndexedMesh& mesh = surface.mesh();
   const RegionTree& tree = mesh.regions();
   const auto near = [](double value, double truth) { return std::abs(value - truth) <= truth * 0x1p-50; };
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -186,7 +187,7 @@ TEST_CASE("regions: 30 vertices are a leaf, 31 are not") {
 TEST_CASE("regions: a thousand vertices in one point are one leaf") {
   const std::vector<Vector3d> heap(1000, Vector3d(0.1, 0.2, 0.3));
   CHECK(check_tree(points(heap)) == 1);
-  CHECK(mesh_of(points(heap))->regions().region(0).middle == 0);
+  CHECK(indexed(*mesh_of(points(heap))).regions().region(0).middle == 0);
   std::vector<Vector3d> beside = heap;
   beside.emplace_back(1, 1, 1);
   CHECK(check_tree(points(beside)) == 3);
@@ -198,7 +199,7 @@ TEST_CASE("regions: vertices that only the deepest level would part end there") 
   clusters.emplace_back(1, 0.5, 0.25);
   check_tree(points(clusters));
   const auto mesh = mesh_of(points(clusters));
-  const RegionTree& tree = mesh->regions();
+  const RegionTree& tree = indexed(*mesh).regions();
   CHECK(tree.level_count() == RegionTree::max_level + 1);
   CHECK(tree.region(tree.level_begin(RegionTree::max_level)).vertex_count == 40);
 }
@@ -229,18 +230,18 @@ TEST_CASE("regions: middle vertices decide ties exactly, for the lowest number")
     std::reverse(pair.begin(), pair.end());
     check_tree(points(pair));
   }
-  CHECK(mesh_of(points({{1, 0, 0}, {-1, 0, 0}}))->regions().region(0).middle == 0);
-  CHECK(mesh_of(points({{3, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}))->regions().region(0).middle == 1);
+  CHECK(indexed(*mesh_of(points({{1, 0, 0}, {-1, 0, 0}}))).regions().region(0).middle == 0);
+  CHECK(indexed(*mesh_of(points({{3, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}))).regions().region(0).middle == 1);
 }
 
 TEST_CASE("regions: a moved mesh has the same tree") {
   for (const NamedShape& model : paper_models()) {
     INFO(model.name);
     const oracle::Shape rest = snapped(model.shape, 0x1p-12);
-    const auto regions = listed(mesh_of(rest)->regions());
+    const auto regions = listed(indexed(*mesh_of(rest)).regions());
     for (const double far : {0x1p10, 0x1p20, 0x1p40}) {
       const auto moved = mesh_of(mapped(rest, 1, {far, -far, far / 2}));
-      const auto after = listed(moved->regions());
+      const auto after = listed(indexed(*moved).regions());
       REQUIRE(after.size() == regions.size());
       for (std::size_t i = 0; i < regions.size(); ++i)
         CHECK(std::tie(after[i].vertices, after[i].middle, after[i].index) ==

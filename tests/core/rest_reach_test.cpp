@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <graze/mesh.hpp>
-#include <graze/rest_reach.hpp>
 
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/mesh/rest_reach.hpp"
 #include "models/models.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
@@ -26,7 +27,7 @@ Eigen::Vector3d placed(const Rows& rows, const Eigen::Vector3d& p) {
 
 Box box_of(const Mesh& mesh, const Rows& rows) {
   Box box;
-  for (const std::uint32_t vertex : mesh.regions().vertices()) box.add(placed(rows, mesh.rest()[vertex]));
+  for (const std::uint32_t vertex : indexed(mesh).regions().vertices()) box.add(placed(rows, mesh.rest()[vertex]));
   return box;
 }
 
@@ -62,16 +63,16 @@ TEST_CASE("the box from a pose holds all used vertices, wherever and however str
     for (const bool is_any : {false, true})
       for (int i = 0; i < 20; ++i) {
         const Rows rows = random_rows(random, is_any);
-        const Box box = mesh->rest_reach().box_at(rows);
+        const Box box = indexed(*mesh).rest_reach().box_at(rows);
         const Box truth = box_of(*mesh, rows);
         REQUIRE((box.min.array() <= truth.min.array()).all());
         REQUIRE((box.max.array() >= truth.max.array()).all());
         const Rows then = random_rows(random, is_any);
         double moved = 0;
-        for (const std::uint32_t vertex : mesh->regions().vertices())
+        for (const std::uint32_t vertex : indexed(*mesh).regions().vertices())
           moved = std::max(moved,
                            (placed(rows, mesh->rest()[vertex]) - placed(then, mesh->rest()[vertex])).norm());
-        REQUIRE(mesh->rest_reach().motion_between(then, rows) >= moved);
+        REQUIRE(indexed(*mesh).rest_reach().motion_between(then, rows) >= moved);
       }
   }
 }
@@ -84,7 +85,7 @@ TEST_CASE("the box from a pose of a sphere is a hundredth and a half too large a
   for (int i = 0; i < 300; ++i) {
     Rows rows = random_rows(random, false);
     for (const std::size_t axis : {0U, 1U, 2U}) rows[4 * axis + 3] = 0;
-    const Box box = mesh.rest_reach().box_at(rows);
+    const Box box = indexed(mesh).rest_reach().box_at(rows);
     const Box truth = box_of(mesh, rows);
     CHECK((truth.min - box.min).maxCoeff() < 0.02);
     CHECK((box.max - truth.max).maxCoeff() < 0.02);

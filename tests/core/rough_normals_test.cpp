@@ -1,8 +1,6 @@
 // Beside the same sums in long double, with every instruction set. The sides of whole contacts are in
 // normals_test.cpp.
 
-#include "rough_normals.hpp"
-
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -12,6 +10,8 @@
 
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
+#include "measure/rough_normals.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <graze/instruction_set.hpp>
-#include <graze/surface.hpp>
 #include <iostream>
 #include <limits>
 #include <tuple>
 #include <vector>
 
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
 #include "support/random_scenes.hpp"

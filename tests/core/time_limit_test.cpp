@@ -2,12 +2,17 @@
 
 #include <array>
 #include <chrono>
-#include <graze/floating_point_scope.hpp>
-#include <graze/large_pair.hpp>
 #include <limits>
 
+#include "core/base/floating_point_scope.hpp"
 #include "core/comparison.hpp"
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_counters.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/large_pair.hpp"
+#include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 

@@ -1,13 +1,13 @@
 // The order in which pairs of leaves are asked whether they touch, against its own definition.
 
-#include "touching_order.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "support/catch.hpp"
+#include "walk/touching_order.hpp"
 
 namespace graze::tests {
 namespace {

@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "core/comparison.hpp"
+#include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
+#include "core/surface/surface.hpp"
 #include "kernels/filter.hpp"
 #include "kernels/positions.hpp"
-#include "passes_for.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
 #include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
+#include "surface/passes_for.hpp"
 
 namespace graze::tests {
 namespace {
@@ -126,7 +128,7 @@ TEST_CASE("vertex blocks: each used vertex is in one block, whose vertices are n
     std::vector<std::uint32_t> used;
     for (std::uint32_t vertex = 0; vertex < mesh->vertex_count(); ++vertex)
       if (mesh->is_used(vertex)) used.push_back(vertex);
-    std::vector<std::uint32_t> order(mesh->block_order().begin(), mesh->block_order().end());
+    std::vector<std::uint32_t> order(indexed(*mesh).block_order().begin(), indexed(*mesh).block_order().end());
     std::sort(order.begin(), order.end());
     CHECK(order == used);
   }
@@ -138,7 +140,7 @@ TEST_CASE("vertex blocks: each used vertex is in one block, whose vertices are n
     shuffled[i] = i;
     std::swap(shuffled[i], shuffled[random.below(i + 1)]);
   }
-  const std::vector<std::uint32_t> order(sphere->block_order().begin(), sphere->block_order().end());
+  const std::vector<std::uint32_t> order(indexed(*sphere).block_order().begin(), indexed(*sphere).block_order().end());
   CHECK(sides_of(*sphere, order) < 0.25 * sides_of(*sphere, shuffled));
 }
 
@@ -199,15 +201,15 @@ TEST_CASE("vertex stretches: boxes are those of their vertices") {
 
 TEST_CASE("vertex stretches: a large mesh lists the groups of blocks that each is in") {
   const auto mesh = mesh_of(shape_of(models::torus(160, 70, 0.7, 0.3)));
-  REQUIRE(mesh->has_stretches());
+  REQUIRE(indexed(*mesh).has_stretches());
   std::vector<std::vector<std::uint32_t>> expected(mesh->vertex_count() / VertexStretches::stretch_size + 1);
   for (std::uint32_t place = 0; place < mesh->vertex_count(); ++place)
-    expected[mesh->block_order()[place] / VertexStretches::stretch_size].push_back(
+    expected[indexed(*mesh).block_order()[place] / VertexStretches::stretch_size].push_back(
         place / (VertexBlocks::block_size * VertexBlocks::group_size));
   for (std::uint32_t stretch = 0; stretch * VertexStretches::stretch_size < mesh->vertex_count(); ++stretch) {
     auto& groups = expected[stretch];
     groups.erase(std::unique(groups.begin(), groups.end()), groups.end());  // places ascend
-    const auto listed = mesh->stretch_groups(stretch);
+    const auto listed = indexed(*mesh).stretch_groups(stretch);
     CHECK(std::vector<std::uint32_t>(listed.begin(), listed.end()) == groups);
   }
   CHECK_FALSE(mesh_of(shape_of(models::sphere(80, 60)))->has_stretches());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/comparison.hpp"
+#include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 
@@ -17,7 +18,7 @@ using Numbers = std::vector<std::uint32_t>;
 using Turn = std::array<std::uint32_t, 2>;
 
 Numbers fans_of(const Mesh& mesh, std::uint32_t vertex) {
-  const auto fans = mesh.vertex_fans(vertex);
+  const auto fans = indexed(mesh).vertex_fans(vertex);
   return {fans.begin(), fans.end()};
 }
 

@@ -1,7 +1,7 @@
 // The conversion of what assimp hands over, down to meshes and animated positions: a scene in memory is built
 // from the bytes, and no file is read.
 
-#include "assimp_scene.hpp"
+#include "assimp/assimp_scene.hpp"
 #include "assimp_scene_builder.hpp"
 #include "byte_reader.hpp"
 #include "finding.hpp"

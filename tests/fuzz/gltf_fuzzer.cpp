@@ -3,9 +3,9 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
-#include "gltf_document.hpp"
+#include "gltf/gltf_document.hpp"
+#include "gltf/read_gltf.hpp"
 #include "input_folder.hpp"
-#include "read_gltf.hpp"
 #include "rig_checks.hpp"
 
 namespace graze::fuzz {

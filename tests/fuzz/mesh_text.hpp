@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "raw_object.hpp"
+#include "mesh/raw_object.hpp"
 
 namespace graze::fuzz {
 

@@ -8,8 +8,8 @@
 #include "byte_reader.hpp"
 #include "finding.hpp"
 #include "input_folder.hpp"
+#include "mesh/raw_object.hpp"
 #include "mesh_text.hpp"
-#include "raw_object.hpp"
 
 namespace graze::fuzz {
 namespace {

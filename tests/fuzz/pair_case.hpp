@@ -1,6 +1,8 @@
 #pragma once
 
-#include <graze/pair_query.hpp>
+#include <cstdint>
+#include <graze/accuracy.hpp>
+#include <graze/contact.hpp>
 #include <string>
 #include <vector>
 

@@ -3,6 +3,11 @@
 #include <graze/error.hpp>
 #include <optional>
 
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_counters.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/pair_detector.hpp"
+#include "core/surface/surface.hpp"
 #include "pair_case.hpp"
 #include "support/comparison.hpp"
 #include "support/mesh_of.hpp"

@@ -9,9 +9,9 @@
 #include "byte_reader.hpp"
 #include "finding.hpp"
 #include "input_folder.hpp"
-#include "report_builder.hpp"
+#include "report/report_builder.hpp"
+#include "report/statistics_fields.hpp"
 #include "report_meshes.hpp"
-#include "statistics_fields.hpp"
 
 namespace graze::fuzz {
 namespace {

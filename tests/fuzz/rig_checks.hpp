@@ -1,6 +1,6 @@
 #pragma once
 
-#include "read_assimp.hpp"
+#include "assimp/read_assimp.hpp"
 
 namespace graze::fuzz {
 

@@ -3,8 +3,8 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
+#include "formats/read_stl.hpp"
 #include "input_folder.hpp"
-#include "read_stl.hpp"
 
 namespace graze::fuzz {
 namespace {

@@ -2,14 +2,19 @@
 // the environment says how often.
 
 #include <cstdlib>
-#include <graze/pair_query.hpp>
 #include <iostream>
 #include <utility>
 
-#include "bounds.hpp"
 #include "core/comparison.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_counters.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/pair_detector.hpp"
+#include "core/surface/surface.hpp"
 #include "hard_cases/region_truth.hpp"
 #include "hard_cases/scene_comparison.hpp"
+#include "pair/bounds.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
 #include "support/random_scenes.hpp"
@@ -290,7 +295,7 @@ bool holds(const Box& box, const Vector3d& point) {
 
 /// Boxes hold every corner of what the regions own, and radii every vertex (exactly).
 void check_covers(const Surface& surface, std::uint64_t seed, Checks& checks) {
-  const Mesh& mesh = surface.mesh();
+  const IndexedMesh& mesh = surface.mesh();
   const RegionTree& tree = mesh.regions();
   for (std::uint32_t i = 0; i < tree.regions().size(); ++i) {
     const Region& region = tree.region(i);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <gmpxx.h>
-
-#include <graze/surface.hpp>
 #include <vector>
+
+#include "core/surface/surface.hpp"
 
 namespace graze::tests {
 

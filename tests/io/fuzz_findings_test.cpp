@@ -1,14 +1,13 @@
 // What the fuzzers of tests/fuzz found, and what was found while they were written.
 
 #include <assimp/scene.h>
-
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
 #include <graze/io/scene_file.hpp>
 
-#include "assimp_scene.hpp"
+#include "assimp/assimp_scene.hpp"
 #include "import_support.hpp"
-#include "statistics_fields.hpp"
+#include "report/statistics_fields.hpp"
 
 using namespace graze::tests;
 namespace io = graze::io;

@@ -6,12 +6,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <graze/large_pair.hpp>
 #include <iostream>
 #include <new>
 #include <optional>
 #include <thread>
 
+#include "core/search/large_pair.hpp"
 #include "scheduler/allocation_count.hpp"
 #include "scheduler/bobbing.hpp"
 #include "scheduler/scene_support.hpp"

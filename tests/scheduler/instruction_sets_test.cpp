@@ -1,9 +1,9 @@
 // The report is the same bit for bit, counters included, with the kernels of every instruction set.
 
 #include <graze/instruction_set.hpp>
-#include <graze/pair_query.hpp>
 #include <iostream>
 
+#include "core/pair/pair_query.hpp"
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "broad_phase.hpp"
-#include "pair_set.hpp"
+#include "broad_phase/broad_phase.hpp"
+#include "pairs/pair_set.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"

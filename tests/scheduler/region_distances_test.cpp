@@ -1,14 +1,15 @@
 // The distances of regions in a report (the paper's cd) against a plain walk of the trees.
 
 #include <algorithm>
-#include <graze/box.hpp>
-#include <graze/large_pair.hpp>
 #include <iostream>
 #include <set>
 #include <sstream>
 #include <string>
 #include <tuple>
 
+#include "core/base/box.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/search/large_pair.hpp"
 #include "models/models.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
@@ -20,11 +21,11 @@ using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  ///< level
 
 Box box_of(const Mesh& mesh, const Positions& positions, const Region& region, bool about_vertices) {
   Box box;
-  for (const std::uint32_t vertex : mesh.regions().vertices(region)) box.add(positions[vertex]);
+  for (const std::uint32_t vertex : indexed(mesh).regions().vertices(region)) box.add(positions[vertex]);
   if (about_vertices) return box;
-  for (const std::uint32_t face : mesh.regions().faces(region))
+  for (const std::uint32_t face : indexed(mesh).regions().faces(region))
     for (const std::uint32_t corner : mesh.face(face)) box.add(positions[corner]);
-  for (const std::uint32_t edge : mesh.regions().edges(region))
+  for (const std::uint32_t edge : indexed(mesh).regions().edges(region))
     for (const std::uint32_t end : mesh.edge(edge)) box.add(positions[end]);
   return box;
 }
@@ -32,7 +33,7 @@ Box box_of(const Mesh& mesh, const Positions& positions, const Region& region, b
 /// Eq. 2.
 double radius_of(const Mesh& mesh, const Positions& positions, const Region& region) {
   double radius = 0;
-  for (const std::uint32_t vertex : mesh.regions().vertices(region))
+  for (const std::uint32_t vertex : indexed(mesh).regions().vertices(region))
     radius = std::max(radius, (positions[vertex] - positions[region.middle]).norm());
   return radius;
 }
@@ -64,8 +65,8 @@ struct PlainWalk {
   }
 
   void visit(std::uint32_t index_a, std::uint32_t index_b) {
-    const Region& region_a = mesh_a.regions().region(index_a);
-    const Region& region_b = mesh_b.regions().region(index_b);
+    const Region& region_a = indexed(mesh_a).regions().region(index_a);
+    const Region& region_b = indexed(mesh_b).regions().region(index_b);
     const std::uint32_t level = std::max(region_a.level, region_b.level);
     if (level > 0 && !passes(region_a, region_b, level)) return;
     if (level > 0) alive.insert({level, index_a, index_b});
@@ -128,8 +129,8 @@ TEST_CASE("region distances: those of a plain walk, in every frame of a passage"
       CHECK(report->statistics().region_distances == distances.size());
       CHECK(report->statistics().region_distances_left_out == 0);
       for (const RegionDistance& line : distances) {
-        CHECK(line.vertex_a == mesh_a->regions().region(line.region_a).middle);
-        CHECK(line.vertex_b == mesh_b->regions().region(line.region_b).middle);
+        CHECK(line.vertex_a == indexed(*mesh_a).regions().region(line.region_a).middle);
+        CHECK(line.vertex_b == indexed(*mesh_b).regions().region(line.region_b).middle);
         CHECK(line.point_a == at_a[line.vertex_a]);
         CHECK(line.point_b == at_b[line.vertex_b]);
         CHECK(line.distance == Approx((line.point_b - line.point_a).norm()).epsilon(1e-14));

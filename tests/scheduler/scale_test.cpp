@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "broad_phase.hpp"
+#include "broad_phase/broad_phase.hpp"
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"

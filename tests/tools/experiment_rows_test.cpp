@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "core/mesh/indexed_mesh.hpp"
 #include "experiment/paper/contact_checks.hpp"
 #include "experiment/paper/feature_checks.hpp"
 #include "experiment/paper/human_parts.hpp"
@@ -189,9 +190,9 @@ TEST_CASE("vertices that leave their region's first epsilon are counted") {
   CHECK(none[0].vertices == rest.positions.size());
   CHECK(none[0].outside_own == 0);
   CHECK(none[0].furthest == 1);
-  const Region& region = still.mesh->regions().region(1);
-  std::uint32_t far = still.mesh->regions().vertices(region)[0];
-  if (far == region.middle) far = still.mesh->regions().vertices(region)[1];
+  const Region& region = indexed(*still.mesh).regions().region(1);
+  std::uint32_t far = indexed(*still.mesh).regions().vertices(region)[0];
+  if (far == region.middle) far = indexed(*still.mesh).regions().vertices(region)[1];
   moved[far] += Eigen::Vector3d(0, 0, 1000);
   const auto one =
       count_escapes({"moved", 1, {small_object(rest, {frame_of(rest.positions), frame_of(moved)})}});

@@ -1,5 +1,3 @@
-#include "json_text.hpp"
-
 #include <bit>
 #include <clocale>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "text/json_text.hpp"
 
 namespace {
 

@@ -2,17 +2,17 @@
 // above the true distance, by exact arithmetic; known distances are met; no near pair is lost on the way
 // down.
 
-#include <gmpxx.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <gmpxx.h>
 #include <graze/mesh.hpp>
 #include <limits>
 #include <numbers>
 #include <set>
 #include <vector>
 
+#include "core/mesh/indexed_mesh.hpp"
 #include "experiment/regions/bound_walk.hpp"
 #include "experiment/regions/near_vertices.hpp"
 #include "experiment/regions/partitions.hpp"
@@ -315,7 +315,7 @@ TEST_CASE("Partitions: every used vertex once, in leaves that are small enough")
 TEST_CASE("Partitions: the octree is the library's own") {
   const Mesh mesh = mesh_of(graze::models::pawn());
   const RegionHierarchy hierarchy(mesh, divide(mesh, Partition::octree));
-  const auto& tree = mesh.regions();
+  const auto& tree = indexed(mesh).regions();
   REQUIRE(hierarchy.nodes().size() == tree.region_count());
   CHECK(std::equal(tree.vertices().begin(), tree.vertices().end(), hierarchy.points(Cover::vertices).begin(),
                    hierarchy.points(Cover::vertices).end()));

@@ -1,11 +1,11 @@
-#include "mesh_summary.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/mesh/indexed_mesh.hpp"
+#include "mesh_summary.hpp"
 #include "text_format.hpp"
 
 namespace graze::tools {
@@ -58,7 +58,7 @@ std::string leaves_line(const RegionTree& tree) {
 
 /// Eq. 3 at rest: for each level the largest distance from a region's middle vertex to one of its vertices.
 std::string epsilon_line(const Mesh& mesh) {
-  const RegionTree& tree = mesh.regions();
+  const RegionTree& tree = indexed(mesh).regions();
   std::vector<double> epsilon(tree.level_count(), 0.0);
   for (const Region& region : tree.regions())
     for (const std::uint32_t vertex : tree.vertices(region))
@@ -84,10 +84,10 @@ std::string summarise_mesh(const Mesh& mesh, const std::string& indent) {
   lines += indent + "counts     " + counts_line(mesh) + "\n";
   lines += indent + "bounds     " + bounds_text(mesh.rest()) + "\n";
   lines += indent + "surface    " + oddities_line(mesh) + "\n";
-  lines += indent + "regions    " + levels_line(mesh.regions()) + leaves_line(mesh.regions()) + "\n";
+  lines += indent + "regions    " + levels_line(indexed(mesh).regions()) + leaves_line(indexed(mesh).regions()) + "\n";
   lines += indent + "epsilon    " + epsilon_line(mesh) + "\n";
   lines += indent + "memory     " +
-           format("%zu bytes, %zu of them regions, %.0f a vertex", bytes, mesh.regions().byte_count(),
+           format("%zu bytes, %zu of them regions, %.0f a vertex", bytes, indexed(mesh).regions().byte_count(),
                   static_cast<double>(bytes) / mesh.vertex_count()) +
            "\n";
   return lines;

@@ -1,13 +1,12 @@
 // What is done for each vertex of an object that moved, and tests of boxes; the rates are of vertices and of
 // boxes.
 
-#include <benchmark/benchmark.h>
-
 #include <Eigen/Core>
-#include <graze/surface.hpp>
+#include <benchmark/benchmark.h>
 #include <memory>
 #include <vector>
 
+#include "core/surface/surface.hpp"
 #include "models/models.hpp"
 #include "scenes/random.hpp"
 

@@ -5,15 +5,12 @@
 #include <concepts>
 #include <cstdint>
 #include <cstring>
-#include <graze/bytes_of.hpp>
 #include <graze/error.hpp>
 #include <graze/export.hpp>
-#include <graze/made_once.hpp>
 #include <graze/number_tuple.hpp>
 #include <graze/position_view.hpp>
-#include <graze/region_tree.hpp>
-#include <graze/rest_reach.hpp>
 #include <limits>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <string>
@@ -21,6 +18,8 @@
 #include <vector>
 
 namespace graze {
+
+class IndexedMesh;
 
 /// A vector, array or span of corners one after the other, as 32-bit integers.
 template <typename Range>
@@ -55,6 +54,9 @@ concept FacesOf = std::ranges::contiguous_range<Range> && std::ranges::sized_ran
 /// the surface: it is never read and may hold anything.
 class GRAZE_API Mesh {
  public:
+  Mesh(const Mesh&) = default;
+  Mesh& operator=(const Mesh&) = default;
+
   /// Stands in `face_edges` where two consecutive corners are the same vertex.
   static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 
@@ -101,99 +103,41 @@ class GRAZE_API Mesh {
     return from_polygons(rest, as_unsigned(corners), std::span<const std::uint32_t>(counts));
   }
 
-  [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_.size()); }
-  [[nodiscard]] std::uint32_t face_count() const { return face_count_; }
-  [[nodiscard]] std::uint32_t edge_count() const { return static_cast<std::uint32_t>(edges_.size()); }
+  [[nodiscard]] std::uint32_t vertex_count() const;
+  [[nodiscard]] std::uint32_t face_count() const;
+  [[nodiscard]] std::uint32_t edge_count() const;
 
   /// Rest positions, one for each vertex, unused ones included.
-  [[nodiscard]] std::span<const Eigen::Vector3d> rest() const { return rest_; }
+  [[nodiscard]] std::span<const Eigen::Vector3d> rest() const;
 
   /// A face's corners as they came: 3 or 4.
-  [[nodiscard]] std::span<const std::uint32_t> face(std::uint32_t index) const {
-    return of_face(corners_, index);
-  }
+  [[nodiscard]] std::span<const std::uint32_t> face(std::uint32_t index) const;
   /// The edge from each corner of a face to the next, `no_edge` where they are one vertex.
-  [[nodiscard]] std::span<const std::uint32_t> face_edges(std::uint32_t index) const {
-    return of_face(face_edges_, index);
-  }
+  [[nodiscard]] std::span<const std::uint32_t> face_edges(std::uint32_t index) const;
   /// An edge's two vertices, the lower first.
-  [[nodiscard]] std::array<std::uint32_t, 2> edge(std::uint32_t index) const { return edges_[index]; }
+  [[nodiscard]] std::array<std::uint32_t, 2> edge(std::uint32_t index) const;
 
   // The lists that follow are each made as a whole when one of them is first asked for, by any thread, since
   // few uses of a mesh need all of them.
 
   /// The vertices that share an edge with `vertex`, ascending.
-  [[nodiscard]] std::span<const std::uint32_t> vertex_neighbours(std::uint32_t vertex) const {
-    return neighbours().row(vertex);
-  }
+  [[nodiscard]] std::span<const std::uint32_t> vertex_neighbours(std::uint32_t vertex) const;
   /// The faces that use `vertex`, ascending, each once.
-  [[nodiscard]] std::span<const std::uint32_t> vertex_faces(std::uint32_t vertex) const {
-    return faces_of_vertices().row(vertex);
-  }
+  [[nodiscard]] std::span<const std::uint32_t> vertex_faces(std::uint32_t vertex) const;
   /// The faces that have `edge`, ascending, each once.
-  [[nodiscard]] std::span<const std::uint32_t> edge_faces(std::uint32_t edge) const {
-    return faces_of_edges().row(edge);
-  }
-  /// The vertices around `vertex` in the order of its triangles, of which each has one of them and the next
-  /// for its other corners, in its own sense. Where no triangle is between two of them `vertex` itself
-  /// stands, so that there is a triangle without area; quads are two triangles, and others without area at
-  /// any position are left out.
-  [[nodiscard]] std::span<const std::uint32_t> vertex_fans(std::uint32_t vertex) const {
-    return fans().row(vertex);
-  }
-  /// The used vertices in an order in which each eight of them are near each other at rest: halved along the
-  /// longest side of their box, and the halves again, with whole eights on either side.
-  [[nodiscard]] std::span<const std::uint32_t> block_order() const { return blocks().order; }
-  /// Which groups of sixteen blocks the vertices of a stretch (VertexStretches) are in, ascending.
-  [[nodiscard]] std::span<const std::uint32_t> stretch_groups(std::uint32_t stretch) const {
-    return blocks().stretch_groups.row(stretch);
-  }
-
-  /// The purposes for which a mesh makes further lists.
-  enum class Use : std::uint8_t {
-    blocks,             ///< `block_order`, `stretch_groups`
-    normals_of_points,  ///< `vertex_fans`, `vertex_faces`
-    normals,            ///< these and `edge_faces`
-    neighbours,         ///< `vertex_neighbours`
-    poses,              ///< `rest_reach`
-  };
-  /// Makes the lists of a use now, so that nobody waits for them later. Any thread.
-  void prepare_for(Use use) const;
-
-  /// Whether vertices are listed by stretches: of large meshes all of whose vertices are used.
-  [[nodiscard]] bool has_stretches() const;
+  [[nodiscard]] std::span<const std::uint32_t> edge_faces(std::uint32_t edge) const;
   /// Whether any face uses `vertex`.
-  [[nodiscard]] bool is_used(std::uint32_t vertex) const { return used_.empty() || used_[vertex] != 0; }
+  [[nodiscard]] bool is_used(std::uint32_t vertex) const;
   /// Whether every vertex is used.
-  [[nodiscard]] bool uses_all_vertices() const { return used_.empty(); }
-
-  /// The octree of regions, built with the mesh.
-  [[nodiscard]] const RegionTree& regions() const { return regions_; }
-
-  /// How far the rest shape reaches in any direction; made when it is first asked for, by any thread.
-  [[nodiscard]] const RestReach& rest_reach() const;
+  [[nodiscard]] bool uses_all_vertices() const;
 
   /// Bytes held now: with the region tree, and with such lists as have been made.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// Lists of numbers one after the other: the list of i is values[begin[i], begin[i + 1]).
-  struct Rows {
-    std::vector<std::uint32_t> values;
-    std::vector<std::uint32_t> begin;
+  friend const IndexedMesh& indexed(const Mesh& mesh);
 
-    [[nodiscard]] std::span<const std::uint32_t> row(std::uint32_t index) const {
-      return std::span(values).subspan(begin[index], begin[index + 1] - begin[index]);
-    }
-    [[nodiscard]] std::size_t byte_count() const { return bytes_of(values) + bytes_of(begin); }
-  };
-  struct Blocks {
-    std::vector<std::uint32_t> order;
-    Rows stretch_groups;
-    [[nodiscard]] std::size_t byte_count() const { return bytes_of(order) + stretch_groups.byte_count(); }
-  };
-
-  Mesh() = default;
+  explicit Mesh(std::shared_ptr<const IndexedMesh> data);
 
   /// Faces of `each` corners.
   static Mesh from_flat(PositionView rest, std::uint32_t each, std::span<const std::uint32_t> corners);
@@ -228,35 +172,7 @@ class GRAZE_API Mesh {
     return from_flat(rest, each, corners);
   }
 
-  [[nodiscard]] std::span<const std::uint32_t> of_face(const std::vector<std::uint32_t>& values,
-                                                       std::uint32_t face) const {
-    const std::size_t begin = face_begin_.empty() ? std::size_t{face} * corners_each_ : face_begin_[face];
-    const std::size_t count = face_begin_.empty() ? corners_each_ : face_begin_[face + 1] - begin;
-    return std::span(values).subspan(begin, count);
-  }
-  void take_faces(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> corner_counts);
-  void check_faces() const;
-  void look_for_unused();
-  void check_rest() const;
-  void number_edges();
-  [[nodiscard]] const Rows& neighbours() const;
-  [[nodiscard]] const Rows& faces_of_vertices() const;
-  [[nodiscard]] const Rows& faces_of_edges() const;
-  [[nodiscard]] const Rows& fans() const;
-  [[nodiscard]] const Blocks& blocks() const;
-
-  std::vector<Eigen::Vector3d> rest_;
-  std::vector<std::uint32_t> corners_;
-  std::vector<std::uint32_t> face_begin_;  ///< into these; empty where all faces have as many corners
-  std::uint32_t corners_each_ = 0;
-  std::uint32_t face_count_ = 0;
-  std::vector<std::uint32_t> face_edges_;
-  std::vector<std::array<std::uint32_t, 2>> edges_;
-  std::vector<std::uint8_t> used_;  ///< by vertex; empty where all are
-  RegionTree regions_;
-  MadeOnce<Rows> neighbours_, vertex_faces_, edge_faces_, fans_;
-  MadeOnce<Blocks> blocks_;
-  MadeOnce<RestReach> rest_reach_;
+  std::shared_ptr<const IndexedMesh> data_;  ///< never null
 };
 
 /// What is odd about a mesh: nothing here is an error, all of it is accepted. Every list is ascending.

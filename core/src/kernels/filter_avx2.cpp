@@ -1,4 +1,4 @@
 #define GRAZE_KERNEL_SET avx2
 #define GRAZE_KERNEL_BYTES 32
-#include "filter_kernels.inc"
-#include "position_passes.inc"
+#include "kernels/filter_kernels.inc"
+#include "kernels/position_passes.inc"

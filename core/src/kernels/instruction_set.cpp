@@ -3,10 +3,10 @@
 #include <graze/error.hpp>
 #include <graze/instruction_set.hpp>
 
-#include "filter.hpp"
-#include "measure.hpp"
-#include "places.hpp"
-#include "positions.hpp"
+#include "kernels/filter.hpp"
+#include "kernels/measure.hpp"
+#include "kernels/places.hpp"
+#include "kernels/positions.hpp"
 
 namespace graze {
 namespace kernels {

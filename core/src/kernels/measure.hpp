@@ -1,6 +1,6 @@
 #pragma once
 
-#include "points.hpp"
+#include "kernels/points.hpp"
 
 /// Kernels that measure several contacts or triangles at once. They are compiled once for each instruction
 /// set, so this header has no inline function that another translation unit might share with them. Those of

@@ -1,2 +1,2 @@
 #define GRAZE_KERNEL_SET avx2
-#include "measure_kernels.inc"
+#include "kernels/measure_kernels.inc"

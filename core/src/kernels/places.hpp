@@ -1,6 +1,6 @@
 #pragma once
 
-#include "points.hpp"
+#include "kernels/points.hpp"
 
 /// Kernels that say of several pairs of features at once where their closest points lie, as far as plain
 /// double is certain of it. They ask what certain.cpp asks, with its bounds (docs/numerics.md). They are

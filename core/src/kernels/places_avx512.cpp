@@ -1,2 +1,2 @@
 #define GRAZE_KERNEL_SET avx512
-#include "places_kernels.inc"
+#include "kernels/places_kernels.inc"

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "filter.hpp"
-#include "points.hpp"
+#include "kernels/filter.hpp"
+#include "kernels/points.hpp"
 
 /// Passes over the positions of a surface, in memory order or as listed. Compiled once for each instruction
 /// set, so this header has no inline function that another translation unit might share with them.

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <graze/contact.hpp>
 #include <graze/export.hpp>
 #include <graze/object_id.hpp>
-#include <graze/region_tree.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,6 +73,9 @@ struct Diagnostic {
   std::string message;
 };
 
+/// The most levels that the octree of a mesh can have, with level 0, the whole mesh.
+inline constexpr std::size_t max_region_levels = 41;
+
 /// Counters and times of one step.
 struct StepStatistics {
   std::uint64_t objects = 0;
@@ -111,7 +114,7 @@ struct StepStatistics {
   /// 2^22 pairs of leaves, and each pair's up to an equal share of it. It costs time and changes no answer.
   std::uint64_t fronts_left_out = 0;
   /// Region pairs expanded, by level.
-  std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
+  std::array<std::uint64_t, max_region_levels> regions_expanded{};
   // Memory that the scene holds from step to step, in bytes; meshes and what oneTBB holds are not counted.
   std::uint64_t object_bytes = 0;  ///< of objects: positions, copies of them, boxes, radii; waiting calls
   std::uint64_t pair_bytes = 0;    ///< of pairs: what is remembered, and answers

@@ -5,6 +5,10 @@
 #include <vector>
 
 #include "accuracy/contact_error.hpp"
+#include "core/pair/pair_answer.hpp"
+#include "core/pair/pair_query.hpp"
+#include "core/search/pair_detector.hpp"
+#include "core/surface/surface.hpp"
 #include "support/oracle_parallel.hpp"
 
 namespace graze::tools {

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <graze/pair_query.hpp>
 #include <string_view>
 
 #include "accuracy/scenes.hpp"
 #include "accuracy/tally.hpp"
+#include "core/pair/pair_counters.hpp"
 
 namespace graze::tools {
 

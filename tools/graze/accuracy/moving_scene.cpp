@@ -1,7 +1,8 @@
 #include "accuracy/moving_scene.hpp"
 
 #include <algorithm>
-#include <graze/surface.hpp>
+
+#include "core/surface/surface.hpp"
 
 namespace graze::tools {
 

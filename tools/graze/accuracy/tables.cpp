@@ -4,6 +4,7 @@
 #include <array>
 #include <initializer_list>
 
+#include "core/pair/pair_counters.hpp"
 #include "text_format.hpp"
 
 namespace graze::tools {

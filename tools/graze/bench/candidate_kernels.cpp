@@ -1,17 +1,17 @@
 #include "bench/candidate_kernels.hpp"
 
 #include <deque>
-#include <graze/surface.hpp>
 #include <map>
 #include <numeric>
 #include <span>
 #include <utility>
 
-#include "feature_pairs.hpp"
-#include "leaf_scratch.hpp"
-#include "listed_vertices.hpp"
-#include "measure_batch.hpp"
-#include "name_order.hpp"
+#include "core/surface/surface.hpp"
+#include "leaves/feature_pairs.hpp"
+#include "leaves/leaf_scratch.hpp"
+#include "leaves/listed_vertices.hpp"
+#include "measure/measure_batch.hpp"
+#include "names/name_order.hpp"
 
 namespace graze::bench {
 namespace {
@@ -51,7 +51,7 @@ struct LocalObject {
 class Belonging {
  public:
   void take(const LocalObject& object, std::span<const std::uint32_t> triangles) {
-    const Mesh& mesh = object.surface.mesh();
+    const IndexedMesh& mesh = object.surface.mesh();
     features.vertices.begin(3 * triangles.size());
     features.edges.begin(3 * triangles.size());
     features.triangles.begin(triangles.size());

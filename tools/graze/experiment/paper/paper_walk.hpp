@@ -4,13 +4,14 @@
 #include <array>
 #include <compare>
 #include <cstdint>
-#include <graze/box.hpp>
-#include <graze/leaf_front.hpp>
 #include <graze/mesh.hpp>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "core/base/box.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/pair/leaf_front.hpp"
 #include "experiment/recorded_motion.hpp"
 
 namespace graze::tools {
@@ -21,7 +22,7 @@ class PlacedObject {
   PlacedObject(const RecordedObject& object, std::size_t frame);
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
-  [[nodiscard]] const RegionTree& tree() const { return mesh_->regions(); }
+  [[nodiscard]] const RegionTree& tree() const { return indexed(*mesh_).regions(); }
   [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
   /// By region: the largest distance of a vertex from the middle vertex (eq. 2).
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }

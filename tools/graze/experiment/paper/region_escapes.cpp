@@ -1,9 +1,9 @@
-#include "experiment/paper/region_escapes.hpp"
-
 #include <map>
 #include <utility>
 
+#include "core/mesh/indexed_mesh.hpp"
 #include "experiment/paper/paper_walk.hpp"
+#include "experiment/paper/region_escapes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 void count_object(const RecordedObject& object, std::size_t frame, const PlacedObject& first,
                   std::vector<EscapeCount>& levels) {
   const PositionView now = object.positions(frame);
-  const RegionTree& tree = object.mesh->regions();
+  const RegionTree& tree = indexed(*object.mesh).regions();
   for (std::uint32_t index = 1; index < tree.region_count(); ++index) {
     const Region& region = tree.region(index);
     EscapeCount& count = levels[region.level - 1];
@@ -36,7 +36,7 @@ std::vector<EscapeCount> count_escapes(const RecordedMotion& motion) {
     const PlacedObject first(object, 0);
     if (!counts.contains(object.kind)) kinds.push_back(object.kind);
     std::vector<EscapeCount>& levels = counts[object.kind];
-    for (std::uint32_t level = 1; level < object.mesh->regions().level_count(); ++level) {
+    for (std::uint32_t level = 1; level < indexed(*object.mesh).regions().level_count(); ++level) {
       if (levels.size() < level) levels.push_back({.kind = object.kind, .level = level});
       levels[level - 1].epsilon = std::max(levels[level - 1].epsilon, first.level_radii()[level]);
     }

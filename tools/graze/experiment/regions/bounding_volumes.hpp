@@ -5,8 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <graze/box.hpp>
 #include <span>
+
+#include "core/base/box.hpp"
 
 // Bounds that a region may carry. Each kind `Volume` has
 //   static constexpr const char* name;

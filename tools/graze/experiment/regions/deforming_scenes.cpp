@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
-#include <graze/box.hpp>
 #include <graze/io/mesh_file.hpp>
 #include <graze/io/motion.hpp>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "accuracy/models.hpp"
 #include "bench/shapes.hpp"
+#include "core/base/box.hpp"
 #include "mean_edge_length.hpp"
 #include "models/models.hpp"
 #include "scenes/skinned_human.hpp"

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <graze/box.hpp>
 #include <utility>
+
+#include "core/base/box.hpp"
 
 namespace graze::tools {
 namespace {

@@ -1,20 +1,20 @@
-#include "experiment/regions/partitions.hpp"
-
 #include <Eigen/Core>
 #include <algorithm>
-#include <graze/box.hpp>
-#include <graze/region_tree.hpp>
 #include <utility>
 
+#include "core/base/box.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/mesh/region_tree.hpp"
 #include "experiment/regions/binary_tree.hpp"
 #include "experiment/regions/edge_collapse.hpp"
+#include "experiment/regions/partitions.hpp"
 #include "experiment/regions/surface_halves.hpp"
 
 namespace graze::tools {
 namespace {
 
 ClusterTree octree_of(const Mesh& mesh) {
-  const RegionTree regions(mesh);  // made anew, so that a build takes as long as it does
+  const RegionTree regions(indexed(mesh));  // made anew, so that a build takes as long as it does
   ClusterTree tree;
   for (const Region& region : regions.regions()) {
     ClusterTree::Cluster& cluster = tree.clusters.emplace_back();
@@ -49,7 +49,7 @@ std::uint32_t halve(std::span<std::uint32_t> vertices, std::uint32_t capacity, c
 }
 
 std::vector<std::uint32_t> used_vertices(const Mesh& mesh) {
-  const auto vertices = mesh.regions().vertices();
+  const auto vertices = indexed(mesh).regions().vertices();
   std::vector<std::uint32_t> used(vertices.begin(), vertices.end());
   std::sort(used.begin(), used.end());
   return used;

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <graze/mesh.hpp>
-#include <graze/region_tree.hpp>
 
+#include "core/mesh/region_tree.hpp"
 #include "experiment/regions/region_hierarchy.hpp"
 
 namespace graze::tools {

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "core/base/bytes_of.hpp"
+#include "core/pair/near_list.hpp"
+#include "core/surface/surface.hpp"
+
+namespace graze {
+
+/// A pair of regions, one of each object.
+struct RegionPair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+};
+
+/// A pair of leaves, and lower bounds of how far apart they were when they were listed: of all they have, and
+/// by looks into them, of each vertex and face and each two edges, but not of an edge that comes to pierce a
+/// face.
+struct ListedLeaves {
+  RegionPair pair;
+  float lower = 0;
+  float looked = 0;
+};
+
+/// A point of a surface that moves with it: of a vertex, an edge, a fold or a triangle, by its corners.
+struct SurfacePoint {
+  std::uint32_t size = 0;  ///< how many corners; 0 for no point
+  std::array<std::uint32_t, 3> corner{};
+  std::array<float, 2> share{};  ///< of the ways from the first corner to the others, not more than 1 in all
+};
+
+/// Points of two surfaces that were nearest to each other.
+struct LastWitness {
+  SurfacePoint on_a;
+  SurfacePoint on_b;
+
+  [[nodiscard]] bool is_known() const { return on_a.size > 0; }
+};
+
+/// Where DMV stopped for one pair of surfaces: every pair of leaves that may have been near, so that the next
+/// query, of a detail that is about surfaces or vertices as this one's was, can start there. It stays good
+/// while the surfaces move less than it was made loose. And what is known of features, of which the same
+/// holds.
+struct LeafFront {
+  std::vector<ListedLeaves> leaves;  ///< in the order in which they are asked, where `touched`
+  /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
+  /// nothing is known.
+  double beyond = -1;
+  Travel travel_a;
+  Travel travel_b;
+  /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
+  LastWitness witness;
+  /// What a query for contacts asks in place of leaves, by marks of its own; null before the first.
+  std::unique_ptr<NearList> near;
+  /// At least how far apart the surfaces were at the two marks. While they have not moved as much since, no
+  /// edge pierces a face, and what looks into leaves said of the rest is all that counts.
+  float apart = 0;
+  /// Whether the surfaces were at distance 0 when a query looked for the closest points last.
+  bool touched = false;
+  /// How many pairs of leaves the last walk reached, as the number of its bits.
+  std::uint8_t reached_bits = 0;
+  /// Whether the last query went from region to region: if not, their bounds may grow looser than others'.
+  bool walked = true;
+  /// There were too many features for a list the last time.
+  bool list_is_too_long = false;
+
+  void forget() {
+    forget_leaves();
+    forget_list();
+  }
+  void forget_list() {
+    if (near != nullptr) near->forget();
+    list_is_too_long = false;
+  }
+  void forget_leaves() {
+    leaves.clear();
+    reached_bits = 0;
+    beyond = -1;
+    apart = 0;
+    witness = {};
+    touched = false;
+  }
+  /// The list, where it says all that can be in contact below a threshold now; otherwise null.
+  [[nodiscard]] const NearList* list_for(const Surface& a, const Surface& b, double threshold) const {
+    return near != nullptr && near->serves(a, b, threshold) ? near.get() : nullptr;
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return bytes_of(leaves) + (near == nullptr ? 0 : sizeof(NearList) + bytes_of(near->pairs));
+  }
+  /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
+  [[nodiscard]] double beyond_now(const Surface& a, const Surface& b) const {
+    if (!(beyond > 0)) return -1;
+    if (beyond == std::numeric_limits<double>::infinity()) return beyond;
+    return (beyond - motion_now(a, b)) * round_down;
+  }
+  /// Pairs of leaves are at most this much nearer to each other than they were at the two marks.
+  [[nodiscard]] double motion_now(const Surface& a, const Surface& b) const {
+    return (a.motion_since(travel_a) + b.motion_since(travel_b)) * round_up;
+  }
+};
+
+}  // namespace graze

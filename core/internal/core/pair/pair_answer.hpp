@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <graze/contact.hpp>
+#include <vector>
+
+namespace graze {
+
+/// What is known of one pair of objects, but for its lists.
+struct PairFinding {
+  bool in_contact = false;
+  bool listed = false;   ///< in contact, or nearer than the reach; otherwise nothing below means anything
+  bool complete = true;  ///< false where the work limit was reached: the bounds hold, contacts are empty
+  bool cut = false;      ///< there were more contacts than PairQuery::contact_limit; all else is said of all
+  std::uint32_t contacts_left_out = 0;  ///< for whoever keeps less of them than were found
+  DistanceBounds distance;
+  Witness witness;
+  std::uint64_t region_distances_left_out = 0;  ///< at least so many more were not listed
+};
+
+struct PairAnswer : PairFinding {
+  std::vector<Contact> contacts;  ///< sorted by (kind, feature a, feature b)
+  /// By level; those of `PairDetector::region_distances`.
+  std::vector<RegionDistance> region_distances;
+};
+
+}  // namespace graze

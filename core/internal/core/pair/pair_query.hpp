@@ -1,0 +1,64 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <graze/accuracy.hpp>
+#include <graze/contact.hpp>
+#include <limits>
+#include <span>
+
+#include "core/surface/surface.hpp"
+
+namespace graze {
+
+/// What is asked of one pair of objects.
+struct PairQuery {
+  ContactDetail detail = ContactDetail::features;
+  AccuracyMode mode = AccuracyMode::exact;
+  double threshold = 0;  ///< strictly closer is a contact; margins included
+  double reach = 0;      ///< at least `threshold`; pairs strictly closer are listed
+  double tolerance = 0;  ///< of AccuracyMode::within
+  /// How far the surfaces may move until a front found now is of no more use; 0: none is kept.
+  double slack = 0;
+  /// Where the closest points are looked for, leaves are looked into for what is this much further than need
+  /// be, so that it is known for some steps which of them have nothing as near as that.
+  double look_slack = 0;
+  /// Where all contacts are looked for, features that are this much further than the threshold are listed, so
+  /// that for some steps no others need be asked; 0: none are.
+  double list_slack = 0;
+  /// A front of more pairs of leaves than this is not kept, nor a list of more pairs of features.
+  std::size_t front_limit = std::numeric_limits<std::size_t>::max();
+  /// The most contacts that an answer keeps: the nearest, and of those that are as near the lowest names. 0:
+  /// all. Where more are found, no features are listed for the next steps.
+  std::size_t contact_limit = 0;
+  /// How many distances of regions are listed at most; 0: none are looked for.
+  std::size_t region_distance_limit = 0;
+  /// Regions are listed that may be nearer than this; in AccuracyMode::paper, those that pass its test.
+  double region_distance_reach = 0;
+  std::span<const double>
+      epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
+  /// Region pairs that may be tested; beyond it the answer is not complete.
+  std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::chrono::steady_clock::time_point no_deadline =
+      std::chrono::steady_clock::time_point::max();
+  /// A search ends some tens of microseconds after its deadline; the answer is not complete then.
+  std::chrono::steady_clock::time_point deadline = no_deadline;
+  /// The search ends before its deadline by this for each contact found, so that the caller can take them.
+  std::chrono::nanoseconds time_after_contact{0};
+};
+
+/// Whether `detail` is about vertices, so that distances are between vertices and not between surfaces.
+constexpr bool is_about_vertices(ContactDetail detail) {
+  return detail == ContactDetail::regions || detail == ContactDetail::vertices;
+}
+/// Whether a query asks for blocks of vertices.
+constexpr bool wants_blocks(ContactDetail detail, AccuracyMode mode) {
+  return detail == ContactDetail::vertices && mode != AccuracyMode::paper;
+}
+/// The boxes that a query of this detail asks for.
+constexpr RefitOf boxes_for(ContactDetail detail) {
+  return is_about_vertices(detail) ? RefitOf::vertices : RefitOf::faces;
+}
+
+}  // namespace graze

@@ -1,0 +1,34 @@
+#include "leaves/closest_vertices.hpp"
+
+#include "leaves/leaf_vertex_pairs.hpp"
+
+namespace graze {
+namespace {
+
+ContactName vertex_pair(std::uint32_t a, std::uint32_t b) {
+  return ContactName::of(vertex_piece(a), vertex_piece(b));
+}
+
+/// What is at most as far as the nearest so far.
+struct AsNear {
+  const ClosestSet& closest;
+
+  [[nodiscard]] double limit() const { return closest.upper(); }
+  [[nodiscard]] bool keep(double lower) const { return lower <= closest.upper(); }
+  void left_out(double /*limit*/) const {}
+};
+
+}  // namespace
+
+ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
+                             LeafScratch& scratch, Closest& closest) {
+  closest.clear();
+  ClosestSet set(pair, Ties::lowest, closest);
+  set.offer(vertex_pair(leaf_a.region.middle, leaf_b.region.middle));
+  AsNear range{set};
+  for_each_vertex_pair(pair, leaf_a, leaf_b, scratch, range,
+                       [&](std::uint32_t a, std::uint32_t b) { set.offer(vertex_pair(a, b)); });
+  return set.front();
+}
+
+}  // namespace graze

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/working_memory.hpp"
+#include "core/base/box.hpp"
+#include "core/mesh/pair_room.hpp"
+#include "core/mesh/region_tree.hpp"
+#include "core/surface/surface.hpp"
+#include "leaves/float_filter.hpp"
+#include "leaves/leaf_vertices.hpp"
+
+namespace graze {
+
+/// A leaf of a surface and its box now.
+struct LeafOf {
+  const Region& region;
+  const Box& box;
+};
+
+/// Makes room for the features of a leaf, in what holds those of each kind.
+template <typename Features>
+void reserve_features(Features& features, const PairRoom& room) {
+  features.vertices.reserve(room.leaf_vertices);
+  features.edges.reserve(room.leaf_edges);
+  features.triangles.reserve(2 * room.leaf_faces);
+  features.folds.reserve(room.leaf_faces);
+}
+
+/// Features that a leaf owns, in a frame.
+class LeafFeatures {
+ public:
+  PointBlock vertices{Part::vertex};
+  SegmentBlock edges{Part::edge};
+  TriangleBlock triangles{Part::face};  ///< a quad's two one after the other
+  SegmentBlock folds{Part::fold};       ///< diagonals of quads that no edge joins, by the quad's number
+
+  /// All features of a leaf, laid out. `corners` is working memory.
+  void collect(const Surface& surface, const Region& leaf, const FilterFrame& frame, LeafVertices& corners);
+  /// Its vertices alone.
+  void collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame,
+                        LeafVertices& corners);
+
+  [[nodiscard]] std::size_t count() const {
+    return vertices.count() + edges.count() + triangles.count() + folds.count();
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.vertices, self.edges, self.triangles, self.folds);
+  }
+  void reserve(const PairRoom& room) { reserve_features(*this, room); }
+
+ private:
+  void lay_out_vertices(const Surface& surface, const Region& leaf, LeafVertices& from);
+  void lay_out_edges(const Surface& surface, const Region& leaf, const LeafVertices& from);
+  void lay_out_faces(const Surface& surface, const Region& leaf, LeafVertices& from);
+  void lay_out_folds(const IndexedMesh& mesh, const Region& leaf, LeafVertices& from);
+};
+
+/// Those features of a leaf that are near another.
+class TakenLeaf {
+ public:
+  TakenFeatures<1> vertices;
+  TakenFeatures<2> edges;
+  TakenFeatures<3> triangles;
+  TakenFeatures<2> folds;
+
+  /// Takes those that `by` keeps, and extends `found`, where there is one, by their box. What they are taken
+  /// from stays.
+  void take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
+  void take_vertices(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
+
+  [[nodiscard]] std::size_t count() const {
+    return vertices.count() + edges.count() + triangles.count() + folds.count();
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.vertices, self.edges, self.triangles, self.folds);
+  }
+  void reserve(const PairRoom& room) { reserve_features(*this, room); }
+};
+
+/// Whether diagonals of quads are folds (see `is_folded`); asked of few, again and again, so decided when
+/// asked and kept for a while.
+class FoldAnswers {
+ public:
+  /// Forgets all, so that what is decided does not depend on earlier queries.
+  void begin() {
+    if (any_) answers_.fill({});
+    any_ = false;
+  }
+  bool is_fold(const Surface& surface, std::uint32_t face, DecisionCount& count);
+
+ private:
+  struct Answer {
+    const Surface* surface = nullptr;
+    std::uint32_t face = 0;
+    bool is_fold = false;
+  };
+  std::array<Answer, 64> answers_;
+  bool any_ = false;
+};
+
+}  // namespace graze

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "leaves/float_filter.hpp"
+#include "leaves/leaf_cache.hpp"
+#include "leaves/leaf_features.hpp"
+#include "leaves/listed_vertices.hpp"
+#include "leaves/naming_batch.hpp"
+#include "names/contact_name.hpp"
+#include "surface/leaf_slab.hpp"
+#include "surface/made_of_leaves.hpp"
+
+namespace graze {
+
+/// Where in a list some of its names are: most that were added a moment ago need not be added again, so that
+/// what is left to sort is a fraction, since a contact is found from each of the features about it. Any place
+/// will do to look at, whatever was there before.
+class RecentNames {
+ public:
+  [[nodiscard]] std::uint32_t& place(const ContactName& name) { return places_[name.hash() >> 52U]; }
+
+ private:
+  std::array<std::uint32_t, 4096> places_{};
+};
+
+/// What is known of the leaves of a pair of surfaces, and those of two leaves' features that are near.
+struct LeafScratch {
+  LeafCache all_a;
+  LeafCache all_b;
+  MadeOfLeaves<LeafSlab> slabs_a;
+  MadeOfLeaves<LeafSlab> slabs_b;
+  LeafVertices corners;
+  VerticesInFrame listed_a;
+  VerticesInFrame listed_b;
+  TakenLeaf a;
+  TakenLeaf b;
+  FoldAnswers folds;
+  FloatBatches filter;
+  NamingBatch naming;
+  RecentNames recent_names;
+  FilterFrame frame;
+
+  /// Before the first pair of leaves of a query or slice: nothing is left of another, and the frame is that
+  /// of this pair, or of the first that is met.
+  void begin() {
+    frame = {};
+    folds.begin();
+    filter.begin();
+    naming.begin();
+  }
+  void begin(const FilterFrame& first) { frame = first; }
+
+  /// Takes what is near of two leaves; false where there is nothing of either.
+  template <typename Range>
+  bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
+    return take(pair, leaf_a, leaf_b, range, range.touching(), false, &TakenLeaf::take);
+  }
+  template <typename Range>
+  bool take_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
+    return take(pair, leaf_a, leaf_b, range, 0, true, &TakenLeaf::take_vertices);
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.all_a, self.all_b, self.slabs_a, self.slabs_b, self.corners, self.listed_a,
+                    self.listed_b, self.a, self.b, self.filter);
+  }
+
+ private:
+  static const LeafSlab& slab_now(MadeOfLeaves<LeafSlab>& slabs, const Surface& surface, const Region& leaf) {
+    slabs.begin(surface);
+    const std::size_t number = surface.mesh().regions().number(leaf);
+    return slabs.of(number, [&] { return slab_of(surface, leaf); });
+  }
+
+  template <typename Range, typename Take>
+  bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
+            double touching_within, bool vertices_only, const Take& take_near) {
+    const double limit = range.limit();
+    const auto nothing_near = [&] {
+      range.left_out(limit);
+      return false;
+    };
+    const Eigen::Vector3d middle_a = pair.a.middle(leaf_a.region);
+    const Eigen::Vector3d middle_b = pair.b.middle(leaf_b.region);
+    LeafSlab slab_a;
+    LeafSlab slab_b;
+    // Vertices alone are laid out as soon as their slab is made.
+    if (!vertices_only && are_worth_slabs(leaf_a.box, leaf_b.box, limit)) {
+      slab_a = slab_now(slabs_a, pair.a, leaf_a.region);
+      slab_b = slab_now(slabs_b, pair.b, leaf_b.region);
+      if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
+    }
+    if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
+    // What of b is near where a can be near b's leaf, and what of a is near that. Two features can only touch
+    // where both sides' boxes are.
+    const kernels::BoxInFrame near_a = frame.to_local_beside(leaf_a.box, leaf_b.box, limit);
+    if (is_empty(near_a)) return nothing_near();
+    all_a.begin(pair.a, frame, vertices_only);
+    all_b.begin(pair.b, frame, vertices_only);
+    const LeafFeatures& of_b = all_b.of(pair.b, leaf_b.region, corners);
+    const float local_limit = frame.to_local_limit(limit);
+    const float touching = frame.to_local_limit(touching_within);
+    kernels::BoxInFrame near_b = empty_box();
+    (b.*take_near)(of_b, {near_a, grown(near_a, touching), frame.to_local(slab_a, middle_a), local_limit},
+                   &near_b);
+    if (is_empty(near_b)) return nothing_near();
+    const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
+    (a.*take_near)(of_a, {near_b, grown(near_b, touching), frame.to_local(slab_b, middle_b), local_limit},
+                   nullptr);
+    const auto of_all = [&](const auto& features) {
+      return vertices_only ? features.vertices.count() : features.count();
+    };
+    if (of_all(a) < of_all(of_a) || of_all(b) < of_all(of_b)) range.left_out(limit);
+    return of_all(a) > 0 && of_all(b) > 0;
+  }
+};
+
+}  // namespace graze

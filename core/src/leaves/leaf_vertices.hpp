@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/working_memory.hpp"
+#include "core/mesh/pair_room.hpp"
+#include "core/surface/surface.hpp"
+#include "kernels/filter.hpp"
+#include "leaves/filter_frame.hpp"
+
+namespace graze {
+
+/// Where the corners of features are among vertices, one feature after the other.
+class CornerList {
+ public:
+  void begin(std::size_t most) {
+    count_ = 0;
+    if (places_.size() < most + padding) places_.resize(most + padding);
+  }
+  void add(std::uint32_t place) { places_[count_++] = place; }
+  /// Goes on for the features that the kernels look at beyond the last.
+  [[nodiscard]] const std::uint32_t* padded() {
+    std::fill_n(places_.begin() + static_cast<std::ptrdiff_t>(count_), padding, 0U);
+    return places_.data();
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.places_);
+  }
+  void reserve_as(const CornerList& other) { begin(std::max(other.places_.size(), padding) - padding); }
+  void reserve(std::size_t most) { begin(most); }
+
+ private:
+  static constexpr std::size_t padding = 9;  ///< three triangles
+  std::vector<std::uint32_t> places_;
+  std::size_t count_ = 0;
+};
+
+/// The corners of a leaf's features, each brought into the frame once, however many features it is part of:
+/// as RegionTree lists them.
+class LeafVertices {
+ public:
+  /// Takes up those of a leaf, its own vertices first.
+  void take(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  /// Its own vertices alone.
+  void take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+
+  [[nodiscard]] const kernels::Point* data() const { return local_.data(); }
+
+  /// For what the tree has no list of.
+  CornerList corners;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.local_, self.corners);
+  }
+  void reserve(const PairRoom& room);
+
+ private:
+  void add(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame);
+
+  std::vector<kernels::Point> local_;
+};
+
+}  // namespace graze

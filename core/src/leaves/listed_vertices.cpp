@@ -1,0 +1,14 @@
+#include "leaves/listed_vertices.hpp"
+
+#include "surface/passes_for.hpp"
+
+namespace graze {
+
+void bring(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
+           kernels::Point* brought) {
+  with_points(surface, [&]<typename Number>(const kernels::PointArray<Number>& points) {
+    passes_for<Number>().bring(points, vertices.data(), vertices.size(), frame.for_points(), brought);
+  });
+}
+
+}  // namespace graze

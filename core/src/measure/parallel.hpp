@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <graze/contact.hpp>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/few.hpp"
+#include "base/working_memory.hpp"
+#include "core/mesh/pair_room.hpp"
+#include "core/surface/surface.hpp"
+#include "names/contact_name.hpp"
+
+namespace graze {
+
+/// Two features, of a and b.
+using FeaturePair = std::pair<Feature, Feature>;
+
+/// An edge or face that holds a feature, with the directions by which most are seen not to be parallel to
+/// another: of an edge its own, of a face the normals of its triangles.
+struct Holder {
+  struct Direction {
+    Eigen::Vector3d vector;
+    double largest_square;  ///< of its length, were the corners square
+  };
+  Feature feature;
+  Few<Direction, 2> directions;
+};
+
+/// All that hold a feature, itself included where it is no vertex; each once.
+struct Holders {
+  std::vector<Feature> features;
+  std::vector<Holder> edges;
+  std::vector<Holder> faces;
+
+  void find(const Surface& surface, const Feature& feature);
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.features, self.edges, self.faces);
+  }
+};
+
+/// Working memory of one thread.
+struct ParallelScratch {
+  /// Whether two faces are parallel contacts, of those that were asked about last.
+  struct Known {
+    FeaturePair faces;
+    std::uint32_t query = 0;  ///< the number of the query that asked
+    bool are_parallel = false;
+  };
+
+  Holders of_name_a, of_name_b;
+  Holders above_a, above_b;
+  std::vector<Known> known;
+  std::uint32_t query = 0;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.of_name_a, self.of_name_b, self.above_a, self.above_b, self.known);
+  }
+  void reserve(const PairRoom& room);
+};
+
+/// `ContactDetail::closest` of two surfaces from all names at their least distance (sorted, at least one).
+///
+/// Features that are parallel to each other have a stretch or an area of closest points; where one holds a
+/// name's features it stands for that name, since those points are only its border: the area between a box
+/// and the table under it (FF) and not one corner of it (VF). Of what then is left the lowest (kind, feature
+/// a, feature b) is the contact, with the middle of its closest set.
+Contact closest_contact(const SurfacePair& pair, const std::vector<ContactName>& names,
+                        ParallelScratch& scratch);
+
+}  // namespace graze

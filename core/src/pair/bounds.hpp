@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/box.hpp"
+#include "core/pair/leaf_front.hpp"
+#include "core/surface/surface.hpp"
+
+namespace graze {
+
+/// At least the distance of two points.
+inline double upper_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (b - a).norm() * round_up + lost_to_underflow;
+}
+
+/// Whether two points may be apart of which this is the upper distance; not where they are in one place.
+inline bool may_be_apart(double upper_distance) {
+  return upper_distance > lost_to_underflow;
+}
+
+/// At most the distance of two points.
+inline double lower_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::max(0.0, (b - a).norm() - lost_to_underflow) * round_down;
+}
+
+/// At most the distance of any vertex within `radius_a` of `middle_a` and any within `radius_b` of
+/// `middle_b`, for radii that are rounded themselves.
+inline double lower_distance(const Eigen::Vector3d& middle_a, double radius_a,
+                             const Eigen::Vector3d& middle_b, double radius_b) {
+  const double radii = (radius_a + radius_b) * round_up + 2 * lost_to_underflow;
+  return std::max(0.0, (lower_distance(middle_a, middle_b) - radii) * round_down);
+}
+
+/// The certified bound of docs/method.md, section 2, for the regions of two surfaces as they are now: from
+/// the boxes of the last refit, less the motion since then.
+class RegionBounds {
+ public:
+  RegionBounds(const Surface& a, const Surface& b, RefitOf boxes)
+      : a_(a),
+        b_(b),
+        boxes_(boxes),
+        motion_((a.motion_since_refit(boxes) + b.motion_since_refit(boxes)) * round_up) {}
+
+  /// At most the distance of the regions' vertices, or of the faces and edges that they own.
+  [[nodiscard]] double lower(const RegionPair& pair) const {
+    return less_motion(lower_distance(box_a(pair), box_b(pair)), motion_);
+  }
+  /// The same for vertices, from the spheres about the middle vertices (eq. 2) too. They leave out next to
+  /// nothing that boxes do not, and are worth their refit only where the paper's regions are to be told of.
+  [[nodiscard]] double lower_with_spheres(const RegionPair& pair) const {
+    const Region& region_a = a_.mesh().regions().region(pair.a);
+    const Region& region_b = b_.mesh().regions().region(pair.b);
+    const double motion =
+        (a_.motion_since_refit(RefitOf::radii) + b_.motion_since_refit(RefitOf::radii)) * round_up;
+    // A radius grows by twice the motion: that of the middle vertex and that of the others.
+    return std::max(lower(pair), less_motion(lower_distance(a_.middle(region_a), a_.radii()[pair.a],
+                                                            b_.middle(region_b), b_.radii()[pair.b]),
+                                             2 * motion));
+  }
+
+  /// The longest sides of the regions' boxes at the last refit.
+  [[nodiscard]] double size_a(const RegionPair& pair) const { return size(box_a(pair)); }
+  [[nodiscard]] double size_b(const RegionPair& pair) const { return size(box_b(pair)); }
+
+ private:
+  [[nodiscard]] const Box& box_a(const RegionPair& pair) const { return a_.boxes(boxes_)[pair.a]; }
+  [[nodiscard]] const Box& box_b(const RegionPair& pair) const { return b_.boxes(boxes_)[pair.b]; }
+  static double size(const Box& box) { return (box.max - box.min).maxCoeff(); }
+  static double less_motion(double distance, double motion) {
+    return motion == 0 ? distance : std::max(0.0, (distance - motion) * round_down);
+  }
+
+  const Surface& a_;
+  const Surface& b_;
+  RefitOf boxes_;
+  double motion_;
+};
+
+}  // namespace graze

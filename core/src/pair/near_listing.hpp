@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "core/pair/near_list.hpp"
+
+namespace graze {
+
+/// Where pairs of features that may be in contact before the surfaces have moved by a slack are listed.
+struct NearListing {
+  std::vector<NearParts>* pairs = nullptr;  ///< nowhere
+  double slack = 0;
+
+  [[nodiscard]] bool is_wanted() const { return pairs != nullptr; }
+  void add(const PartOf& a, const PartOf& b) const {
+    // A quad's second triangle mostly comes right after its first.
+    if (is_wanted() && (pairs->empty() || pairs->back() != NearParts{a, b})) pairs->push_back({a, b});
+  }
+};
+
+}  // namespace graze

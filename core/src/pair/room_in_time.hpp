@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "core/base/room_to_spare.hpp"
+#include "pair/time_limit.hpp"
+
+namespace graze {
+
+// Memory that is new costs when it is first written to, many times what writing to it does later. Where there
+// is a deadline it is met piece by piece, with looks at the clock in between; what was met stays.
+
+/// `resize_to_overwrite`, which ends when the time does: throws TimeIsUp. `time` is null where there is no
+/// deadline.
+template <typename Element>
+void make_room_in_time(std::vector<Element>& elements, std::size_t count, TimeLimit* time) {
+  if (time == nullptr) return resize_to_overwrite(elements, count);
+  constexpr std::size_t at_once = 16384 / sizeof(Element);
+  if (count > elements.capacity()) reserve_to_overwrite(elements, with_room_to_spare(count));
+  if (elements.size() > count) elements.resize(count, Element{});
+  while (elements.size() < count) {
+    time->check_for({});
+    elements.resize(std::min(count, elements.size() + at_once), Element{});
+  }
+}
+
+/// Room for all elements that a search can find before its deadline, each of which takes at least so long:
+/// added one by one they are not copied on the way. What is never written to costs addresses.
+template <typename Element>
+void reserve_until_deadline(std::vector<Element>& elements, std::chrono::nanoseconds each, TimeLimit* time) {
+  constexpr std::size_t most = std::size_t{1} << 21;
+  if (time == nullptr) return;
+  // A power of two: as good as never a little more than the last time, which would be new memory again.
+  const auto wanted = std::bit_ceil(static_cast<std::size_t>(time->left() / each));
+  elements.reserve(std::min(wanted, most));
+}
+
+}  // namespace graze

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pair/pair_query.hpp"
+#include "leaves/leaf_names.hpp"
+#include "leaves/leaf_vertex_pairs.hpp"
+#include "names/closest_set.hpp"
+#include "walk/leaf_pairs.hpp"
+
+namespace graze {
+
+/// What a search for the closest points has found so far.
+struct ClosestFound {
+  Closest closest;
+  /// Nothing was left out that is nearer than this, but for the names found.
+  double lower = std::numeric_limits<double>::infinity();
+
+  void clear() {
+    closest.clear();
+    lower = std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Branch and bound over pairs of regions: middle vertices give an upper bound, boxes a lower one. What is
+/// certainly not below the reach is not looked at, and in AccuracyMode::within nothing that is neither below
+/// the threshold nor more than the tolerance nearer than what is known.
+class ClosestRange {
+ public:
+  /// Goes on from `found`.
+  ClosestRange(const SurfacePair& pair, const PairQuery& query, Ties ties, ClosestFound& found,
+               bool may_pierce = true)
+      : pair_(pair),
+        query_(query),
+        found_(found),
+        set_(pair, ties, found.closest),
+        look_slack_(query.mode == AccuracyMode::exact ? query.look_slack : 0),
+        may_pierce_(may_pierce) {}
+
+  /// Whether something this near could still matter, now or before the surfaces have moved by `slack`; what
+  /// is left out bounds the answer from below.
+  bool keep(double lower_bound, double slack = 0) {
+    const double nearest = std::max(0.0, lower_bound - slack);
+    seen_ = std::min(seen_, lower_bound);
+    if (nearest > set_.upper()) return false;
+    const bool below_reach = nearest < query_.reach || nearest == 0;
+    const bool loose = query_.mode == AccuracyMode::within && nearest >= query_.threshold && nearest > 0 &&
+                       nearest >= set_.upper() - query_.tolerance;
+    if (below_reach && !loose) return true;
+    found_.lower = std::min(found_.lower, lower_bound);
+    return false;
+  }
+
+  /// What is certainly further than this does not matter now; in units of the scene.
+  [[nodiscard]] double limit() const {
+    const double reached = std::min(set_.upper(), query_.reach) + look_slack_;
+    if (query_.mode != AccuracyMode::within) return reached;
+    return std::min(reached, std::max(query_.threshold, set_.upper() - query_.tolerance));
+  }
+  /// Names are wanted with the range of their distance.
+  [[nodiscard]] static double names_below() { return 0; }
+  /// Something was left out that is further than an earlier or the present limit.
+  void left_out(double limit) {
+    if (limit < set_.upper()) found_.lower = std::min(found_.lower, limit);
+  }
+
+  /// Whether nothing can come nearer, and what is nearest need not be looked for among others: surfaces that
+  /// pierce each other do so in many places, any of which is a witness.
+  [[nodiscard]] bool is_settled() const { return set_.is_settled(query_.threshold); }
+
+  /// Nothing further than this is nearest.
+  [[nodiscard]] double upper() const { return set_.upper(); }
+  void offer(const ContactName& name) { set_.offer(name); }
+  void offer_middles(const RegionPair& regions) {
+    const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;
+    const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
+    // Not at 0: whether a walk came by must not show in the witness.
+    const double upper = upper_distance(pair_.a.position(a), pair_.b.position(b));
+    if (may_be_apart(upper) && upper < set_.upper())
+      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+  }
+  /// Where points of both surfaces are this far apart. Not at 0, as with middles; and not where a name must
+  /// be that near, since a search to a tolerance may leave it out.
+  void at_most(double upper) {
+    if (may_be_apart(upper) && query_.mode == AccuracyMode::exact) set_.at_most(upper);
+  }
+  /// Whether an edge may pierce a face.
+  [[nodiscard]] bool may_pierce() const { return may_pierce_; }
+  [[nodiscard]] static double touching() { return 0; }
+  [[nodiscard]] static bool is_listing() { return false; }
+  static void found(const PartOf& /*a*/, const PartOf& /*b*/) {}
+  /// Returns a lower bound of the distance of each vertex and face, and of each two edges of the two leaves.
+  double offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
+    seen_ = std::numeric_limits<double>::infinity();
+    double squared_seen = seen_;
+    const auto offer = [&](const ContactName& name, const SquaredRange& squared) {
+      pair_.check_time();
+      squared_seen = std::min(squared_seen, squared.low);
+      if (!squared.is_beyond(set_.upper())) set_.offer(name);
+    };
+    if (scratch.take(pair_, leaf_a, leaf_b, *this)) {
+      LeafNames names(pair_, scratch, *this, offer);
+      names.add_taken();
+      names.finish();
+    }
+    return std::min({limit(), seen_, std::sqrt(squared_seen) * round_down});
+  }
+  void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
+    for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {
+      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+    });
+  }
+
+ private:
+  const SurfacePair& pair_;
+  const PairQuery& query_;
+  ClosestFound& found_;
+  ClosestSet set_;
+  double look_slack_;
+  bool may_pierce_;
+  double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a look into two leaves began
+};
+
+}  // namespace graze

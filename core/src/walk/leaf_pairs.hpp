@@ -1,0 +1,168 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/pair_room.hpp"
+#include "core/pair/leaf_front.hpp"
+#include "core/pair/pair_query.hpp"
+#include "leaves/leaf_features.hpp"
+#include "names/contact_name.hpp"
+#include "pair/bounds.hpp"
+#include "surface/leaf_boxes.hpp"
+#include "walk/dmv.hpp"
+
+namespace graze {
+
+/// A pair of leaves that may be near, and a lower bound of how far apart they are.
+struct LeafPair {
+  double lower = 0;
+  RegionPair pair;
+  std::uint32_t listed = 0;  ///< its place in the front that it was taken from
+  float looked = 0;          ///< as ListedLeaves has it, now
+};
+
+/// Places in a front.
+class ListedPlaces {
+ public:
+  /// Room for so many, whatever they are.
+  std::uint32_t* room_for(std::size_t count) {
+    if (places_.size() < count) places_.resize(count);
+    return places_.data();
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.places_);
+  }
+  void reserve(const PairRoom& room) { places_.reserve(room.leaf_pairs); }
+
+ private:
+  std::vector<std::uint32_t> places_;
+};
+
+struct LeafPairScratch {
+  DmvScratch dmv;
+  LeafBoxes boxes_a;
+  LeafBoxes boxes_b;
+  ListedPlaces listed;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.listed);
+  }
+};
+
+/// Pairs of leaves that a query looks into, and how near what it does not can be.
+struct LeafPairList {
+  std::vector<LeafPair> leaves;
+  /// No pair of leaves that was left out on the way is nearer.
+  double beyond = std::numeric_limits<double>::infinity();
+
+  void clear() {
+    leaves.clear();
+    beyond = std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Finds pairs of leaves that may be near: among those of a front, or those that DMV reaches.
+class LeafPairs {
+ public:
+  LeafPairs(const SurfacePair& pair, const PairQuery& query, LeafPairScratch& scratch, WorkMeter& meter)
+      : pair_(pair),
+        query_(query),
+        scratch_(scratch),
+        meter_(meter),
+        bounds_(pair.a, pair.b, boxes_for(query.detail)) {
+    scratch_.boxes_a.begin(pair.a, boxes_for(query.detail));
+    scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
+  }
+
+  /// Appends those leaf pairs of a part of a front that are not further than a distance; where the surfaces
+  /// are `certainly_apart`, by what looks into them said, too. Without a branch, since which are is as good
+  /// as random; of most what was known when they were listed is enough, and no box is looked at.
+  void take(const LeafFront& front, std::size_t begin, std::size_t end, double distance, bool certainly_apart,
+            LeafPairList& found) {
+    std::uint32_t* const listed = scratch_.listed.room_for(end - begin);
+    const double most = (distance + front.motion_now(pair_.a, pair_.b)) * round_up;
+    const float of_looks = certainly_apart ? 1.0F : 0.0F;
+    std::size_t taken = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const ListedLeaves& leaves = front.leaves[i];
+      listed[taken] = static_cast<std::uint32_t>(i);
+      taken += static_cast<double>(std::max(leaves.lower, of_looks * leaves.looked)) <= most ? 1U : 0U;
+    }
+    std::size_t count = found.leaves.size();
+    found.leaves.resize(count + taken);
+    for (std::size_t k = 0; k < taken; ++k) {
+      const RegionPair& leaves = front.leaves[listed[k]].pair;
+      const double lower = lower_of_leaves(leaves);
+      found.leaves[count] = {lower, leaves, listed[k], 0};
+      count += lower <= distance ? 1U : 0U;
+    }
+    found.leaves.resize(count);
+  }
+
+  /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds: whether something
+  /// that is at least `lower` apart may come to matter before the surfaces have moved by `slack`.
+  /// `meet(pair)` is called for every pair of regions. Stops where a level has more than `most` pairs: those
+  /// are then `front()`. False when the budget ran out.
+  template <typename Keep, typename Meet>
+  bool walk(std::span<const RegionPair> start, const Keep& keep, const Meet& meet, LeafPairList& found,
+            std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    scratch_.dmv.front.assign(start.begin(), start.end());
+    const auto keeps = [&](double lower) {
+      if (keep(lower, query_.slack)) return true;
+      found.beyond = std::min(found.beyond, lower);
+      return false;
+    };
+    return dmv(
+        pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
+        [&](const RegionPair& regions, const Region& a, const Region& b) {
+          meet(regions);
+          return keeps(bounds_.lower(regions)) ? expansion_of(regions, a, b) : Expansion{};
+        },
+        [&](const RegionPair& regions) { return keeps(bounds_.lower(regions)); },
+        [&](const RegionPair& leaves, const Region&, const Region&) {
+          meet(leaves);
+          const double lower = bounds_.lower(leaves);
+          if (keeps(lower)) found.leaves.push_back({std::max(lower, lower_of_leaves(leaves)), leaves, 0, 0});
+        },
+        most);
+  }
+  /// At most how far apart two leaves are.
+  double lower_of_leaves(const RegionPair& leaves) {
+    return lower_distance(scratch_.boxes_a.of(leaves.a), scratch_.boxes_b.of(leaves.b));
+  }
+  /// Where the last walk stopped.
+  [[nodiscard]] std::span<const RegionPair> front() const { return scratch_.dmv.front; }
+
+  [[nodiscard]] LeafOf leaf_a(const RegionPair& leaves) {
+    return {pair_.a.mesh().regions().region(leaves.a), scratch_.boxes_a.of(leaves.a)};
+  }
+  [[nodiscard]] LeafOf leaf_b(const RegionPair& leaves) {
+    return {pair_.b.mesh().regions().region(leaves.b), scratch_.boxes_b.of(leaves.b)};
+  }
+
+ private:
+  /// Of two regions of very different size the larger alone is expanded: of a pebble and a planet one way
+  /// down the planet is walked, not one for each part of the pebble. Otherwise both are, as in the paper.
+  [[nodiscard]] Expansion expansion_of(const RegionPair& regions, const Region& a, const Region& b) const {
+    constexpr double very_different = 4;
+    const double size_a = bounds_.size_a(regions);
+    const double size_b = bounds_.size_b(regions);
+    if (size_a > very_different * size_b && !a.is_leaf()) return {true, false};
+    if (size_b > very_different * size_a && !b.is_leaf()) return {false, true};
+    return {true, true};
+  }
+  const SurfacePair& pair_;
+  const PairQuery& query_;
+  LeafPairScratch& scratch_;
+  WorkMeter& meter_;
+  RegionBounds bounds_;
+};
+
+}  // namespace graze

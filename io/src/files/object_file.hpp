@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "assimp/read_assimp.hpp"
+
+namespace graze::io {
+
+/// Reads a mesh file with the reader for its format, chosen by its extension. Objects may be without faces,
+/// and the rig is empty where the format has none. Throws InputError.
+RiggedFile read_objects(const std::filesystem::path& path);
+
+}  // namespace graze::io

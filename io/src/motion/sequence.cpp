@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cstdint>
+#include <graze/io/motion.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "files/object_file.hpp"
+#include "mesh/raw_object.hpp"
+#include "text/file_bytes.hpp"
+#include "text/number_text.hpp"
+
+namespace graze::io {
+namespace {
+
+/// A file name with a run of # in it.
+struct NamePattern {
+  std::string before;
+  std::string after;
+  std::size_t digits = 0;
+
+  explicit NamePattern(const std::filesystem::path& pattern) {
+    const std::string name = pattern.filename().string();
+    const auto begin = name.find('#');
+    if (begin == std::string::npos)
+      fail(pattern, "the file name has no #; put a run of # where the number stands");
+    const auto end = std::min(name.find_first_not_of('#', begin), name.size());
+    if (name.find('#', end) != std::string::npos)
+      fail(pattern, "the file name has several runs of #; leave one");
+    before = name.substr(0, begin);
+    after = name.substr(end);
+    digits = end - begin;
+  }
+
+  [[nodiscard]] std::optional<std::uint64_t> number_in(std::string_view name) const {
+    if (name.size() < before.size() + digits + after.size() || !name.starts_with(before) ||
+        !name.ends_with(after))
+      return std::nullopt;
+    const std::string_view number = name.substr(before.size(), name.size() - before.size() - after.size());
+    if (number.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+    return parse_number<std::uint64_t>(number);
+  }
+};
+
+/// The files of the pattern in order of their numbers.
+std::vector<std::filesystem::path> find_files(const std::filesystem::path& pattern) {
+  const NamePattern name(pattern);
+  const auto folder = pattern.has_parent_path() ? pattern.parent_path() : std::filesystem::path(".");
+  std::error_code error;
+  std::vector<std::pair<std::uint64_t, std::filesystem::path>> numbered;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (const auto number = name.number_in(entry->path().filename().string()))
+      numbered.emplace_back(*number, entry->path());
+  if (error) fail(pattern, joined("its folder cannot be read (", error.message(), "); check the path"));
+  if (numbered.empty()) fail(pattern, "no file has such a name; check the path and the number of #");
+  std::sort(numbered.begin(), numbered.end());
+  std::vector<std::filesystem::path> files;
+  for (std::size_t i = 0; i < numbered.size(); ++i) {
+    if (i > 0 && numbered[i].first == numbered[i - 1].first)
+      fail(pattern, joined("'", numbered[i - 1].second.filename().string(), "' and '",
+                           numbered[i].second.filename().string(), "' have one number; remove one of them"));
+    files.push_back(numbered[i].second);
+  }
+  return files;
+}
+
+class Sequence final : public PositionSource {
+ public:
+  Sequence(std::vector<std::filesystem::path> files, std::size_t vertex_count, std::size_t object)
+      : files_(std::move(files)), vertex_count_(vertex_count), object_(object) {
+    for (std::size_t frame = 0; frame < files_.size(); ++frame) check_header(frame);
+    std::vector<Eigen::Vector3d> positions;
+    read(0, positions);
+  }
+
+  [[nodiscard]] std::uint32_t frame_count() const override {
+    return static_cast<std::uint32_t>(files_.size());
+  }
+
+  void read(std::uint32_t frame, std::vector<Eigen::Vector3d>& positions) override {
+    const std::size_t number = std::min<std::size_t>(frame, files_.size() - 1);
+    auto objects = read_objects(files_[number]).file.objects;
+    if (object_ >= objects.size())
+      fail(files_[number], joined("frame ", number, ": there is no object ", object_,
+                                  " (counted from 0); give every frame the mesh's objects"));
+    require_count(number, objects[object_].surface.positions.size());
+    positions = std::move(objects[object_].surface.positions);
+  }
+
+ private:
+  void check_header(std::size_t frame) const {
+    const std::string extension = lower_extension(files_[frame]);
+    if (extension == ".ply") require_count(frame, announced_ply_vertices(files_[frame]));
+    if (extension == ".off") require_count(frame, announced_off_vertices(files_[frame]));
+  }
+
+  void require_count(std::size_t frame, std::uint64_t count) const {
+    if (count != vertex_count_)
+      fail(files_[frame], joined("frame ", frame, ": the file has ", count, " vertices, the mesh ",
+                                 vertex_count_, "; write every frame with the mesh's vertices"));
+  }
+
+  std::vector<std::filesystem::path> files_;
+  std::size_t vertex_count_;
+  std::size_t object_;
+};
+
+}  // namespace
+
+std::unique_ptr<PositionSource> open_sequence(const std::filesystem::path& pattern, const Mesh& mesh,
+                                              std::size_t object_index) {
+  return std::make_unique<Sequence>(find_files(pattern), mesh.vertex_count(), object_index);
+}
+
+}  // namespace graze::io

@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <graze/error.hpp>
+#include <graze/io/error.hpp>
+#include <graze/io/report_json.hpp>
+#include <graze/io/scene_file.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "report/statistics_fields.hpp"
+
+namespace graze::io {
+namespace {
+
+using nlohmann::json;
+
+/// What is wrong with one line; the reader adds file and line number.
+class BadLine : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+constexpr std::array phases{PairPhase::near, PairPhase::began, PairPhase::touching, PairPhase::ended};
+constexpr std::array contact_kinds{ContactKind::VV, ContactKind::VE, ContactKind::VF,
+                                   ContactKind::EE, ContactKind::EF, ContactKind::FF};
+constexpr std::array feature_kinds{FeatureKind::vertex, FeatureKind::edge, FeatureKind::face};
+constexpr std::array sides{Side::none, Side::front, Side::back};
+constexpr std::array diagnostic_kinds{
+    DiagnosticKind::stale_id,   DiagnosticKind::wrong_count,  DiagnosticKind::null_memory,
+    DiagnosticKind::bad_pose,   DiagnosticKind::wrong_motion, DiagnosticKind::misaligned_memory,
+    DiagnosticKind::not_finite, DiagnosticKind::too_large,    DiagnosticKind::broken_promise,
+    DiagnosticKind::bad_pair,   DiagnosticKind::bad_rule,     DiagnosticKind::out_of_memory};
+
+/// The enumerator whose name a JSON text is.
+template <typename Enumerators>
+typename Enumerators::value_type named(const Enumerators& all, const json& value) {
+  const auto& word = value.get_ref<const std::string&>();
+  const auto found =
+      std::ranges::find_if(all, [&](auto enumerator) { return to_string(enumerator) == word; });
+  if (found == all.end()) throw BadLine("\"" + word + "\" is no word of the format");
+  return *found;
+}
+
+/// A whole number that `Whole` holds; the parser's own conversion takes any number, rounded or wrapped
+/// around.
+template <typename Whole>
+Whole read_whole(const json& value) {
+  const bool fits = value.is_number_integer() &&
+                    (value.is_number_unsigned() ? std::in_range<Whole>(value.get<std::uint64_t>())
+                                                : std::in_range<Whole>(value.get<std::int64_t>()));
+  if (!fits) throw BadLine("a number is not whole, or too large or small for its place");
+  return value.get<Whole>();
+}
+
+double read_real(const json& value) {
+  if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (value == "infinity") return std::numeric_limits<double>::infinity();
+  if (value == "-infinity") return -std::numeric_limits<double>::infinity();
+  return value.get<double>();
+}
+
+Eigen::Vector3d read_point(const json& value) {
+  return {read_real(value.at(0)), read_real(value.at(1)), read_real(value.at(2))};
+}
+
+EdgeVertices read_edge(const json& value) {
+  return {read_whole<std::uint32_t>(value.at(0)), read_whole<std::uint32_t>(value.at(1))};
+}
+
+Feature read_feature(const json& value, EdgeVertices& edge) {
+  const Feature feature{named(feature_kinds, value.at(0)), read_whole<std::uint32_t>(value.at(1))};
+  if (feature.kind == FeatureKind::edge) edge = read_edge(value.at(2));
+  return feature;
+}
+
+ReportedContact read_contact(const json& value) {
+  ReportedContact read;
+  read.contact.kind = named(contact_kinds, value.at("kind"));
+  read.contact.feature_a = read_feature(value.at("a"), read.edge_a);
+  read.contact.feature_b = read_feature(value.at("b"), read.edge_b);
+  read.contact.distance = read_real(value.at("distance"));
+  read.contact.point_a = read_point(value.at("point_a"));
+  read.contact.point_b = read_point(value.at("point_b"));
+  read.contact.normal = read_point(value.at("normal"));
+  read.contact.side_a = named(sides, value.at("side").at(0));
+  read.contact.side_b = named(sides, value.at("side").at(1));
+  if (value.contains("since")) read.contact.since = read_whole<std::uint64_t>(value.at("since"));
+  return read;
+}
+
+ReportedPair read_pair(const json& value) {
+  ReportedPair pair;
+  pair.a = read_whole<std::uint32_t>(value.at("a"));
+  pair.b = read_whole<std::uint32_t>(value.at("b"));
+  pair.phase = named(phases, value.at("phase"));
+  pair.complete = value.value("complete", true);
+  pair.contacts_cut = value.value("contacts_cut", false);
+  pair.stale = value.value("stale", false);
+  pair.distance = {read_real(value.at("distance").at(0)), read_real(value.at("distance").at(1))};
+  const json& witness = value.at("witness");
+  pair.witness.feature_a = read_feature(witness.at("a"), pair.witness_edge_a);
+  pair.witness.feature_b = read_feature(witness.at("b"), pair.witness_edge_b);
+  pair.witness.point_a = read_point(witness.at("point_a"));
+  pair.witness.point_b = read_point(witness.at("point_b"));
+  for (const json& contact : value.at("contacts")) pair.contacts.push_back(read_contact(contact));
+  return pair;
+}
+
+ReportedDiagnostic read_diagnostic(const json& value) {
+  ReportedDiagnostic diagnostic;
+  if (const json& object = value.at("object"); !object.is_null())
+    diagnostic.object = read_whole<std::uint32_t>(object);
+  diagnostic.kind = named(diagnostic_kinds, value.at("kind"));
+  diagnostic.message = value.at("message").get<std::string>();
+  return diagnostic;
+}
+
+StepStatistics read_statistics(const json& value) {
+  StepStatistics statistics;
+  for (const auto& [name, member] : counter_fields)
+    statistics.*member = read_whole<std::uint64_t>(value.at(name));
+  const json& expanded = value.at("regions_expanded");
+  if (expanded.size() > statistics.regions_expanded.size())
+    throw BadLine("regions_expanded has too many levels");
+  for (std::size_t level = 0; level < expanded.size(); ++level)
+    statistics.regions_expanded[level] = read_whole<std::uint64_t>(expanded.at(level));
+  if (const auto found = value.find(thread_field.first); found != value.end())
+    statistics.*thread_field.second = read_whole<std::uint64_t>(*found);
+  for (const auto& [name, member] : time_fields)
+    if (const auto found = value.find(name); found != value.end()) statistics.*member = read_real(*found);
+  return statistics;
+}
+
+ReportedFrame read_frame(const json& value) {
+  ReportedFrame frame;
+  frame.frame = read_whole<std::uint64_t>(value.at("frame"));
+  frame.complete = value.at("complete").get<bool>();
+  for (const json& pair : value.at("pairs")) frame.pairs.push_back(read_pair(pair));
+  for (const json& diagnostic : value.at("diagnostics"))
+    frame.diagnostics.push_back(read_diagnostic(diagnostic));
+  frame.statistics = read_statistics(value.at("statistics"));
+  return frame;
+}
+
+Accuracy read_accuracy(const json& value) {
+  if (value == "exact") return Accuracy::exact();
+  if (value.contains("within")) return Accuracy::within(value.at("within").get<double>());
+  return Accuracy::paper(value.at("paper").get<std::vector<double>>());
+}
+
+SceneSettings read_settings(const json& value) {
+  SceneSettings settings;
+  settings.contact_distance = read_real(value.at("contact_distance"));
+  settings.range = read_real(value.at("range"));
+  const auto detail = contact_detail_from(value.at("detail").get<std::string>());
+  if (!detail) throw BadLine("detail is no word of the format");
+  settings.detail = *detail;
+  settings.accuracy = read_accuracy(value.at("accuracy"));
+  if (value.contains("time_budget_us"))
+    settings.time_budget = std::chrono::microseconds(read_whole<std::int64_t>(value.at("time_budget_us")));
+  if (value.contains("work_budget"))
+    settings.work_budget = read_whole<std::uint64_t>(value.at("work_budget"));
+  if (value.contains("max_contacts"))
+    settings.max_contacts = read_whole<std::size_t>(value.at("max_contacts"));
+  if (value.contains("max_contacts_per_pair"))
+    settings.max_contacts_per_pair = read_whole<std::size_t>(value.at("max_contacts_per_pair"));
+  return settings;
+}
+
+ReportedObject read_object(const json& value) {
+  return {read_whole<std::uint32_t>(value.at("id")), value.at("name").get<std::string>(),
+          read_whole<std::uint32_t>(value.at("vertices")), read_whole<std::uint32_t>(value.at("faces"))};
+}
+
+}  // namespace
+
+struct ReportReader::State {
+  /// Hands the next line, parsed, to `read`; false at the end of the file.
+  template <typename Read>
+  bool read_line(Read read);
+  void read_header(const json& header);
+
+  std::string path;
+  std::ifstream stream;
+  std::size_t line_number = 0;
+  std::vector<ReportedObject> objects;
+  SceneSettings settings;
+};
+
+template <typename Read>
+bool ReportReader::State::read_line(Read read) {
+  std::string line;
+  if (!std::getline(stream, line)) return false;
+  ++line_number;
+  const std::string place = path + ": line " + std::to_string(line_number) + ": ";
+  const std::string remedy = "; write the report again with this version of graze";
+  try {
+    read(json::parse(line));
+  } catch (const json::parse_error&) {
+    throw InputError(place + "not valid JSON, the file may be cut off" + remedy);
+  } catch (const json::exception&) {
+    throw InputError(place + "a key is missing or of another type" + remedy);
+  } catch (const BadLine& error) {
+    throw InputError(place + error.what() + remedy);
+  } catch (const Error& error) {
+    throw InputError(place + error.what() + remedy);
+  }
+  return true;
+}
+
+void ReportReader::State::read_header(const json& header) {
+  if (header.at("graze") != 1) throw BadLine("not version 1 of the format");
+  for (const json& object : header.at("objects")) objects.push_back(read_object(object));
+  settings = read_settings(header.at("settings"));
+}
+
+ReportReader::ReportReader(const std::filesystem::path& path) : state_(std::make_unique<State>()) {
+  state_->path = path.string();
+  state_->stream.open(path, std::ios::binary);
+  if (!state_->stream)
+    throw InputError(path.string() + ": cannot be opened; check that the file exists and may be read");
+  if (!state_->read_line([this](const json& header) { state_->read_header(header); }))
+    throw InputError(path.string() + ": is empty; write the report again");
+}
+
+ReportReader::~ReportReader() = default;
+ReportReader::ReportReader(ReportReader&&) noexcept = default;
+ReportReader& ReportReader::operator=(ReportReader&&) noexcept = default;
+
+std::span<const ReportedObject> ReportReader::objects() const {
+  return state_->objects;
+}
+const SceneSettings& ReportReader::settings() const {
+  return state_->settings;
+}
+
+std::optional<ReportedFrame> ReportReader::next() {
+  ReportedFrame frame;
+  if (!state_->read_line([&frame](const json& line) { frame = read_frame(line); })) return std::nullopt;
+  return frame;
+}
+
+}  // namespace graze::io

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <fstream>
+#include <graze/io/error.hpp>
+#include <graze/io/report_json.hpp>
+#include <graze/io/scene_file.hpp>
+
+#include "report/statistics_fields.hpp"
+#include "text/json_text.hpp"
+
+namespace graze::io {
+namespace {
+
+void write_accuracy(JsonText& json, const Accuracy& accuracy) {
+  if (accuracy.mode() == AccuracyMode::exact) {
+    json.text("exact");
+    return;
+  }
+  json.open('{');
+  if (accuracy.mode() == AccuracyMode::within) {
+    json.key("within").real(accuracy.tolerance());
+  } else {
+    json.key("paper").open('[');
+    for (const double epsilon : accuracy.epsilon()) json.real(epsilon);
+    json.close(']');
+  }
+  json.close('}');
+}
+
+/// Threads are left out: they do not change the answer.
+void write_settings(JsonText& json, const SceneSettings& settings) {
+  json.open('{');
+  json.key("contact_distance").real(settings.contact_distance);
+  json.key("range").real(settings.range);
+  json.key("detail").text(to_string(settings.detail));
+  json.key("accuracy");
+  write_accuracy(json, settings.accuracy);
+  if (settings.time_budget)
+    json.key("time_budget_us").whole(static_cast<std::uint64_t>(settings.time_budget->count()));
+  if (settings.work_budget) json.key("work_budget").whole(*settings.work_budget);
+  if (settings.max_contacts) json.key("max_contacts").whole(*settings.max_contacts);
+  if (settings.max_contacts_per_pair)
+    json.key("max_contacts_per_pair").whole(*settings.max_contacts_per_pair);
+  json.close('}');
+}
+
+void write_header(JsonText& json, std::span<const SceneObject> objects, const SceneSettings& settings) {
+  json.open('{').key("graze").whole(1);
+  json.key("objects").open('[');
+  for (std::size_t id = 0; id < objects.size(); ++id) {
+    json.open('{').key("id").whole(id).key("name").text(objects[id].name);
+    json.key("vertices")
+        .whole(objects[id].mesh->vertex_count())
+        .key("faces")
+        .whole(objects[id].mesh->face_count());
+    json.close('}');
+  }
+  json.close(']').key("settings");
+  write_settings(json, settings);
+  json.close('}');
+}
+
+void write_feature(JsonText& json, const Feature& feature, const Mesh& mesh) {
+  json.open('[').text(to_string(feature.kind)).whole(feature.index);
+  if (feature.kind == FeatureKind::edge) {
+    const auto [low, high] = mesh.edge(feature.index);
+    json.open('[').whole(low).whole(high).close(']');
+  }
+  json.close(']');
+}
+
+void write_contact(JsonText& json, const Contact& contact, const Mesh& mesh_a, const Mesh& mesh_b) {
+  json.open('{').key("kind").text(to_string(contact.kind)).key("a");
+  write_feature(json, contact.feature_a, mesh_a);
+  json.key("b");
+  write_feature(json, contact.feature_b, mesh_b);
+  json.key("distance").real(contact.distance);
+  json.key("point_a").point(contact.point_a).key("point_b").point(contact.point_b);
+  json.key("normal").point(contact.normal);
+  json.key("side").open('[').text(to_string(contact.side_a)).text(to_string(contact.side_b)).close(']');
+  json.key("since").whole(contact.since).close('}');
+}
+
+void write_witness(JsonText& json, const Witness& witness, const Mesh& mesh_a, const Mesh& mesh_b) {
+  json.open('{').key("a");
+  write_feature(json, witness.feature_a, mesh_a);
+  json.key("b");
+  write_feature(json, witness.feature_b, mesh_b);
+  json.key("point_a").point(witness.point_a).key("point_b").point(witness.point_b).close('}');
+}
+
+void write_statistics(JsonText& json, const StepStatistics& statistics, bool include_times) {
+  json.open('{');
+  for (const auto& [name, member] : counter_fields) json.key(name).whole(statistics.*member);
+  const auto& expanded = statistics.regions_expanded;
+  const auto last =
+      std::find_if(expanded.rbegin(), expanded.rend(), [](std::uint64_t count) { return count != 0; });
+  json.key("regions_expanded").open('[');
+  std::for_each(expanded.begin(), last.base(), [&](std::uint64_t count) { json.whole(count); });
+  json.close(']');
+  if (include_times) {
+    json.key(thread_field.first).whole(statistics.*thread_field.second);
+    for (const auto& [name, member] : time_fields) json.key(name).real(statistics.*member);
+  }
+  json.close('}');
+}
+
+}  // namespace
+
+struct ReportWriter::State {
+  void write_line();
+  void write_pair(const FrameReport& report, const PairReport& pair);
+  /// The number of `id` among the objects, or their count for an id that is not one of them.
+  [[nodiscard]] std::size_t number_of(ObjectId id) const;
+
+  std::string path;
+  std::ofstream stream;
+  std::vector<SceneObject> objects;
+  std::vector<std::pair<ObjectId, std::size_t>> numbers;  ///< ascending by id
+  Options options;
+  JsonText json;
+};
+
+std::size_t ReportWriter::State::number_of(ObjectId id) const {
+  const auto found = std::ranges::lower_bound(numbers, id, {}, &std::pair<ObjectId, std::size_t>::first);
+  return found != numbers.end() && found->first == id ? found->second : objects.size();
+}
+
+void ReportWriter::State::write_pair(const FrameReport& report, const PairReport& pair) {
+  const std::size_t a = number_of(pair.a);
+  const std::size_t b = number_of(pair.b);
+  if (a == objects.size() || b == objects.size())
+    throw InputError(path +
+                     ": the report has an object that the header has not; add objects before the writer");
+  const Mesh& mesh_a = *objects[a].mesh;
+  const Mesh& mesh_b = *objects[b].mesh;
+  json.open('{').key("a").whole(a).key("b").whole(b).key("phase").text(to_string(pair.phase));
+  if (!pair.complete) json.key("complete").flag(false);
+  if (pair.contacts_cut) json.key("contacts_cut").flag(true);
+  if (pair.stale) json.key("stale").flag(true);
+  json.key("distance").open('[').real(pair.distance.lower).real(pair.distance.upper).close(']');
+  json.key("witness");
+  write_witness(json, pair.witness, mesh_a, mesh_b);
+  json.key("contacts").open('[');
+  for (const Contact& contact : report.contacts(pair)) write_contact(json, contact, mesh_a, mesh_b);
+  json.close(']').close('}');
+}
+
+void ReportWriter::State::write_line() {
+  stream << json.line() << '\n';
+  json.clear();
+  if (!stream)
+    throw InputError(path + ": cannot be written further; free some space or choose another place");
+}
+
+ReportWriter::ReportWriter(const std::filesystem::path& path, std::span<const SceneObject> objects,
+                           const SceneSettings& settings, Options options)
+    : state_(std::make_unique<State>()) {
+  state_->path = path.string();
+  state_->stream.open(path, std::ios::binary | std::ios::trunc);
+  if (!state_->stream)
+    throw InputError(path.string() +
+                     ": cannot be written; check that its folder exists and may be written to");
+  state_->objects.assign(objects.begin(), objects.end());
+  for (std::size_t number = 0; number < objects.size(); ++number)
+    state_->numbers.emplace_back(objects[number].id, number);
+  std::ranges::sort(state_->numbers);
+  state_->options = options;
+  write_header(state_->json, objects, settings);
+  state_->write_line();
+}
+
+ReportWriter::~ReportWriter() = default;
+ReportWriter::ReportWriter(ReportWriter&&) noexcept = default;
+ReportWriter& ReportWriter::operator=(ReportWriter&&) noexcept = default;
+
+void ReportWriter::write(std::uint64_t frame, const FrameReport& report) {
+  JsonText& json = state_->json;
+  json.open('{').key("frame").whole(frame).key("complete").flag(report.complete());
+  json.key("pairs").open('[');
+  for (const PairReport& pair : report.pairs()) state_->write_pair(report, pair);
+  json.close(']').key("diagnostics").open('[');
+  for (const Diagnostic& diagnostic : report.diagnostics()) {
+    const std::size_t number = state_->number_of(diagnostic.object);
+    json.open('{').key("object");
+    if (number == state_->objects.size())
+      json.null();
+    else
+      json.whole(number);
+    json.key("kind").text(to_string(diagnostic.kind)).key("message").text(diagnostic.message).close('}');
+  }
+  json.close(']').key("statistics");
+  write_statistics(json, report.statistics(), state_->options.include_times);
+  json.close('}');
+  state_->write_line();
+}
+
+void ReportWriter::close() {
+  state_->stream.close();
+  if (!state_->stream) throw InputError(state_->path + ": did not reach the disk whole; free some space");
+}
+
+}  // namespace graze::io

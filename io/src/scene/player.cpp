@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <graze/error.hpp>
+#include <graze/io/error.hpp>
+#include <graze/io/player.hpp>
+
+#include "scene/scene_loading.hpp"
+
+namespace graze::io {
+namespace {
+
+/// One object's motion: at most one of source and keys.
+struct Playback {
+  std::unique_ptr<PositionSource> source;
+  std::vector<KeyPose> keys;
+  Eigen::Affine3d placement = Eigen::Affine3d::Identity();  ///< of every frame of `source`
+  bool is_deformable = false;
+  std::vector<Eigen::Vector3d> positions;  ///< of a source: bound to the scene
+  const Eigen::Vector3d* bound = nullptr;  ///< what the scene was last told to read
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+};
+
+std::uint32_t longest_motion(const std::vector<Playback>& playbacks) {
+  std::uint32_t frames = 1;
+  for (const Playback& playback : playbacks) {
+    if (playback.source) frames = std::max(frames, playback.source->frame_count());
+    if (!playback.keys.empty()) frames = std::max(frames, playback.keys.back().frame + 1);
+  }
+  return frames;
+}
+
+Scene make_scene(const SceneDescription& description) {
+  try {
+    return Scene(description.settings);
+  } catch (const Error& error) {
+    throw InputError(description.file + ": " + error.what());
+  }
+}
+
+void read_frame(Playback& playback, std::uint32_t frame, const SceneObject& object) {
+  try {
+    playback.source->read(std::min(frame, playback.source->frame_count() - 1), playback.positions);
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + " (object \"" + object.name + "\", frame " +
+                     std::to_string(frame) + ")");
+  }
+  if (playback.placement.matrix() == Eigen::Matrix4d::Identity()) return;
+  for (Eigen::Vector3d& point : playback.positions) point = playback.placement * point;
+}
+
+}  // namespace
+
+struct Player::State {
+  explicit State(const SceneDescription& description) : scene(make_scene(description)) {
+    LoadedScene loaded = load_scene(description);
+    warnings = std::move(loaded.warnings);
+    for (LoadedSceneObject& object : loaded.objects) add(object, description.objects[object.entry]);
+    for (const RuleDescription& rule : description.rules) set_rule(rule, description.settings);
+    for (const IgnoreDescription& ignored : description.ignore) ignore(ignored, description);
+    frame_count = description.frames.value_or(longest_motion(playbacks));
+  }
+
+  void add(LoadedSceneObject& loaded, const ObjectDescription& entry);
+  void set_rule(const RuleDescription& rule, const SceneSettings& settings);
+  void ignore(const IgnoreDescription& ignored, const SceneDescription& description);
+  [[nodiscard]] std::vector<std::size_t> named(const std::string& name, const std::string& place,
+                                               const SceneDescription& description) const;
+  void advance_object(std::size_t index, std::uint32_t frame);
+
+  std::vector<SceneObject> objects;
+  std::vector<std::size_t> entries;  ///< of each object, the entry of the description that it came from
+  std::vector<Playback> playbacks;   ///< of each object; outlives the scene, which reads its positions
+  std::vector<std::string> warnings;
+  std::uint32_t frame_count = 1;
+  Scene scene;
+};
+
+void Player::State::add(LoadedSceneObject& loaded, const ObjectDescription& entry) {
+  SceneObject object{{}, loaded.settings.name, loaded.mesh};
+  try {
+    object.id = scene.add(loaded.mesh, loaded.settings);
+  } catch (const Error& error) {
+    throw InputError(entry.place + ": " + error.what());
+  }
+  Playback playback;
+  playback.source = std::move(loaded.source);
+  playback.keys = entry.poses;
+  playback.placement = loaded.placement;
+  playback.is_deformable = loaded.settings.motion == Motion::deformable;
+  if (playback.source) playback.positions.assign(loaded.mesh->rest().begin(), loaded.mesh->rest().end());
+  if (!playback.is_deformable) {
+    playback.pose = entry.transform.pose();
+    scene.set_pose(object.id, playback.pose);
+  }
+  objects.push_back(std::move(object));
+  entries.push_back(loaded.entry);
+  playbacks.push_back(std::move(playback));
+}
+
+void Player::State::set_rule(const RuleDescription& rule, const SceneSettings& settings) {
+  PairRule pair_rule;
+  pair_rule.contact_distance = rule.contact_distance.value_or(settings.contact_distance);
+  pair_rule.range = rule.range.value_or(settings.range);
+  pair_rule.epsilon = rule.epsilon;
+  scene.set_rule(rule.kinds[0], rule.kinds[1], pair_rule);
+}
+
+/// The objects of the entry called `name`, or the one object called so.
+std::vector<std::size_t> Player::State::named(const std::string& name, const std::string& place,
+                                              const SceneDescription& description) const {
+  std::vector<std::size_t> found;
+  for (std::size_t index = 0; index < objects.size(); ++index)
+    if (objects[index].name == name || description.objects[entries[index]].name == name)
+      found.push_back(index);
+  if (!found.empty()) return found;
+  std::string known;
+  for (const SceneObject& object : objects) known += (known.empty() ? "" : ", ") + object.name;
+  throw InputError(place + ": no object is called \"" + name + "\"; the scene has " + known);
+}
+
+void Player::State::ignore(const IgnoreDescription& ignored, const SceneDescription& description) {
+  const auto first = named(ignored.names[0], ignored.place, description);
+  const auto second = named(ignored.names[1], ignored.place, description);
+  if (first == second && first.size() == 1)
+    throw InputError(ignored.place + ": names one object twice; name two objects");
+  for (const std::size_t a : first)
+    for (const std::size_t b : second)
+      if (a != b) scene.ignore(objects[a].id, objects[b].id);
+}
+
+void Player::State::advance_object(std::size_t index, std::uint32_t frame) {
+  Playback& playback = playbacks[index];
+  const ObjectId id = objects[index].id;
+  if (playback.source) {
+    read_frame(playback, frame, objects[index]);
+    if (playback.bound != playback.positions.data()) scene.bind_positions(id, playback.positions);
+    playback.bound = playback.positions.data();
+  }
+  if (!playback.keys.empty()) {
+    playback.pose = pose_at(playback.keys, frame);
+    scene.set_pose(id, playback.pose);
+  }
+}
+
+Player::Player(const SceneDescription& description) : state_(std::make_unique<State>(description)) {}
+Player::~Player() = default;
+Player::Player(Player&&) noexcept = default;
+Player& Player::operator=(Player&&) noexcept = default;
+
+Scene& Player::scene() {
+  return state_->scene;
+}
+std::span<const SceneObject> Player::objects() const {
+  return state_->objects;
+}
+std::uint32_t Player::frame_count() const {
+  return state_->frame_count;
+}
+std::span<const std::string> Player::warnings() const {
+  return state_->warnings;
+}
+
+void Player::advance(std::uint32_t frame) {
+  for (std::size_t index = 0; index < state_->objects.size(); ++index) state_->advance_object(index, frame);
+}
+
+void Player::read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const {
+  const Playback& playback = state_->playbacks[index];
+  if (playback.source) {
+    positions = playback.positions;
+    return;
+  }
+  const auto rest = state_->objects[index].mesh->rest();
+  positions.assign(rest.begin(), rest.end());
+  if (playback.is_deformable) return;
+  for (Eigen::Vector3d& point : positions) point = playback.pose * point;
+}
+
+}  // namespace graze::io

@@ -1,0 +1,218 @@
+#include "scene/scene_loading.hpp"
+
+#include <algorithm>
+#include <graze/error.hpp>
+#include <graze/io/error.hpp>
+#include <graze/io/mesh_file.hpp>
+#include <map>
+#include <set>
+
+#include "mesh/axes.hpp"
+#include "mesh/known_formats.hpp"
+#include "mesh/raw_object.hpp"
+#include "text/file_bytes.hpp"
+
+namespace graze::io {
+namespace {
+
+std::string list_of(std::span<const std::string> names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + names[i] + "\"";
+  return list.empty() ? "none" : list;
+}
+
+/// The number that `choice` picks among `names`. `what` is the key it stands under.
+std::size_t pick(const NumberOrName& choice, std::span<const std::string> names, const std::string& place,
+                 const std::string& what) {
+  const std::string remedy = "; the file has " + list_of(names);
+  if (const auto* number = std::get_if<std::uint32_t>(&choice)) {
+    if (*number >= names.size())
+      throw InputError(place + "." + what + ": no number " + std::to_string(*number) + " in the mesh file" +
+                       remedy);
+    return *number;
+  }
+  const auto& name = std::get<std::string>(choice);
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end())
+    throw InputError(place + "." + what + ": no \"" + name + "\" in the mesh file" + remedy);
+  if (std::ranges::count(names, name) > 1)
+    throw InputError(place + "." + what + ": several are called \"" + name + "\", pick by number" + remedy);
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// Names that generated ones must not repeat.
+class NameList {
+ public:
+  explicit NameList(const SceneDescription& description) {
+    for (const ObjectDescription& entry : description.objects)
+      if (!entry.name.empty()) taken_.insert(entry.name);
+  }
+  std::string unused(const std::string& wanted) {
+    std::string name = wanted;
+    for (int copy = 2; !taken_.insert(name).second; ++copy) name = wanted + "#" + std::to_string(copy);
+    return name;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+class Loader {
+ public:
+  explicit Loader(const SceneDescription& description) : description_(description), names_(description) {}
+
+  LoadedScene load() {
+    for (std::size_t entry = 0; entry < description_.objects.size(); ++entry) load_entry(entry);
+    return std::move(scene_);
+  }
+
+ private:
+  void load_entry(std::size_t entry);
+  void load_object(std::size_t entry, const MeshFile& file, std::size_t index, bool is_only_one);
+  const MeshFile& file_of(const std::filesystem::path& path);
+  std::string name_of(const ObjectDescription& entry, const LoadedObject& loaded, bool is_only_one);
+  [[nodiscard]] Eigen::Matrix3d conversion(const ObjectDescription& entry, const MeshFile& file) const;
+  void note_frame(const ObjectDescription& entry, const MeshFile& file);
+  [[nodiscard]] std::unique_ptr<PositionSource> open_source(const ObjectDescription& entry,
+                                                            const MeshFile& file, std::size_t index) const;
+
+  const SceneDescription& description_;
+  NameList names_;
+  std::map<std::filesystem::path, MeshFile> files_;
+  LoadedScene scene_;
+};
+
+const MeshFile& Loader::file_of(const std::filesystem::path& path) {
+  const auto known = files_.find(path);
+  if (known != files_.end()) return known->second;
+  const MeshFile& file = files_.emplace(path, MeshFile::read(path)).first->second;
+  for (const std::string& warning : file.warnings()) scene_.warnings.push_back(warning);
+  return file;
+}
+
+std::string Loader::name_of(const ObjectDescription& entry, const LoadedObject& loaded, bool is_only_one) {
+  if (!entry.name.empty()) return is_only_one ? entry.name : names_.unused(entry.name + "/" + loaded.name);
+  return names_.unused(loaded.name.empty() ? entry.mesh.stem().string() : loaded.name);
+}
+
+std::unique_ptr<PositionSource> Loader::open_source(const ObjectDescription& entry, const MeshFile& file,
+                                                    std::size_t index) const {
+  const LoadedObject& object = file.objects()[index];
+  if (entry.animation) {
+    const std::size_t animation = pick(*entry.animation, file.animations(), entry.place, "animation");
+    return open_animation(file, index, animation, description_.frames_per_second);
+  }
+  if (entry.animate_where_possible && object.animated)
+    return open_animation(file, index, 0, description_.frames_per_second);
+  if (entry.positions.empty()) return nullptr;
+  const std::string extension = lower_extension(entry.positions);
+  if (extension == ".pc2" || extension == ".mdd") return open_vertex_cache(entry.positions, *object.mesh);
+  if (entry.positions.filename().string().find('#') != std::string::npos)
+    return open_sequence(entry.positions, *object.mesh, index);
+  if (const auto format = name_of_unread_format(extension))
+    throw InputError(entry.place + ".positions: \"" + entry.positions.string() + "\" is " + *format +
+                     ", a format that is not read; export a vertex cache (.pc2, .mdd)");
+  throw InputError(
+      entry.place + ".positions: \"" + entry.positions.string() +
+      "\" is neither a vertex cache (.pc2, .mdd) nor a numbered sequence; write a name with #, such as "
+      "cloth_####.ply");
+}
+
+/// The mesh with its rest positions replaced. Numbers stay; a mirror turns the faces, so that the front stays
+/// outside.
+std::shared_ptr<const Mesh> moved_mesh(const std::shared_ptr<const Mesh>& mesh,
+                                       const Eigen::Affine3d& placement) {
+  if (placement.matrix() == Eigen::Matrix4d::Identity()) return mesh;
+  RawSurface surface;
+  for (const Eigen::Vector3d& point : mesh->rest()) surface.positions.push_back(placement * point);
+  for (std::uint32_t face = 0; face < mesh->face_count(); ++face) surface.add_face(mesh->face(face));
+  if (placement.linear().determinant() < 0) turn_faces(surface);
+  return std::make_shared<const Mesh>(
+      Mesh::from_polygons(surface.positions, surface.corners, surface.corner_counts));
+}
+
+Eigen::Affine3d linear_map(const Eigen::Matrix3d& matrix) {
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();
+  map.linear() = matrix;
+  return map;
+}
+
+void Loader::load_object(std::size_t entry_index, const MeshFile& file, std::size_t index, bool is_only_one) {
+  const ObjectDescription& entry = description_.objects[entry_index];
+  LoadedSceneObject object;
+  object.entry = entry_index;
+  object.source = open_source(entry, file, index);
+  object.settings.name = name_of(entry, file.objects()[index], is_only_one);
+  object.settings.motion = object.source ? Motion::deformable : entry.motion;
+  object.settings.layer = entry.layer;
+  object.settings.collides_with = entry.collides_with;
+  object.settings.group = entry.group;
+  object.settings.margin = entry.margin;
+  object.settings.kind = entry.kind;
+  object.placement = linear_map(entry.transform.stretch) * linear_map(conversion(entry, file));
+  if (object.settings.motion == Motion::deformable)
+    object.placement = entry.transform.pose() * object.placement;
+  try {
+    object.mesh = moved_mesh(file.objects()[index].mesh, object.placement);
+  } catch (const Error& error) {
+    throw InputError(entry.place + ".transform: " + error.what());
+  }
+  scene_.objects.push_back(std::move(object));
+}
+
+/// Takes the file's axes and unit to the scene's, as far as the entry says what they are.
+Eigen::Matrix3d Loader::conversion(const ObjectDescription& entry, const MeshFile& file) const {
+  const FileFrame& frame = file.frame();
+  if (entry.up_is_the_files && !frame.up)
+    throw InputError(entry.place + ".up: " + entry.mesh.string() +
+                     " does not say which axis points up; write x, y or z");
+  if (entry.unit_is_the_files && !frame.metres_per_unit)
+    throw InputError(entry.place + ".unit: " + entry.mesh.string() +
+                     " does not say what its unit is; write it, such as mm");
+  Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
+  if (entry.up_is_the_files) map = z_up_from(description_.up).transpose() * frame.to_z_up;
+  if (entry.up) map = z_up_from(description_.up).transpose() * z_up_from(*entry.up);
+  const auto unit = entry.unit_is_the_files ? frame.metres_per_unit : entry.metres_per_unit;
+  return unit ? Eigen::Matrix3d(*unit / description_.metres_per_unit * map) : map;
+}
+
+/// Says what was converted, or that a file that says more than "metres, z up" was taken as it stands.
+void Loader::note_frame(const ObjectDescription& entry, const MeshFile& file) {
+  const Eigen::Matrix3d map = conversion(entry, file);
+  const bool has_keys = entry.up || entry.up_is_the_files || entry.metres_per_unit || entry.unit_is_the_files;
+  std::string note;
+  if (map != Eigen::Matrix3d::Identity())
+    note = entry.mesh.string() + ": converted: " + text_of_map(map);
+  else if (!has_keys && says_other_than_scene(entry.mesh, file.frame()))
+    note = entry.mesh.string() + ": its coordinates are taken as they stand, though it says " +
+           text_of_frame(file.frame()) + R"(; "up": "file" and "unit": "file" in a scene file convert them)";
+  // Several entries may name one file.
+  if (!note.empty() && std::ranges::find(scene_.warnings, note) == scene_.warnings.end())
+    scene_.warnings.push_back(std::move(note));
+}
+
+void Loader::load_entry(std::size_t entry_index) {
+  const ObjectDescription& entry = description_.objects[entry_index];
+  const MeshFile& file = file_of(entry.mesh);
+  note_frame(entry, file);
+  std::vector<std::string> nodes;
+  for (const LoadedObject& object : file.objects()) nodes.push_back(object.name);
+  if (entry.node) {
+    load_object(entry_index, file, pick(*entry.node, nodes, entry.place, "node"), true);
+    return;
+  }
+  if (nodes.size() > 1 && !entry.positions.empty())
+    throw InputError(entry.place + ".positions: " + entry.mesh.string() + " holds " +
+                     std::to_string(nodes.size()) + " objects; pick one with \"node\": " + list_of(nodes));
+  for (std::size_t index = 0; index < nodes.size(); ++index)
+    load_object(entry_index, file, index, nodes.size() == 1);
+}
+
+}  // namespace
+
+LoadedScene load_scene(const SceneDescription& description) {
+  return Loader(description).load();
+}
+
+}  // namespace graze::io

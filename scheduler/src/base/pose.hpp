@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "core/base/number_text.hpp"
+
+namespace graze {
+
+/// Says why the rows (r0, r1, r2, t) are not a pose. Nothing for a good one. A pose is finite, and its matrix
+/// R is within 1e-3 of a rotation: no entry of RᵀR − 1 is larger, and R is no reflection. So an engine's
+/// float rotations are poses.
+inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows) {
+  constexpr double furthest = 1e-3;
+  Eigen::Matrix3d matrix;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      matrix(row, column) = rows[static_cast<std::size_t>(row * 4 + column)];
+  if (!matrix.allFinite() || !Eigen::Vector3d(rows[3], rows[7], rows[11]).allFinite())
+    return "its matrix is not finite";
+  const double off = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(off <= furthest))
+    return "its matrix is no rotation: an entry of RᵀR - 1 is " + number_text(off, 4) + ", more than 1e-3";
+  if (matrix.determinant() < 0) return "its matrix is a reflection";
+  return std::nullopt;
+}
+
+/// Says why a 4x4 matrix is not a pose. Nothing for a good one. Its last row is (0, 0, 0, 1), but for what
+/// the inverse of a float matrix is rounded by.
+inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows,
+                                                  const std::array<double, 4>& last_row) {
+  constexpr double furthest = 1e-6;
+  constexpr std::array<double, 4> wanted{0, 0, 0, 1};
+  for (std::size_t column = 0; column < 4; ++column)
+    if (!(std::abs(last_row[column] - wanted[column]) <= furthest))
+      return "the last row of the pose is (" + number_text(last_row[0]) + ", " + number_text(last_row[1]) +
+             ", " + number_text(last_row[2]) + ", " + number_text(last_row[3]) +
+             "), not (0, 0, 0, 1); the translation belongs into the last column";
+  return problem_of_pose(rows);
+}
+
+}  // namespace graze

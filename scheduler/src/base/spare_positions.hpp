@@ -1,0 +1,113 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <graze/position_view.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+
+/// A copy of one object's positions in the precision in which they came, one beside the other. Those of
+/// unused vertices mean nothing.
+class CopiedPositions {
+ public:
+  /// Makes room for `count` positions, which are whatever they were.
+  void resize(std::size_t count, bool in_double) {
+    is_double_ = in_double;
+    in_double ? in_double_.resize(count) : in_float_.resize(count);
+  }
+  [[nodiscard]] PositionView view() const {
+    return is_double_ ? PositionView(in_double_) : PositionView(in_float_);
+  }
+  [[nodiscard]] std::byte* data() {
+    void* const first = is_double_ ? static_cast<void*>(in_double_.data()) : in_float_.data();
+    return static_cast<std::byte*>(first);
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    return sizeof(CopiedPositions) + bytes_of(in_float_) + bytes_of(in_double_);
+  }
+
+ private:
+  std::vector<Eigen::Vector3f> in_float_;
+  std::vector<Eigen::Vector3d> in_double_;
+  bool is_double_ = true;
+};
+
+/// The memory of one object's copied positions, used again and again: a few buffers that are lent and given
+/// back from any thread without waiting. More are made where more are wanted at once, and freed when they
+/// come back.
+class SparePositions {
+ public:
+  /// Copies of one object's positions that may wait for a step without an allocation for the next.
+  static constexpr std::size_t most_waiting = 4;
+
+  /// Bytes that buffers hold, lent or kept, of any number of objects.
+  using ByteCount = std::atomic<std::size_t>;
+
+  struct GiveBack {
+    SparePositions* owner = nullptr;
+    ByteCount* byte_count = nullptr;
+    /// Of an object that is gone: nobody will want the buffer again.
+    bool is_last = false;
+    void operator()(CopiedPositions* positions) const noexcept {
+      is_last ? free(positions, *byte_count) : owner->keep(positions, *byte_count);
+    }
+  };
+  /// Gives the buffer back when it goes; the spares and the count must be there then.
+  using Loan = std::unique_ptr<CopiedPositions, GiveBack>;
+
+  SparePositions() = default;
+  ~SparePositions() {
+    for (std::atomic<CopiedPositions*>& place : places_) delete place.load(std::memory_order_acquire);
+  }
+  SparePositions(const SparePositions&) = delete;
+  SparePositions& operator=(const SparePositions&) = delete;
+
+  /// A buffer of `count` positions, of whatever it held last.
+  [[nodiscard]] Loan lend(std::size_t count, bool in_double, ByteCount& byte_count) {
+    Loan loan(take(byte_count), {this, &byte_count});
+    const std::size_t before = loan->byte_count();
+    loan->resize(count, in_double);
+    const std::size_t now = loan->byte_count();
+    if (now != before) byte_count.fetch_add(now - before, std::memory_order_relaxed);
+    return loan;
+  }
+  void clear(ByteCount& byte_count) noexcept {
+    for (std::atomic<CopiedPositions*>& place : places_)
+      free(place.exchange(nullptr, std::memory_order_acquire), byte_count);
+  }
+
+ private:
+  CopiedPositions* take(ByteCount& byte_count) {
+    // A place is emptied by an exchange, so a buffer has one holder. Acquire: the last one has done with it.
+    for (std::atomic<CopiedPositions*>& place : places_)
+      if (CopiedPositions* const kept = place.exchange(nullptr, std::memory_order_acquire)) return kept;
+    auto fresh = std::make_unique<CopiedPositions>();
+    byte_count.fetch_add(fresh->byte_count(), std::memory_order_relaxed);
+    return fresh.release();
+  }
+  void keep(CopiedPositions* positions, ByteCount& byte_count) noexcept {
+    for (std::atomic<CopiedPositions*>& place : places_) {
+      CopiedPositions* empty = nullptr;
+      if (place.compare_exchange_strong(empty, positions, std::memory_order_release,
+                                        std::memory_order_relaxed))
+        return;
+    }
+    free(positions, byte_count);
+  }
+  static void free(CopiedPositions* positions, ByteCount& byte_count) noexcept {
+    if (positions == nullptr) return;
+    byte_count.fetch_sub(positions->byte_count(), std::memory_order_relaxed);
+    delete positions;
+  }
+
+  /// One more for the copy that the object stands at.
+  std::array<std::atomic<CopiedPositions*>, most_waiting + 1> places_{};
+};
+
+}  // namespace graze

@@ -1,0 +1,125 @@
+#include "broad_phase/box_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+namespace {
+
+/// Ranges of more boxes than this are halved before the rest is shared among threads.
+constexpr std::size_t large_range = 4096;
+
+/// Boxes of one class differ at most four times in their longest side.
+constexpr int exponents_of_class = 2;
+constexpr int lowest_exponent =
+    std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
+constexpr std::size_t class_count =
+    static_cast<std::size_t>(std::numeric_limits<double>::max_exponent - lowest_exponent) /
+        exponents_of_class +
+    1;
+
+/// Finite, also for boxes without an end.
+double finite(double value) {
+  constexpr double most = std::numeric_limits<double>::max() / 4;
+  return std::clamp(value, -most, most);
+}
+
+/// Large boxes have low classes.
+std::uint32_t size_class_of(const Box& box) {
+  double side = 0;
+  for (int axis = 0; axis < 3; ++axis) side = std::max(side, finite(box.max[axis]) - finite(box.min[axis]));
+  int exponent = lowest_exponent;
+  if (side > 0) std::frexp(side, &exponent);
+  return static_cast<std::uint32_t>((std::numeric_limits<double>::max_exponent - exponent) /
+                                    exponents_of_class);
+}
+
+}  // namespace
+
+void BoxOrder::make(std::span<const Box> boxes, std::vector<std::uint32_t>& slots, TaskPool& tasks) {
+  sort_by_size(boxes);
+  halve_large();
+  const auto halve_range = [&](unsigned, std::size_t index) { halve_down(ranges_[index]); };
+  tasks.run(ranges_.size(), std::ref(halve_range));
+  slots.resize(items_.size());
+  std::transform(items_.begin(), items_.end(), slots.begin(), [](const Item& item) { return item.place; });
+}
+
+void BoxOrder::sort_by_size(std::span<const Box> boxes) {
+  std::array<std::size_t, class_count> counts{};
+  unsorted_.clear();
+  for (std::uint32_t place = 0; place < boxes.size(); ++place) {
+    Item item{{}, place, size_class_of(boxes[place])};
+    for (int axis = 0; axis < 3; ++axis)
+      item.centre[static_cast<std::size_t>(axis)] =
+          finite(boxes[place].min[axis]) + finite(boxes[place].max[axis]);
+    ++counts[item.size_class];
+    unsorted_.push_back(item);
+  }
+  std::array<std::size_t, class_count> begins{};
+  std::size_t end = 0;
+  ranges_.clear();
+  for (std::size_t size_class = 0; size_class < class_count; ++size_class) {
+    begins[size_class] = end;
+    if (counts[size_class] > 0) ranges_.push_back({end, end + counts[size_class]});
+    end += (counts[size_class] + block - 1) / block * block;
+  }
+  items_.assign(end, Item{{}, no_place, 0});
+  for (const Item& item : unsorted_) items_[begins[item.size_class]++] = item;
+}
+
+/// Parts a range at a slot at which a group begins, as high a group as there is inside; returns the slot.
+std::size_t BoxOrder::halve(const Range& range) {
+  std::size_t group = block;
+  while ((range.begin / (group * block) + 1) * (group * block) < range.end) group *= block;
+  const std::size_t middle = std::max((range.begin + range.end) / 2 / group, range.begin / group + 1) * group;
+  std::array<double, 3> low = items_[range.begin].centre;
+  std::array<double, 3> high = low;
+  for (std::size_t slot = range.begin; slot < range.end; ++slot)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], items_[slot].centre[axis]);
+      high[axis] = std::max(high[axis], items_[slot].centre[axis]);
+    }
+  std::size_t widest = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis)
+    if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+  const auto at = [&](std::size_t slot) { return items_.begin() + static_cast<std::ptrdiff_t>(slot); };
+  std::nth_element(at(range.begin), at(middle), at(range.end), [widest](const Item& left, const Item& right) {
+    return left.centre[widest] < right.centre[widest] ||
+           (left.centre[widest] == right.centre[widest] && left.place < right.place);
+  });
+  return middle;
+}
+
+void BoxOrder::halve_down(const Range& range) {
+  if (range.end - range.begin <= block) return;
+  const std::size_t middle = halve(range);
+  halve_down({range.begin, middle});
+  halve_down({middle, range.end});
+}
+
+/// Leaves only small ranges in `ranges_`.
+void BoxOrder::halve_large() {
+  for (std::size_t index = 0; index < ranges_.size(); ++index)
+    while (ranges_[index].end - ranges_[index].begin > large_range) {
+      const std::size_t middle = halve(ranges_[index]);
+      ranges_.push_back({middle, ranges_[index].end});
+      ranges_[index].end = middle;
+    }
+}
+
+void BoxOrder::reserve(std::size_t boxes, std::size_t slots) {
+  unsorted_.reserve(boxes);
+  items_.reserve(slots);
+  ranges_.reserve(class_count + 4 * (boxes / large_range));
+}
+
+std::size_t BoxOrder::byte_count() const {
+  return bytes_of(unsorted_) + bytes_of(items_) + bytes_of(ranges_);
+}
+
+}  // namespace graze

@@ -1,0 +1,294 @@
+#include "broad_phase/box_tree.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<double>::max();
+
+/// Nodes of a level that are refitted, or slots that are filled, at a time.
+constexpr std::size_t slice = 512;
+
+constexpr std::size_t slices_of(std::size_t count) {
+  return (count + slice - 1) / slice;
+}
+
+}  // namespace
+
+const BoxTree::Limits BoxTree::no_box = {infinity, infinity, infinity, infinity, infinity, infinity};
+
+BoxTree::Limits BoxTree::limits_of(const Box& box) {
+  Limits limits;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto index = static_cast<Eigen::Index>(axis);
+    limits[axis] = std::clamp(box.min[index], -largest, largest);
+    limits[axis + 3] = std::clamp(-box.max[index], -largest, largest);
+  }
+  return limits;
+}
+
+BoxTree::Reach BoxTree::reach_of(const Limits& limits) {
+  return {-limits[3], -limits[4], -limits[5], -limits[0], -limits[1], -limits[2]};
+}
+
+/// Bit i says whether box i meets. Without a branch for each number: their outcome cannot be foreseen.
+unsigned BoxTree::meeting(const Limits* eight, const Reach& reach) {
+  unsigned meeting = 0;
+  for (unsigned i = 0; i < width; ++i) {
+    const Limits& box = eight[i];
+    unsigned apart = 0;
+    for (std::size_t side = 0; side < box.size(); ++side) apart |= box[side] > reach[side] ? 1U : 0U;
+    meeting |= (apart ^ 1U) << i;
+  }
+  return meeting;
+}
+
+/// Sizes the levels for the slots there are; new nodes hold no box.
+void BoxTree::make_levels() {
+  std::size_t nodes = place_of_.size();
+  level_count_ = 0;
+  while (true) {
+    if (levels_.size() <= level_count_) levels_.emplace_back();
+    levels_[level_count_++].resize((nodes + width - 1) / width * width, no_box);
+    if (nodes <= 1) return;
+    nodes = (nodes + width - 1) / width;
+  }
+}
+
+void BoxTree::build(std::span<const Box> boxes, TaskPool& tasks) {
+  order_.make(boxes, place_of_, tasks);
+  ordered_ = place_of_.size();
+  slot_of_.resize(boxes.size());
+  for (std::uint32_t slot = 0; slot < place_of_.size(); ++slot)
+    if (place_of_[slot] != no_place) slot_of_[place_of_[slot]] = slot;
+  find_end();
+  for (auto& level : levels_) level.clear();
+  make_levels();
+  move_all(boxes, tasks);
+  ordered_sides_.resize(block_count());
+  for (std::size_t block = 0; block < ordered_sides_.size(); ++block)
+    ordered_sides_[block] = side_of_block(block);
+}
+
+double BoxTree::side_of_block(std::size_t block) const {
+  const Limits& box = levels_[1][block];
+  return std::max({-box[3] - box[0], -box[4] - box[1], -box[5] - box[2]});
+}
+
+std::size_t BoxTree::widened_blocks() const {
+  std::size_t widened = 0;
+  for (std::size_t block = 0; block < ordered_sides_.size(); ++block)
+    widened += side_of_block(block) > 2 * ordered_sides_[block] ? 1U : 0U;
+  return widened;
+}
+
+void BoxTree::move_all(std::span<const Box> boxes, TaskPool& tasks) {
+  const auto fill = [&](unsigned, std::size_t index) {
+    const std::size_t end = std::min((index + 1) * slice, place_of_.size());
+    for (std::size_t slot = index * slice; slot < end; ++slot)
+      levels_[0][slot] = place_of_[slot] == no_place ? no_box : limits_of(boxes[place_of_[slot]]);
+  };
+  tasks.run(slices_of(place_of_.size()), std::ref(fill));
+  refit_all(tasks);
+}
+
+void BoxTree::refit_all(TaskPool& tasks) {
+  for (std::uint32_t level = 1; level < level_count_; ++level) {
+    const std::size_t count = (levels_[level - 1].size()) / width;
+    const auto refit = [&](unsigned, std::size_t index) {
+      const std::size_t end = std::min((index + 1) * slice, count);
+      for (std::size_t node = index * slice; node < end; ++node)
+        refit_node(level, static_cast<std::uint32_t>(node));
+    };
+    tasks.run(slices_of(count), std::ref(refit));
+  }
+}
+
+void BoxTree::refit_node(std::uint32_t level, std::uint32_t index) {
+  const Limits* const children = &levels_[level - 1][std::size_t{index} * width];
+  Limits box = children[0];
+  for (std::size_t child = 1; child < width; ++child)
+    for (std::size_t side = 0; side < box.size(); ++side)
+      box[side] = std::min(box[side], children[child][side]);
+  levels_[level][index] = box;
+}
+
+/// Changes a slot and what is above it.
+void BoxTree::put(std::uint32_t slot, const Box& box) {
+  levels_[0][slot] = place_of_[slot] == no_place ? no_box : limits_of(box);
+  std::uint32_t index = slot;
+  for (std::uint32_t level = 1; level < level_count_; ++level) {
+    index /= width;
+    const Limits before = levels_[level][index];
+    refit_node(level, index);
+    if (levels_[level][index] == before) return;
+  }
+}
+
+void BoxTree::move(std::uint32_t place, const Box& box) {
+  put(slot_of_[place], box);
+}
+
+void BoxTree::add(const Box& box) {
+  const auto place = static_cast<std::uint32_t>(slot_of_.size());
+  const std::uint32_t slot = end_++;
+  if (slot == place_of_.size()) {
+    const std::size_t levels_before = level_count_;
+    place_of_.resize(place_of_.size() + width, no_place);
+    make_levels();
+    // A new root is over what the last one was over.
+    for (std::size_t level = std::max<std::size_t>(levels_before, 1); level < level_count_; ++level)
+      refit_node(static_cast<std::uint32_t>(level), 0);
+  }
+  place_of_[slot] = place;
+  slot_of_.push_back(slot);
+  put(slot, box);
+}
+
+void BoxTree::rename(std::span<const std::uint32_t> new_places) {
+  std::uint32_t count = 0;
+  for (std::uint32_t place = 0; place < new_places.size(); ++place) {
+    const std::uint32_t slot = slot_of_[place];
+    place_of_[slot] = new_places[place];
+    if (new_places[place] == no_place)
+      put(slot, {});
+    else
+      slot_of_[count++] = slot;
+  }
+  slot_of_.resize(count);
+  find_end();
+}
+
+void BoxTree::find_end() {
+  end_ = static_cast<std::uint32_t>(place_of_.size());
+  while (end_ > 0 && place_of_[end_ - 1] == no_place) --end_;
+}
+
+std::uint64_t BoxTree::find(const Box& box, std::vector<std::uint32_t>& found) const {
+  if (place_of_.empty()) return 0;
+  const Reach reach = reach_of(limits_of(box));
+  std::uint64_t tested = 0;
+  Stack stack;
+  std::size_t height = 0;
+  stack[height++] = {static_cast<std::uint32_t>(level_count_ - 1), 0};
+  while (height > 0) {
+    const Node node = stack[--height];
+    const std::uint32_t first = node.index * width;
+    tested += width;
+    for (unsigned left = meeting(&levels_[node.level - 1][first], reach); left != 0; left &= left - 1) {
+      const std::uint32_t child = first + static_cast<std::uint32_t>(std::countr_zero(left));
+      if (node.level == 1)
+        found.push_back(place_of_[child]);
+      else
+        stack[height++] = {node.level - 1, child};
+    }
+  }
+  return tested;
+}
+
+std::uint64_t BoxTree::find_pairs(std::uint32_t first_block, std::uint32_t last_block,
+                                  std::vector<PlacePair>& found) const {
+  std::uint64_t tested = 0;
+  for (std::uint32_t block = first_block; block < last_block; ++block) tested += find_pairs_of(block, found);
+  return tested;
+}
+
+/// The blocks from this one on that meet it, and in them the pairs.
+std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<PlacePair>& found) const {
+  const Reach reach = reach_of(levels_[1][block]);
+  std::uint64_t tested = find_pairs_of(block, block, found);
+  Stack stack;
+  std::size_t height = 0;
+  const auto top = static_cast<std::uint32_t>(level_count_ - 1);
+  if (top >= 2) stack[height++] = {top, 0};
+  while (height > 0) {
+    const Node node = stack[--height];
+    const std::uint32_t first = node.index * width;
+    // Children that end before this block begins were looked at from there.
+    const std::uint32_t own = block >> (3 * (node.level - 2));
+    const unsigned earlier = own <= first ? 0 : std::min(own - first, width);
+    tested += width;
+    unsigned left = meeting(&levels_[node.level - 1][first], reach) >> earlier << earlier;
+    for (; left != 0; left &= left - 1) {
+      const std::uint32_t child = first + static_cast<std::uint32_t>(std::countr_zero(left));
+      if (node.level > 2)
+        stack[height++] = {node.level - 1, child};
+      else if (child != block)
+        tested += find_pairs_of(block, child, found);
+    }
+  }
+  return tested;
+}
+
+std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::uint32_t other,
+                                     std::vector<PlacePair>& found) const {
+  const Limits* const ones = &levels_[0][std::size_t{block} * width];
+  const Limits* const others = &levels_[0][std::size_t{other} * width];
+  std::uint64_t tested = width;
+  for (unsigned left = meeting(ones, reach_of(levels_[1][other])); left != 0; left &= left - 1) {
+    const auto one = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t place = place_of_[block * width + one];
+    unsigned meets = meeting(others, reach_of(ones[one]));
+    if (block == other) meets &= ~1U << one;  // only those behind it
+    tested += width;
+    for (; meets != 0; meets &= meets - 1)
+      found.push_back(
+          pair_of(place, place_of_[other * width + static_cast<std::uint32_t>(std::countr_zero(meets))]));
+  }
+  return tested;
+}
+
+void BoxTree::reserve(std::size_t boxes, std::size_t slots) {
+  order_.reserve(boxes, slots);
+  slot_of_.reserve(boxes);
+  place_of_.reserve(slots);
+  ordered_sides_.reserve(slots / width + 1);
+  std::size_t nodes = slots;
+  for (std::size_t level = 0;; ++level, nodes = (nodes + width - 1) / width) {
+    if (levels_.size() <= level) levels_.emplace_back();
+    levels_[level].reserve((nodes + width - 1) / width * width);
+    if (nodes <= 1) return;
+  }
+}
+
+std::size_t BoxTree::byte_count() const {
+  std::size_t bytes = order_.byte_count() + bytes_of(place_of_) + bytes_of(slot_of_) +
+                      bytes_of(ordered_sides_) + bytes_of(levels_);
+  for (const auto& level : levels_) bytes += bytes_of(level);
+  return bytes;
+}
+
+#ifdef GRAZE_VALIDATE
+void BoxTree::validate(std::span<const Box> boxes) const {
+  const auto require = [](bool holds, const char* what, std::size_t index) {
+    if (!holds)
+      throw std::logic_error(std::string("graze validator: ") + what + " at " + std::to_string(index));
+  };
+  require(slot_of_.size() == boxes.size(), "a place has no slot", boxes.size());
+  std::size_t filled = 0;
+  for (const std::uint32_t place : place_of_) filled += place == no_place ? 0U : 1U;
+  require(filled == boxes.size(), "a slot is in use by no place", filled);
+  for (std::size_t place = 0; place < boxes.size(); ++place) {
+    require(place_of_[slot_of_[place]] == place, "a place is in another's slot", place);
+    require(levels_[0][slot_of_[place]] == limits_of(boxes[place]), "a slot has another box", place);
+  }
+  for (std::size_t level = 1; level < level_count_; ++level)
+    for (std::size_t child = 0; child < levels_[level - 1].size(); ++child)
+      for (std::size_t side = 0; side < no_box.size(); ++side)
+        require(levels_[level][child / width][side] <= levels_[level - 1][child][side],
+                "a node does not contain a child", child);
+}
+#else
+void BoxTree::validate(std::span<const Box>) const {}
+#endif
+
+}  // namespace graze

@@ -1,0 +1,287 @@
+#include "broad_phase/broad_phase.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+namespace {
+
+// Work done at a time. How it is cut depends on the work alone, never on the number of threads.
+constexpr std::size_t objects_of_slice = 2048;
+constexpr std::uint32_t blocks_of_slice = 64;
+constexpr std::size_t queries_of_slice = 128;
+
+constexpr std::size_t slices_of(std::size_t count, std::size_t slice) {
+  return (count + slice - 1) / slice;
+}
+
+/// An object that moves steadily stays in its loose box for about so many steps.
+constexpr double steps_of_slack = 4;
+/// Bounds of the room to move, in parts of the box's longest side.
+constexpr double least_slack = 1.0 / 32;
+constexpr double most_slack = 1.0 / 12;
+
+/// When objects have left their loose boxes that are more than this part of all, all pairs are found anew.
+constexpr std::size_t few = 8;
+
+/// Making a new order takes about as long as this many tests for each object.
+constexpr double tests_of_ordering = 64;
+
+/// A tree with more slots wants a new order.
+constexpr std::size_t most_slots(std::size_t objects) {
+  return 2 * objects + 64;
+}
+
+bool contains(const Box& box, const Box& other) {
+  return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
+}
+
+double longest_side(const Box& box) {
+  return (box.max - box.min).maxCoeff();
+}
+
+/// Loose boxes are around `needed`, with room for the motion to go on; for a jump that says nothing.
+Box loosened(const Box& needed, double motion) {
+  const double side = longest_side(needed);
+  const bool is_steady = motion <= most_slack * side;
+  const double room = is_steady ? std::clamp(steps_of_slack * motion, least_slack * side, most_slack * side)
+                                : least_slack * side;
+  return grown(needed, room);
+}
+
+/// Whether a loose box has become too loose: the object has shrunk, or its reach.
+bool is_too_loose(const Box& loose, const Box& needed) {
+  const double side = longest_side(needed);
+  const Box most = grown(needed, side);
+  return !contains(most, loose);
+}
+
+}  // namespace
+
+std::span<const PlacePair> BroadPhase::find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
+                                            TaskPool& tasks) {
+  counters_ = {};
+  reaches_changed_ = half_reaches != half_reaches_;
+  half_reaches_ = half_reaches;
+  follow(summaries);
+  loosen(summaries, tasks);
+  if (!left_.empty()) {
+    if (left_.size() > loose_.size() / few || wants_new_order())
+      find_all(tasks);
+    else
+      find_left(tasks);
+  }
+  validate(summaries, half_reaches_, loose_, pairs_);
+  tree_.validate(loose_);
+  return pairs_;
+}
+
+/// Takes objects out that are gone, and puts new ones in, which have no loose box yet.
+void BroadPhase::follow(const ObjectSummaries& summaries) {
+  const auto moves = summaries.moves();
+  if (!moves.empty()) {
+    tree_.rename(moves);
+    std::size_t count = 0;
+    for (std::size_t place = 0; place < moves.size(); ++place)
+      if (moves[place] != no_place) loose_[count++] = loose_[place];
+    loose_.resize(count);
+    std::size_t kept = 0;
+    for (const PlacePair pair : pairs_)
+      if (const PlacePair moved = moved_pair(pair, moves); moved != no_pair) pairs_[kept++] = moved;
+    pairs_.resize(kept);
+  }
+  for (std::size_t place = loose_.size(); place < summaries.all().size(); ++place) {
+    loose_.emplace_back();
+    tree_.add({});
+  }
+}
+
+/// Gives those that have left their loose boxes new ones, and lists them.
+void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
+  const std::size_t count = loose_.size();
+  const std::size_t slices = slices_of(count, objects_of_slice);
+  left_.resize(count);
+  has_left_.resize(count);
+  slice_objects_.assign(slices, {});
+  const auto loosen_slice = [&](unsigned, std::size_t slice) {
+    const std::size_t begin = slice * objects_of_slice;
+    SliceObjects objects;
+    for (std::size_t place = begin; place < std::min(begin + objects_of_slice, count); ++place) {
+      const ObjectSummary& summary = summaries.all()[place];
+      const bool has_left = leaves(summary, loose_[place]);
+      has_left_[place] = has_left ? 1 : 0;
+      if (has_left)
+        left_[begin + objects.left++] = static_cast<std::uint32_t>(place);
+      else if (summary.moved)
+        ++objects.in_slack;
+    }
+    slice_objects_[slice] = objects;
+  };
+  tasks.run(slices, std::ref(loosen_slice));
+  std::size_t end = 0;
+  for (std::size_t slice = 0; slice < slices; ++slice) {
+    const auto from = left_.begin() + static_cast<std::ptrdiff_t>(slice * objects_of_slice);
+    std::copy_n(from, slice_objects_[slice].left, left_.begin() + static_cast<std::ptrdiff_t>(end));
+    end += slice_objects_[slice].left;
+    counters_.objects_in_slack += slice_objects_[slice].in_slack;
+  }
+  left_.resize(end);
+}
+
+/// Whether an object has left its loose box, which is then a new one.
+bool BroadPhase::leaves(const ObjectSummary& summary, Box& loose) const {
+  const bool is_new = loose.empty();
+  if (!summary.moved && !is_new && !reaches_changed_) return false;
+  const Box needed = grown(summary.box, half_reaches_[summary.kind] + summary.margin);
+  if (!is_new && contains(loose, needed) && !is_too_loose(loose, needed)) return false;
+  loose = loosened(needed, summary.motion);
+  return true;
+}
+
+bool BroadPhase::wants_new_order() const {
+  const std::size_t count = loose_.size();
+  return tree_.slot_count() > most_slots(count) || tree_.unordered_count() > count / few + 64 ||
+         excess_tests_ > tests_of_ordering * static_cast<double>(count);
+}
+
+std::span<BroadPhase::Slice> BroadPhase::begin_slices(std::size_t count) {
+  while (slices_.size() < count) reserve(slices_.emplace_back());
+  slice_count_ = count;
+  for (Slice& slice : std::span(slices_).first(count)) {
+    slice.pairs.clear();
+    slice.boxes_tested = 0;
+  }
+  return std::span(slices_).first(count);
+}
+
+void BroadPhase::find_all(TaskPool& tasks) {
+  const auto count = static_cast<double>(loose_.size());
+  bool is_ordered = wants_new_order();
+  if (!is_ordered) {
+    tree_.move_all(loose_, tasks);
+    is_ordered = tree_.widened_blocks() > tree_.block_count() / 4;
+  }
+  if (is_ordered) tree_.build(loose_, tasks);
+  const auto slices = begin_slices(slices_of(tree_.block_count(), blocks_of_slice));
+  const auto find_slice = [&](unsigned, std::size_t index) {
+    const auto first = static_cast<std::uint32_t>(index) * blocks_of_slice;
+    const std::uint32_t last = std::min(first + blocks_of_slice, tree_.block_count());
+    slices[index].boxes_tested = tree_.find_pairs(first, last, slices[index].pairs);
+  };
+  tasks.run(slices.size(), std::ref(find_slice));
+  sort_rows(tasks);
+  const auto tested = static_cast<double>(sum_tests());
+  if (is_ordered) {
+    tests_when_ordered_ = tested / count;
+    excess_tests_ = 0;
+  }
+  excess_tests_ += std::max(0.0, tested - 1.5 * tests_when_ordered_ * count);
+}
+
+std::uint64_t BroadPhase::sum_tests() {
+  std::uint64_t tested = 0;
+  for (const Slice& slice : std::span(slices_).first(slice_count_)) tested += slice.boxes_tested;
+  counters_.boxes_tested += tested;
+  return tested;
+}
+
+/// Puts what the slices found into `pairs_`: by first object, then each object's row by itself.
+void BroadPhase::sort_rows(TaskPool& tasks) {
+  const auto slices = std::span<const Slice>(slices_).first(slice_count_);
+  const std::size_t objects = loose_.size();
+  rows_.assign(objects + 1, 0);
+  for (const Slice& slice : slices)
+    for (const PlacePair pair : slice.pairs) ++rows_[first_of(pair) + std::size_t{1}];
+  for (std::size_t place = 0; place < objects; ++place) rows_[place + 1] += rows_[place];
+  pairs_.resize(rows_[objects]);
+  for (const Slice& slice : slices)
+    for (const PlacePair pair : slice.pairs) pairs_[rows_[first_of(pair)]++] = pair;
+  // Now rows_[i] is where row i ends.
+  const auto sort_slice = [&](unsigned, std::size_t index) {
+    const std::size_t begin = index * objects_of_slice;
+    const std::size_t end = std::min(begin + objects_of_slice, objects);
+    for (std::size_t place = begin; place < end; ++place) {
+      const auto from = static_cast<std::ptrdiff_t>(place == 0 ? 0 : rows_[place - 1]);
+      std::sort(pairs_.begin() + from, pairs_.begin() + static_cast<std::ptrdiff_t>(rows_[place]));
+    }
+  };
+  tasks.run(slices_of(objects, objects_of_slice), std::ref(sort_slice));
+}
+
+/// Finds the pairs of those few that have left their loose boxes; of the other pairs none has come or gone.
+void BroadPhase::find_left(TaskPool& tasks) {
+  for (const std::uint32_t place : left_) tree_.move(place, loose_[place]);
+  const auto slices = begin_slices(slices_of(left_.size(), queries_of_slice));
+  const auto find_slice = [&](unsigned, std::size_t index) {
+    Slice& slice = slices[index];
+    const std::size_t end = std::min((index + 1) * queries_of_slice, left_.size());
+    for (std::size_t i = index * queries_of_slice; i < end; ++i) find_one(left_[i], slice);
+  };
+  tasks.run(slices.size(), std::ref(find_slice));
+  merge();
+  const double expected = 4 * tests_when_ordered_ + 64;
+  excess_tests_ +=
+      std::max(0.0, static_cast<double>(sum_tests()) - expected * static_cast<double>(left_.size()));
+}
+
+void BroadPhase::find_one(std::uint32_t place, Slice& slice) const {
+  slice.found.clear();
+  slice.boxes_tested += tree_.find(loose_[place], slice.found);
+  for (const std::uint32_t other : slice.found) {
+    // Of two that have left, the lower finds the pair.
+    if (other == place || (has_left_[other] != 0 && other < place)) continue;
+    slice.pairs.push_back(pair_of(place, other));
+  }
+}
+
+/// Replaces the pairs of those that have left.
+void BroadPhase::merge() {
+  new_pairs_.clear();
+  for (const Slice& slice : std::span(slices_).first(slice_count_))
+    new_pairs_.insert(new_pairs_.end(), slice.pairs.begin(), slice.pairs.end());
+  std::sort(new_pairs_.begin(), new_pairs_.end());
+  merged_.clear();
+  auto next = new_pairs_.begin();
+  for (const PlacePair pair : pairs_) {
+    if (has_left_[first_of(pair)] != 0 || has_left_[second_of(pair)] != 0) continue;
+    for (; next != new_pairs_.end() && *next < pair; ++next) merged_.push_back(*next);
+    merged_.push_back(pair);
+  }
+  merged_.insert(merged_.end(), next, new_pairs_.end());
+  pairs_.swap(merged_);
+}
+
+void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
+  constexpr std::size_t most_of_each_slice = 4096;
+  const std::size_t slots = most_slots(objects);
+  loose_.reserve(objects);
+  tree_.reserve(objects, slots);
+  left_.reserve(objects);
+  has_left_.reserve(objects);
+  slice_objects_.reserve(slices_of(objects, objects_of_slice));
+  rows_.reserve(objects + 1);
+  pairs_.reserve(pairs);
+  new_pairs_.reserve(pairs);
+  merged_.reserve(pairs);
+  pairs_of_each_slice_ = std::max(pairs_of_each_slice_, std::min(pairs, most_of_each_slice));
+  const std::size_t slices = slices_of(slots, std::size_t{BoxOrder::block} * blocks_of_slice);
+  if (slices_.size() < slices) slices_.resize(slices);
+  for (Slice& slice : slices_) reserve(slice);
+}
+
+void BroadPhase::reserve(Slice& slice) const {
+  slice.pairs.reserve(pairs_of_each_slice_);
+  slice.found.reserve(pairs_of_each_slice_);
+}
+
+std::size_t BroadPhase::byte_count() const {
+  std::size_t bytes = bytes_of(loose_) + tree_.byte_count() + bytes_of(pairs_) + bytes_of(merged_) +
+                      bytes_of(new_pairs_) + bytes_of(left_) + bytes_of(has_left_) + bytes_of(rows_) +
+                      bytes_of(slices_) + bytes_of(slice_objects_);
+  for (const Slice& slice : slices_) bytes += bytes_of(slice.pairs) + bytes_of(slice.found);
+  return bytes;
+}
+
+}  // namespace graze

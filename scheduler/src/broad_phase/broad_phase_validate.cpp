@@ -1,0 +1,54 @@
+#include <stdexcept>
+#include <string>
+
+#include "broad_phase/broad_phase.hpp"
+
+namespace graze {
+
+#ifdef GRAZE_VALIDATE
+namespace {
+
+/// More objects than this are not looked at pair by pair.
+constexpr std::size_t most_objects = 200;
+
+void require(bool holds, const char* what, std::size_t index) {
+  if (!holds)
+    throw std::logic_error(std::string("graze validator: ") + what + " at " + std::to_string(index));
+}
+
+bool contains(const Box& box, const Box& other) {
+  return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
+}
+
+bool meet(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+}  // namespace
+
+void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& half_reaches,
+              std::span<const Box> loose, std::span<const PlacePair> pairs) {
+  require(summaries.all().size() == loose.size(), "not every object has a loose box", loose.size());
+  for (std::size_t place = 0; place < loose.size(); ++place) {
+    const ObjectSummary& summary = summaries.all()[place];
+    require(contains(loose[place], grown(summary.box, half_reaches[summary.kind] + summary.margin)),
+            "a loose box does not contain its object", place);
+  }
+  for (std::size_t i = 1; i < pairs.size(); ++i) require(pairs[i - 1] < pairs[i], "pairs do not ascend", i);
+  if (loose.size() > most_objects) return;
+  auto pair = pairs.begin();
+  for (std::uint32_t first = 0; first < loose.size(); ++first)
+    for (std::uint32_t second = first + 1; second < loose.size(); ++second) {
+      if (!meet(loose[first], loose[second])) continue;
+      require(pair != pairs.end() && *pair == pair_of(first, second), "a pair of loose boxes is missing",
+              first);
+      ++pair;
+    }
+  require(pair == pairs.end(), "a pair is listed whose loose boxes do not meet", pairs.size());
+}
+#else
+void validate(const ObjectSummaries&, const BroadPhase::HalfReaches&, std::span<const Box>,
+              std::span<const PlacePair>) {}
+#endif
+
+}  // namespace graze

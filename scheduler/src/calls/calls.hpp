@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <graze/object_id.hpp>
+#include <graze/position_view.hpp>
+#include <graze/report.hpp>
+#include <graze/settings.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "base/spare_positions.hpp"
+#include "core/surface/surface.hpp"
+
+namespace graze {
+
+// The calls on a scene, as they wait for the next step. All were found good when they were made.
+
+struct AddObject {
+  ObjectId object;
+  std::unique_ptr<Surface> surface;  ///< made on the caller's thread
+  ObjectSettings settings;
+};
+struct RemoveObject {
+  ObjectId object;
+};
+struct SetPose {
+  ObjectId object;
+  std::array<double, 12> rows;
+};
+/// A pose that is none. The object's pairs are stale until a good one comes.
+struct RefusePose {
+  Diagnostic problem;  ///< names the object
+};
+struct SetPositions {
+  ObjectId object;
+  SparePositions::Loan positions;
+  Box box;  ///< of these
+  double max_displacement = std::numeric_limits<double>::infinity();
+};
+struct BindPositions {
+  ObjectId object;
+  PositionView view;
+  BindPolicy policy;
+};
+struct UnbindPositions {
+  ObjectId object;
+  SparePositions::Loan positions;     ///< what the memory says last
+  Box box;                            ///< of these
+  std::optional<Diagnostic> problem;  ///< in their place, where they are bad
+  bool is_due = false;                ///< the next step would have read the memory
+  bool is_lost = false;               ///< there was no memory for the copy
+};
+struct PositionsChanged {
+  ObjectId object;
+  double max_displacement;
+};
+struct IgnorePair {
+  ObjectId a;
+  ObjectId b;
+  bool ignored;
+};
+struct SetRule {
+  std::uint32_t kind_a;
+  std::uint32_t kind_b;
+  PairRule rule;
+};
+struct Reserve {
+  SceneCapacity capacity;
+};
+
+/// The first holds nothing: it is what a call leaves when it was taken up.
+using Call = std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions,
+                          UnbindPositions, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
+
+}  // namespace graze

@@ -1,0 +1,426 @@
+#include "calls/staging.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <graze/error.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/object_name.hpp"
+#include "base/pose.hpp"
+#include "base/settings_check.hpp"
+#include "core/base/floating_point_scope.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/surface/surface.hpp"
+
+namespace graze {
+namespace {
+
+void add_problem(CallQueue::Chain& calls, ObjectId object, DiagnosticKind kind, std::string message) {
+  calls.add(Diagnostic{object, kind, std::move(message)});
+}
+
+void add_stale(CallQueue::Chain& calls, ObjectId object, const char* what) {
+  add_problem(calls, object, DiagnosticKind::stale_id,
+              std::string(what) + ": id " + std::to_string(object.index) + ":" +
+                  std::to_string(object.generation) + " names no object of this scene");
+}
+
+/// Whether a view can be the positions of an object; a diagnostic where not.
+bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const PositionView& view,
+                const char* what) {
+  const auto problem = [&](DiagnosticKind kind, const std::string& got) {
+    add_problem(calls, object, kind, std::string(what) + ": " + name_of(object, named) + " got " + got);
+    return false;
+  };
+  if (view.size() != named.mesh->vertex_count())
+    return problem(DiagnosticKind::wrong_count, std::to_string(view.size()) + " positions for " +
+                                                    std::to_string(named.mesh->vertex_count()) + " vertices");
+  if (view.data() == nullptr) return problem(DiagnosticKind::null_memory, "null memory");
+  const std::size_t alignment = view.is_double() ? alignof(double) : alignof(float);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the address is looked at, not used
+  if (reinterpret_cast<std::uintptr_t>(view.data()) % alignment != 0 ||
+      view.stride_bytes() % alignment != 0 || view.coordinate_stride_bytes() % alignment != 0)
+    return problem(DiagnosticKind::misaligned_memory, "memory that is not aligned to its numbers");
+  return true;
+}
+
+/// What one pass copies and a second one looks at while it is still in a cache.
+constexpr std::uint32_t vertices_each = 1024;
+
+/// Copies the positions that faces use from `begin` to `end`.
+void copy_some(const IndexedMesh& mesh, const PositionView& view, CopiedPositions& positions, std::uint32_t begin,
+               std::uint32_t end) {
+  const std::size_t each = positions.view().stride_bytes();
+  const auto* const from = static_cast<const std::byte*>(view.data());
+  std::byte* const to = positions.data();
+  if (mesh.uses_all_vertices() && view.has_joined_coordinates() && view.stride_bytes() == each) {
+    std::memcpy(to + begin * each, from + begin * each, (end - begin) * each);
+    return;
+  }
+  const std::size_t piece = view.has_joined_coordinates() ? each : each / 3;
+  for (std::size_t vertex = begin; vertex < end; ++vertex) {
+    if (!mesh.is_used(static_cast<std::uint32_t>(vertex))) continue;
+    const std::byte* const point = from + vertex * view.stride_bytes();
+    for (std::size_t done = 0, axis = 0; done < each; done += piece, ++axis)
+      std::memcpy(to + vertex * each + done, point + axis * view.coordinate_stride_bytes(), piece);
+  }
+}
+
+/// Copies the positions that faces use and finds their box. Ends where one is not finite or beyond 2^120.
+Surface::PartSeen copy_used(const IndexedMesh& mesh, const PositionView& view, CopiedPositions& positions) {
+  Surface::PartSeen all;
+  const std::uint32_t count = mesh.vertex_count();
+  for (std::uint32_t begin = 0; begin < count; begin += vertices_each) {
+    const std::uint32_t end = std::min(begin + vertices_each, count);
+    copy_some(mesh, view, positions, begin, end);
+    all.add(Surface::survey(mesh, positions.view(), begin, end));
+    if (all.bad_vertex != Surface::ReadResult::no_vertex) break;
+  }
+  return all;
+}
+
+/// The upper three rows, row by row, of a 4x4 matrix column by column.
+std::array<double, 12> rows_of(std::span<const double, 16> matrix) {
+  std::array<double, 12> rows;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column) rows[row * 4 + column] = matrix[column * 4 + row];
+  return rows;
+}
+
+}  // namespace
+
+// ---- What is lost
+
+void Staging::lose(ObjectId object, std::uint8_t lost) noexcept {
+  if (const ObjectIds::Pin pinned = ids_.pin(object))
+    ids_.lose(object.index, lost);
+  else
+    unnamed_lost_.store(true, std::memory_order_relaxed);
+}
+
+template <typename Make>
+void Staging::make_or_lose(ObjectId object, std::uint8_t lost, const Make& make) noexcept {
+  try {
+    make();
+  } catch (...) {
+    lose(object, lost);
+  }
+}
+
+void Staging::lose_binding(ObjectId object) noexcept {
+  if (const ObjectIds::Pin named = ids_.pin(object)) named->binding.stands = false;
+  lose(object, LostCalls::any | LostCalls::motion | LostCalls::binding);
+}
+
+Diagnostic Staging::lost_call(ObjectId object) {
+  const bool has_object = contains(object);
+  return {object, DiagnosticKind::out_of_memory,
+          (has_object ? name(object) + ": there was" : std::string("there was")) +
+              " no memory for a call, which was not taken up as it was made"};
+}
+
+void Staging::step_failed() noexcept {
+  const std::lock_guard lock(bindings_);
+  ids_.give_lost_back();
+  if (failed_ + 1 != steps_) failed_after_ = steps_ - 1;
+  failed_ = steps_;
+}
+
+bool Staging::has_step_read(const Binding& binding) const {
+  return binding.steps_before < (failed_ == steps_ ? failed_after_ : steps_);
+}
+
+// ---- Calls
+
+ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+  if (mesh == nullptr) throw Error("object '" + settings.name + "': there is no mesh");
+  if (const auto problem = problem_of(settings)) throw Error(*problem);
+  const FloatingPointScope scope;
+  AddObject call{{}, std::make_unique<Surface>(mesh), settings};
+  const ObjectId object = call.object = ids_.give(std::move(mesh), settings);
+  Calls calls(queue_);
+  try {
+    calls.add(std::move(call));
+  } catch (...) {
+    ids_.take_back(object);
+    throw;
+  }
+  // The id becomes good when the object's addition is queued, so that nothing said of it comes before.
+  calls.push();
+  ids_.publish(object);
+  return object;
+}
+
+void Staging::remove(ObjectId object) {
+  ObjectIds::Pin pinned = ids_.pin(object);
+  Calls calls(queue_);
+  if (!pinned || !ids_.remove(object))
+    return make_or_lose(object, LostCalls::any, [&] { add_stale(calls, object, "remove"); });
+  end_binding(*pinned);
+  // Queued while pinned, and so before the index is given again: the removal comes before its next addition.
+  try {
+    calls.add(RemoveObject{object});
+  } catch (...) {
+    const std::lock_guard lock(bindings_);  // so that a step which takes this has taken the addition
+    ids_.lose(object.index, LostCalls::removal);
+    pinned.keep();
+  }
+}
+
+void Staging::set_pose(ObjectId object, const std::array<double, 12>& rows) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  make_or_lose(object, LostCalls::any, [&] { add_pose(calls, object, rows); });
+}
+
+void Staging::set_pose(ObjectId object, const std::array<double, 16>& rows) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  std::array<double, 12> upper;
+  std::copy_n(rows.begin(), upper.size(), upper.begin());
+  make_or_lose(object, LostCalls::any, [&] {
+    add_pose(calls, object, upper, {rows[12], rows[13], rows[14], rows[15]});
+  });
+}
+
+void Staging::set_poses(std::span<const ObjectId> objects, std::span<const double> matrices) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), matrices.size() / 16, "set_poses", "poses")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    make_or_lose(objects[i], LostCalls::any,
+                 [&] { add_pose(calls, objects[i], rows_of(matrices.subspan(16 * i).first<16>())); });
+}
+
+void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows,
+                       const std::array<double, 4>& last_row) {
+  const ObjectIds::Standing standing = ids_.standing(object);
+  if (standing == ObjectIds::Standing::stale) return add_stale(calls, object, "set_pose");
+  if (standing == ObjectIds::Standing::deformable)
+    return add_problem(calls, object, DiagnosticKind::wrong_motion,
+                       name(object) + " is deformable; give it positions, not a pose");
+  if (const auto problem = problem_of_pose(rows, last_row))
+    return calls.add(RefusePose{
+        {object, DiagnosticKind::bad_pose, name(object) + ": " + *problem + "; the pose was not taken"}});
+  calls.add(SetPose{object, rows});
+}
+
+void Staging::set_positions(ObjectId object, const PositionView& positions, double max_displacement) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  try_positions(calls, object, positions, max_displacement);
+}
+
+void Staging::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                            double max_displacement) {
+  const FloatingPointScope scope;
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), positions.size(), "set_positions", "views of positions")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    try_positions(calls, objects[i], positions[i], max_displacement);
+}
+
+void Staging::try_positions(Calls& calls, ObjectId object, const PositionView& positions,
+                            double max_displacement) noexcept {
+  try {
+    add_positions(calls, object, positions, max_displacement);
+  } catch (...) {
+    const std::lock_guard lock(bindings_);
+    lose_binding(object);
+  }
+}
+
+void Staging::add_positions(Calls& calls, ObjectId object, const PositionView& positions,
+                            double max_displacement) {
+  if (!check_deformable(calls, object, "set_positions")) return;
+  const ObjectIds::Pin named = ids_.pin(object);
+  if (!named) return add_stale(calls, object, "set_positions");
+  if (!check_view(calls, object, *named, positions, "set_positions")) return;
+  const double promise = promise_of(calls, object, max_displacement, "set_positions");
+  std::optional<Diagnostic> problem;
+  SetPositions call{object, {}, {}, promise};
+  call.positions = copy_good(object, *named, positions, "the old positions stand", call.box, problem);
+  if (problem) return calls.add(std::move(*problem));
+  end_binding(*named);
+  calls.add(std::move(call));
+}
+
+SparePositions::Loan Staging::copy_good(ObjectId object, NamedObject& named, const PositionView& view,
+                                        const char* consequence, Box& box,
+                                        std::optional<Diagnostic>& problem) {
+  SparePositions::Loan positions = ids_.lend_positions(named, view.is_double());
+  const Surface::PartSeen all = copy_used(indexed(*named.mesh), view, *positions);
+  box = all.box;
+  if (all.bad_vertex == Surface::ReadResult::no_vertex) return positions;
+  const bool finite = all.bad_position.allFinite();
+  problem = Diagnostic{object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
+                       name_of(object, named) + ": vertex " + std::to_string(all.bad_vertex) +
+                           (finite ? " has a coordinate beyond 2^120; " : " is not finite; ") + consequence};
+  return nullptr;
+}
+
+void Staging::bind_positions(ObjectId object, const PositionView& positions, BindPolicy policy) {
+  const std::lock_guard lock(bindings_);
+  Calls calls(queue_);
+  try_binding(calls, object, positions, policy);
+}
+
+void Staging::bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                             BindPolicy policy) {
+  const std::lock_guard lock(bindings_);
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), positions.size(), "bind_positions", "views of positions")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i) try_binding(calls, objects[i], positions[i], policy);
+}
+
+void Staging::try_binding(Calls& calls, ObjectId object, const PositionView& positions,
+                          BindPolicy policy) noexcept {
+  try {
+    add_binding(calls, object, positions, policy);
+  } catch (...) {
+    lose_binding(object);
+  }
+}
+
+void Staging::add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy) {
+  if (!check_deformable(calls, object, "bind_positions")) return;
+  const ObjectIds::Pin named = ids_.pin(object);
+  if (!named) return add_stale(calls, object, "bind_positions");
+  if (!check_view(calls, object, *named, positions, "bind_positions")) return;
+  calls.add(BindPositions{object, positions, policy});
+  named->binding.view = positions;
+  named->binding.policy = policy;
+  named->binding.steps_before = steps_;
+  named->binding.stands = true;
+}
+
+void Staging::unbind_positions(ObjectId object) {
+  const FloatingPointScope scope;
+  const std::lock_guard lock(bindings_);
+  Calls calls(queue_);
+  try {
+    add_unbinding(calls, object);
+  } catch (...) {
+    lose_binding(object);
+  }
+}
+
+void Staging::add_unbinding(Calls& calls, ObjectId object) {
+  if (!check_deformable(calls, object, "unbind_positions")) return;
+  const ObjectIds::Pin named = ids_.pin(object);
+  if (!named) return add_stale(calls, object, "unbind_positions");
+  UnbindPositions call;
+  call.object = object;
+  Binding& binding = named->binding;
+  if (binding.stands.exchange(false)) {
+    call.is_due = binding.policy == BindPolicy::every_step || !has_step_read(binding);
+    call.positions = copy_good(object, *named, binding.view,
+                               "it stands still until it is given good positions", call.box, call.problem);
+  }
+  calls.add(std::move(call));
+}
+
+void Staging::end_binding(NamedObject& object) {
+  if (!object.binding.stands) return;
+  const std::lock_guard lock(bindings_);
+  object.binding.stands = false;
+}
+
+void Staging::positions_changed(ObjectId object, double max_displacement) {
+  Calls calls(queue_);
+  try_change(calls, object, max_displacement);
+}
+
+void Staging::positions_changed(std::span<const ObjectId> objects, double max_displacement) {
+  Calls calls(queue_);
+  for (const ObjectId object : objects) try_change(calls, object, max_displacement);
+}
+
+void Staging::positions_changed(std::span<const ObjectId> objects,
+                                std::span<const double> max_displacements) {
+  Calls calls(queue_);
+  if (!check_sizes(calls, objects.size(), max_displacements.size(), "positions_changed", "promises")) return;
+  for (std::size_t i = 0; i < objects.size(); ++i) try_change(calls, objects[i], max_displacements[i]);
+}
+
+/// Where there is no memory for it, the positions are read all the same.
+void Staging::try_change(Calls& calls, ObjectId object, double max_displacement) noexcept {
+  make_or_lose(object, LostCalls::any | LostCalls::motion, [&] {
+    if (check_deformable(calls, object, "positions_changed"))
+      calls.add(PositionsChanged{object, promise_of(calls, object, max_displacement, "positions_changed")});
+  });
+}
+
+void Staging::set_ignored(ObjectId a, ObjectId b, bool ignored) {
+  Calls calls(queue_);
+  make_or_lose(a, LostCalls::any, [&] { add_ignored(calls, a, b, ignored); });
+}
+
+void Staging::add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored) {
+  const char* const what = ignored ? "ignore" : "watch";
+  for (const ObjectId object : {a, b})
+    if (!contains(object)) return add_stale(calls, object, what);
+  if (a == b)
+    return add_problem(calls, a, DiagnosticKind::bad_pair,
+                       std::string(what) + ": " + name(a) + " makes no pair with itself");
+  calls.add(IgnorePair{a, b, ignored});
+}
+
+void Staging::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
+  Calls calls(queue_);
+  make_or_lose({}, LostCalls::any, [&] {
+    if (const auto problem = problem_of(kind_a, kind_b, rule))
+      add_problem(calls, {}, DiagnosticKind::bad_rule, *problem + "; the rule was not taken");
+    else
+      calls.add(SetRule{kind_a, kind_b, rule});
+  });
+}
+
+void Staging::reserve(const SceneCapacity& capacity) {
+  ids_.reserve(capacity.objects);
+  queue_.reserve(capacity.calls_per_step);
+  Calls calls(queue_);
+  calls.add(Reserve{capacity});
+}
+
+bool Staging::check_sizes(Calls& calls, std::size_t objects, std::size_t things, const char* what,
+                          const char* name_of_things) noexcept {
+  if (objects == things) return true;
+  make_or_lose({}, LostCalls::any, [&] {
+    add_problem(calls, {}, DiagnosticKind::wrong_count,
+                std::string(what) + ": got " + std::to_string(objects) + " objects and " +
+                    std::to_string(things) + " " + name_of_things + "; none was taken");
+  });
+  return false;
+}
+
+bool Staging::check_deformable(Calls& calls, ObjectId object, const char* what) {
+  const ObjectIds::Standing standing = ids_.standing(object);
+  if (standing == ObjectIds::Standing::deformable) return true;
+  if (standing == ObjectIds::Standing::stale)
+    add_stale(calls, object, what);
+  else
+    add_problem(calls, object, DiagnosticKind::wrong_motion,
+                std::string(what) + ": " + name(object) + " is not deformable; move it by set_pose");
+  return false;
+}
+
+double Staging::promise_of(Calls& calls, ObjectId object, double max_displacement, const char* what) {
+  // A quiet comparison: NaN must not trap where the caller has traps enabled.
+  if (std::isgreaterequal(max_displacement, 0.0)) return max_displacement;
+  add_problem(calls, object, DiagnosticKind::broken_promise,
+              std::string(what) + ": " + name(object) +
+                  " got a max_displacement that is negative or NaN; it counts as no promise");
+  return std::numeric_limits<double>::infinity();
+}
+
+std::string Staging::name(ObjectId object) {
+  const ObjectIds::Pin named = ids_.pin(object);
+  return named ? name_of(object, *named) : number_of(object);
+}
+
+}  // namespace graze

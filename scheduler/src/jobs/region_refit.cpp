@@ -1,0 +1,183 @@
+#include "jobs/region_refit.hpp"
+
+#include "core/base/bytes_of.hpp"
+#include "core/base/cut_by_work.hpp"
+#include "core/pair/pair_query.hpp"
+
+namespace graze {
+namespace {
+
+/// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
+constexpr double stale_leaf_sizes = 0.25;
+/// The same where no job went from region to region in the last step. Should one do so in this, it finds the
+/// bounds looser once.
+constexpr double stale_leaf_sizes_unwalked = 2;
+
+/// A small object of whose faces as many jobs want boxes is refitted whenever it moved: otherwise each of
+/// them makes boxes of its leaves for itself. Vertices are mostly found by stretches.
+constexpr std::size_t jobs_worth_a_refit = 3;
+
+/// Where few jobs look at a large surface, and all of them together at less than this part of its box, each
+/// makes blocks of that for itself.
+constexpr std::size_t most_jobs_in_part = 8;
+constexpr double most_shares_in_part = 0.25;
+
+/// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
+constexpr std::size_t work_each = 8192;
+
+/// Whether a pair is answered by a list that an earlier step has made, without boxes or blocks. Where there
+/// is nothing in contact any more, the closest points are looked for among the leaves of a front, or of
+/// bounds that are at most as loose as the list allows; vertices are then looked for in blocks.
+bool is_by_list(const PairJob& job, bool with_blocks) {
+  const Surface& a = job.a->surface();
+  const Surface& b = job.b->surface();
+  const double threshold = job.thresholds.threshold;
+  if (job.task != PairJob::Task::detect) return false;
+  const NearList* const near = job.memory->front.list_for(a, b, threshold);
+  if (near == nullptr || !with_blocks) return near != nullptr;
+  const bool asks_contacts_alone = !job.was_in_contact() && job.thresholds.reach <= threshold;
+  return asks_contacts_alone || near->has_vertices_within(a, b, threshold);
+}
+
+/// Which part of a box another one in it is, by volume; a side without a length counts nothing.
+double share_of(const Box& box, const Box& part) {
+  if (part.empty()) return 0;
+  double share = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (box.max[axis] > box.min[axis])
+      share *= (part.max[axis] - part.min[axis]) / (box.max[axis] - box.min[axis]);
+  return share;
+}
+
+/// How many vertices a region's bounds are made from; boxes but for leaves come from the children.
+std::uint32_t work_of(const Region& region, RefitOf what) {
+  if (what != RefitOf::radii && !region.is_leaf()) return 0;
+  return region.vertex_count + (what == RefitOf::faces ? region.border_count : 0);
+}
+
+}  // namespace
+
+RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
+    : tasks_(tasks),
+      boxes_(boxes_for(settings.detail)),
+      with_blocks_(wants_blocks(settings.detail, settings.accuracy.mode())),
+      to_the_letter_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
+
+void RegionRefit::run(std::span<const PairJob> jobs) {
+  if (with_blocks_ && !to_the_letter_) {
+    list_objects(jobs, boxes_);
+  } else {
+    refit(jobs, boxes_);
+    if (with_radii()) refit(jobs, RefitOf::radii);
+  }
+  if (with_blocks_) make_blocks();
+}
+
+/// Of all objects that were listed last.
+void RegionRefit::make_blocks() {
+  tasks_.run(objects_.size(), [&](unsigned, std::size_t item) {
+    const AccessScope access({AccessRight::write(objects_[item]), {}});
+    Surface& surface = objects_[item]->surface_to_write();
+    is_seen_in_part(*objects_[item]) ? surface.make_stretches() : surface.make_blocks();
+  });
+}
+
+/// Whether jobs make blocks for themselves of what they look at. Not where there are some already, or are
+/// better made now, since it has not moved.
+bool RegionRefit::is_seen_in_part(const Object& object) {
+  const Surface& surface = object.surface();
+  return surface.mesh().has_stretches() && !surface.has_blocks() && !surface.has_stretches() &&
+         object.asked.jobs <= most_jobs_in_part && object.asked.shares < most_shares_in_part;
+}
+
+void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
+  list_objects(jobs, what);
+  parts_.clear();
+  for (Object* const object : large_) {
+    object->surface_to_write().begin_refit(what);
+    list_parts(*object, what);
+  }
+  // A task writes the bounds of its own object, or of its own regions of one.
+  tasks_.run(parts_.size() + small_.size(), [&](unsigned, std::size_t item) {
+    if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()], what);
+    const Part& part = parts_[item];
+    const AccessScope access({AccessRight::write(part.object), {}});
+    part.object->surface_to_write().refit_regions(what, part.begin, part.end);
+  });
+  tasks_.run(large_.size(), [&](unsigned, std::size_t index) {
+    const AccessScope access({AccessRight::write(large_[index]), {}});
+    large_[index]->surface_to_write().finish_refit(what);
+  });
+}
+
+void RegionRefit::make_ready(Surface& surface) const {
+  surface.refit(boxes_);
+  if (with_blocks_) surface.make_blocks();
+  if (with_blocks_ && surface.mesh().has_stretches()) surface.make_stretches();
+  if (with_radii()) surface.refit(RefitOf::radii);
+}
+
+void RegionRefit::count_job(Object& object, const Object& other, const PairJob& job) {
+  if (object.asked.refit != refits_) {
+    object.asked = {refits_, 0, false, 0};
+    object.asked_for_blocks = with_blocks_;
+    objects_.push_back(&object);
+  }
+  ++object.asked.jobs;
+  object.asked.walked = object.asked.walked || job.memory->front.walked;
+  if (object.in_parts)
+    object.asked.shares +=
+        share_of(object.surface().box(),
+                 common(object.surface().box(), grown(other.surface().box(), job.thresholds.threshold)));
+}
+
+void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
+  ++refits_;
+  objects_.clear();
+  for (const PairJob& job : jobs)
+    if (job.is_looked_at() && (to_the_letter_ || !is_by_list(job, with_blocks_)))
+      for (const auto& [object, other] : {std::pair(job.a, job.b), {job.b, job.a}})
+        count_job(*object, *other, job);
+  small_.clear();
+  large_.clear();
+  for (Object* const object : objects_)
+    if (!object->in_parts)
+      small_.push_back(object);
+    else if (is_stale(*object, what))
+      large_.push_back(object);
+}
+
+void RegionRefit::reserve(std::size_t jobs) {
+  objects_.reserve(2 * jobs);
+  small_.reserve(2 * jobs);
+  large_.reserve(2 * jobs);
+}
+
+std::size_t RegionRefit::byte_count() const {
+  return bytes_of(objects_) + bytes_of(small_) + bytes_of(large_) + bytes_of(parts_);
+}
+
+bool RegionRefit::is_stale(const Object& object, RefitOf what) const {
+  const Surface& surface = object.surface();
+  const double allowed = object.asked.walked ? stale_leaf_sizes : stale_leaf_sizes_unwalked;
+  return surface.motion_since_refit(what) > (to_the_letter_ ? 0 : allowed * surface.leaf_size());
+}
+
+void RegionRefit::list_parts(Object& object, RefitOf what) {
+  const RegionTree& tree = object.surface().mesh().regions();
+  cut_by_work(
+      0, tree.region_count(), work_each,
+      [&](std::size_t index) { return work_of(tree.regions()[index], what); },
+      [&](std::size_t begin, std::size_t end) {
+        parts_.push_back({&object, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
+      });
+}
+
+void RegionRefit::refit_small(Object& object, RefitOf what) const {
+  const AccessScope access({AccessRight::write(&object), {}});
+  Surface& surface = object.surface_to_write();
+  const bool is_asked_often = object.asked.jobs >= jobs_worth_a_refit;
+  if ((is_asked_often && what == RefitOf::faces) || is_stale(object, what)) surface.refit(what);
+}
+
+}  // namespace graze

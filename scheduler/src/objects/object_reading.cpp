@@ -1,0 +1,302 @@
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "base/object_name.hpp"
+#include "core/base/number_text.hpp"
+#include "objects/look_slack.hpp"
+#include "objects/object_reading.hpp"
+
+namespace graze {
+namespace {
+
+std::string coordinates(const Eigen::Vector3d& point) {
+  std::string text = number_text(point.x());
+  text.append(", ").append(number_text(point.y())).append(", ").append(number_text(point.z()));
+  return text;
+}
+
+/// A diagnostic with what `message` makes, or without a message where there is no memory for it. It does not
+/// throw, since an object of which something was taken has to be read to its end.
+template <typename Message>
+Diagnostic diagnostic_of(const Object& object, DiagnosticKind kind, const Message& message) noexcept {
+  Diagnostic diagnostic{object.id, kind, {}};
+  try {
+    diagnostic.message = message();
+  } catch (const std::bad_alloc&) {
+    diagnostic.message.clear();
+  }
+  return diagnostic;
+}
+
+Diagnostic bad_vertex(const Object& object, std::uint32_t vertex, const Eigen::Vector3d& position,
+                      const char* consequence) {
+  const bool finite = position.allFinite();
+  return diagnostic_of(object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite, [&] {
+    return name_of(object.id, object) + ": vertex " + std::to_string(vertex) + " is at " +
+           coordinates(position) + (finite ? ", beyond 2^120" : "") + "; " + consequence;
+  });
+}
+
+const char* const stands_still = "it stands still until good positions are read";
+const char* const pose_not_taken = "the pose was not taken";
+
+/// Says so where a vertex that moved so far, or further, broke a promise.
+std::optional<Diagnostic> check_promise(const Object& object, double displacement) {
+  // The displacement is rounded; a promise kept to the last bit is not called broken.
+  if (!(displacement > object.promised * round_up)) return std::nullopt;
+  return diagnostic_of(object, DiagnosticKind::broken_promise, [&] {
+    return name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
+           ", further than the " + number_text(object.promised) + " promised; all positions were read";
+  });
+}
+
+bool is_read_in_every_step(const Object& object) {
+  return object.bound && object.policy == BindPolicy::every_step;
+}
+
+/// The pose that it is to have: one that was given, or that a survey has seen.
+const Pose& pose_of(const Object& object) {
+  return object.pose ? *object.pose : *object.standing_pose;
+}
+
+/// The positions that it is to have.
+PositionView positions_of(const Object& object) {
+  return object.positions ? object.positions->view() : *object.bound;
+}
+
+bool is_posed(const Object& object) {
+  return object.settings.motion != Motion::deformable;
+}
+
+bool is_same(const Box& left, const Box& right) {
+  return left.min == right.min && left.max == right.max;
+}
+
+/// At least how far some vertex has moved.
+double motion_between(const Box& left, const Box& right) {
+  return std::max((left.min - right.min).cwiseAbs().maxCoeff(), (left.max - right.max).cwiseAbs().maxCoeff());
+}
+
+/// Whether lists of vertices pay beside another object that moves as much.
+bool hardly_moves(const Object& object, double motion) {
+  return list_slack_of_vertices.of(2 * motion, object.surface().leaf_size()) > 0;
+}
+
+/// For so many steps after a calm box deceived, an object is not taken to be calm.
+constexpr std::uint8_t steps_until_calm = 16;
+
+/// Of an object that is looked at, by its box.
+bool seems_calm(Object& object, const Box& now) {
+  if (object.restless_steps == 0) return hardly_moves(object, motion_between(object.box, now));
+  --object.restless_steps;
+  return false;
+}
+
+/// The surface stands where the object does.
+void note_read(Object& object) {
+  object.unread = object.surveyed = object.stays_unread = false;
+  object.box = object.seen = object.surface().box();
+  object.has_surface = true;
+  object.version = object.surface().version();
+}
+
+void note_survey(Object& object, const Box& box) {
+  object.unread = object.surveyed = true;
+  object.stays_unread = false;
+  object.box = object.seen = box;
+  object.has_surface = false;
+}
+
+/// A pose that moves a vertex beyond the limits. The object's pairs are stale until a good one comes.
+Looked refuse_pose(Object& object, std::uint32_t vertex, const Eigen::Vector3d& position) {
+  object.pose.reset();
+  const bool changed = !std::exchange(object.frozen, true);
+  return {false, changed, bad_vertex(object, vertex, position, pose_not_taken), false};
+}
+
+/// By the box that the rest shape has there; by the vertices only where that may be beyond the limits.
+Looked survey_pose(Object& object) {
+  Box box = object.mesh->rest_reach().box_at(*object.pose);
+  if (!Surface::is_within_limits(box.min) || !Surface::is_within_limits(box.max)) {
+    const auto all = object.surface().look_at_pose(*object.pose, 0, object.mesh->vertex_count());
+    if (all.bad_vertex != Surface::ReadResult::no_vertex)
+      return refuse_pose(object, all.bad_vertex, all.bad_position);
+    box = all.box;
+  }
+  object.standing_pose = std::exchange(object.pose, std::nullopt);
+  object.moved = true;
+  note_survey(object, box);
+  return {false, true, std::nullopt};
+}
+
+/// Takes up a pose that the surface was given, or refuses it.
+Looked take_pose(Object& object, const Surface::ReadResult& result) {
+  if (!result.taken()) return refuse_pose(object, result.bad_vertex, result.bad_position);
+  object.moved = result.changed;
+  return {result.changed, result.changed, std::nullopt};
+}
+
+void finish_pose(Object& object) {
+  if (object.pose) object.standing_pose = std::exchange(object.pose, std::nullopt);
+  note_read(object);
+}
+
+Looked read_pose(Object& object) {
+  if (object.to_survey) return survey_pose(object);
+  const Surface::ReadResult result = object.surface_to_write().set_pose(pose_of(object));
+  Looked looked = take_pose(object, result);
+  if (looked.taken) finish_pose(object);
+  return looked;
+}
+
+/// Takes what a survey saw, or says why not.
+Looked take_survey(Object& object, const Surface::PartSeen& all) {
+  Looked looked;
+  object.frozen = all.bad_vertex != Surface::ReadResult::no_vertex;
+  if (object.frozen) {
+    object.unread = object.surveyed = false;
+    looked.changed = true;
+    looked.problem = bad_vertex(object, all.bad_vertex, all.bad_position, stands_still);
+  } else {
+    looked.changed = !is_same(object.box, all.box);
+    object.moved = looked.changed;
+    object.is_calm = object.to_block && seems_calm(object, all.box);
+    note_survey(object, all.box);
+    object.promised = 0;
+  }
+  return looked;
+}
+
+/// Has the surface take what was seen. A copy becomes its positions as it is.
+Surface::ReadResult take_positions(Object& object, const Surface::PartSeen& all) {
+  Surface& surface = object.surface_to_write();
+  if (!object.positions) {
+    const Surface::ReadResult result = surface.take(all);
+    if (result.changed) object.standing_positions.reset();
+    return result;
+  }
+  const Surface::ReadResult result = surface.take_in_place(all, object.positions->view());
+  if (result.changed) object.standing_positions = std::move(object.positions);
+  return result;
+}
+
+}  // namespace
+
+bool has_input(const Object& object) {
+  if (object.pose || is_read_in_every_step(object)) return true;
+  if (object.unread && object.surveyed) return object.is_new || !object.stays_unread;
+  return object.positions || (object.bound && object.told);
+}
+
+bool stays_unread(const Object& object) {
+  return object.unread && object.surveyed && !object.pose && !object.is_new && !is_read_in_every_step(object);
+}
+
+void add_promise(Object& object) {
+  const bool may_have_moved = is_read_in_every_step(object) || object.is_new;
+  if (may_have_moved) object.promised = (object.promised + object.promise) * round_up;
+  object.is_new = false;
+  object.promise = std::numeric_limits<double>::infinity();
+}
+
+bool can_be_viewed(const Object& object) {
+  return (object.positions || is_read_in_every_step(object)) &&
+         object.surface().can_view(positions_of(object));
+}
+
+bool can_be_surveyed(const Object& object, bool with_views) {
+  if (object.pose) return !object.looked_at;
+  if (!object.positions && !is_read_in_every_step(object) && !object.is_told_again) return false;
+  return !object.promises && !std::isfinite(object.promised) && !object.frozen &&
+         (object.surveyed || object.moved) &&
+         (!object.looked_at || (with_views && !object.is_calm && can_be_viewed(object)));
+}
+
+bool has_known_box(const Object& object) {
+  return object.pose || object.positions;
+}
+
+Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
+  const Surface& surface = object.surface();
+  if (is_posed(object)) return surface.look_at_pose(pose_of(object), begin, end);
+  if (object.to_survey) return Surface::survey(*object.mesh, *object.bound, begin, end);
+  // A promise is held against what moved furthest, not against a bound of it.
+  const bool is_held = object.has_surface && std::isfinite(object.promised);
+  const auto displacement = is_held ? Surface::Displacement::exact : Surface::Displacement::bound;
+  return surface.look_at_positions(positions_of(object), begin, end, displacement);
+}
+
+Looked take_seen(Object& object, const Surface::PartSeen& all) {
+  if (is_posed(object)) return take_pose(object, object.surface_to_write().take(all));
+  if (object.to_survey) return take_survey(object, all);
+  const bool was_behind = object.surface().is_behind();
+  const bool seems_at_rest = was_behind && is_same(object.box, all.box);
+  const bool is_copy = object.positions != nullptr;
+  const Surface::ReadResult result = take_positions(object, all);
+  if (!was_behind && object.is_calm) {
+    object.is_calm = hardly_moves(object, result.displacement);
+    if (!object.is_calm && hardly_moves(object, motion_between(object.box, all.box)))
+      object.restless_steps = steps_until_calm;
+  }
+  Looked looked{result.changed && !is_copy, result.changed, std::nullopt};
+  // Where a view came before, it shows in the next step whether the object moves.
+  object.moved = result.changed && !seems_at_rest;
+  looked.changed = looked.changed || object.frozen == result.taken();
+  looked.taken = result.taken();
+  object.frozen = !looked.taken;
+  looked.problem = object.frozen
+                       ? bad_vertex(object, result.bad_vertex, result.bad_position, stands_still)
+                       : check_promise(object, object.has_surface ? result.displacement
+                                                                  : motion_between(object.seen, all.box));
+  return looked;
+}
+
+void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
+  Surface& surface = object.surface_to_write();
+  if (is_posed(object)) return surface.write_pose(pose_of(object), begin, end);
+  surface.write_positions(*object.bound, begin, end);
+}
+
+void finish_read(Object& object, bool taken) {
+  if (object.to_survey || !taken) return;
+  if (is_posed(object)) return finish_pose(object);
+  if (object.bound) object.told = false;
+  object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
+  object.promised = 0;
+  note_read(object);
+}
+
+void view_memory(Object& object) {
+  Surface& surface = object.surface_to_write();
+  surface.view(positions_of(object), object.box);
+  // A copy stays; the caller's memory may go after the step.
+  object.viewed = !object.positions;
+  object.standing_positions = std::move(object.positions);
+  object.unread = object.surveyed = object.stays_unread = object.to_view = false;
+  object.version = surface.version();
+  if (!object.in_parts) surface.make_blocks();
+}
+
+Looked read_whole(Object& object) {
+  if (is_posed(object)) return read_pose(object);
+  if (object.to_view) {
+    view_memory(object);
+    return {};
+  }
+  const std::uint32_t count = object.mesh->vertex_count();
+  Surface::PartSeen all;
+  if (object.to_survey && object.positions)
+    all.box = object.box_of_positions;
+  else
+    all = look_at_part(object, 0, count);
+  Looked looked = take_seen(object, all);
+  if (looked.to_write) write_part(object, 0, count);
+  if (object.to_survey && object.to_block && !object.frozen && can_be_viewed(object)) view_memory(object);
+  finish_read(object, looked.taken);
+  return looked;
+}
+
+}  // namespace graze

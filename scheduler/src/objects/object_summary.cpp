@@ -1,0 +1,98 @@
+#include "objects/object_summary.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+
+namespace graze {
+namespace {
+
+/// Objects refreshed at a time.
+constexpr std::size_t slice = 1024;
+
+ObjectSummary summary_of(const Object& object) {
+  ObjectSummary summary;
+  summary.box = object.box;
+  summary.margin = object.settings.margin;
+  summary.serial = object.serial;
+  summary.group = object.settings.group;
+  summary.layer = object.settings.layer;
+  summary.collides_with = object.settings.collides_with;
+  summary.kind = static_cast<std::uint16_t>(object.settings.kind);
+  summary.is_fixed = object.settings.motion == Motion::fixed;
+  return summary;
+}
+
+double motion_between(const Box& before, const Box& now) {
+  return std::max((now.min - before.min).lpNorm<Eigen::Infinity>(),
+                  (now.max - before.max).lpNorm<Eigen::Infinity>());
+}
+
+}  // namespace
+
+/// Numbers of addition ascend, so the last and their count say whether the objects are the same.
+void ObjectSummaries::follow(std::span<const std::unique_ptr<Object>> objects) {
+  moves_.clear();
+  const std::size_t before = summaries_.size();
+  if (objects.size() == before && (before == 0 || objects.back()->serial == summaries_.back().serial)) return;
+  std::uint32_t now = 0;
+  moves_.resize(before);
+  for (std::size_t place = 0; place < before; ++place) {
+    const bool stays = now < objects.size() && objects[now]->serial == summaries_[place].serial;
+    moves_[place] = stays ? now : no_place;
+    if (stays) summaries_[now++] = summaries_[place];
+  }
+  summaries_.resize(now);
+  if (now == before) moves_.clear();
+  for (; now < objects.size(); ++now) summaries_.push_back(summary_of(*objects[now]));
+}
+
+void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks) {
+  follow(objects);
+  changed_.resize(objects.size());
+  std::atomic<bool> some_unread = false;
+  const auto refresh_slice = [&](unsigned, std::size_t index) {
+    bool unread = false;
+    const std::size_t end = std::min((index + 1) * slice, objects.size());
+    for (std::size_t place = index * slice; place < end; ++place) {
+      const Object& object = *objects[place];
+      ObjectSummary& summary = summaries_[place];
+      summary.motion = motion_between(summary.box, object.box);
+      summary.moved = summary.read_late || !(summary.motion == 0);
+      summary.read_late = false;
+      const bool changed = !(summary.motion == 0) || summary.version != object.version ||
+                           summary.frozen != object.frozen || summary.unread != object.unread ||
+                           (object.unread && !object.stays_unread);
+      changed_[place] = changed ? 1 : 0;
+      summary.box = object.box;
+      summary.version = object.version;
+      summary.frozen = object.frozen;
+      summary.unread = object.unread;
+      unread = unread || object.unread;
+    }
+    if (unread) some_unread.store(true, std::memory_order_relaxed);
+  };
+  tasks.run((objects.size() + slice - 1) / slice, std::ref(refresh_slice));
+  some_unread_ = some_unread;
+}
+
+void ObjectSummaries::refresh(std::span<Object* const> read_late) {
+  for (const Object* const object : read_late) {
+    ObjectSummary& summary = summaries_[place_of(*object)];
+    summary.read_late = !(motion_between(summary.box, object->box) == 0);
+    summary.box = object->box;
+    summary.version = object->version;
+    summary.frozen = object->frozen;
+    summary.unread = object->unread;
+  }
+}
+
+std::uint32_t ObjectSummaries::place_of(const Object& object) const {
+  const auto found = std::lower_bound(
+      summaries_.begin(), summaries_.end(), object.serial,
+      [](const ObjectSummary& summary, std::uint64_t serial) { return summary.serial < serial; });
+  return static_cast<std::uint32_t>(found - summaries_.begin());
+}
+
+}  // namespace graze

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <graze/settings.hpp>
+#include <span>
+#include <vector>
+
+#include "broad_phase/broad_phase.hpp"
+#include "objects/object_store.hpp"
+#include "objects/object_summary.hpp"
+#include "pairs/pair_set.hpp"
+
+namespace graze {
+
+/// The thresholds of one pair.
+struct PairThresholds {
+  double threshold = 0;  ///< contact distance, or the paper's last epsilon, and both margins
+  double reach = 0;      ///< max(range, threshold)
+  std::span<const double> epsilon;
+};
+
+/// Which filter takes a pair out; where several would, the first.
+enum class PairVerdict : std::uint8_t {
+  looked_at,
+  fixed,    ///< both are fixed
+  layer,    ///< one's layer is not in the other's mask
+  group,    ///< both are in one group
+  ignored,  ///< by Scene::ignore
+};
+
+/// Which pairs are looked at, and how far. Stepping thread only, but for the const calls.
+class PairFilter {
+ public:
+  explicit PairFilter(const SceneSettings& settings);
+
+  void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule);
+  void set_ignored(const Object& a, const Object& b, bool ignored);
+  /// Drops what is kept of the pairs of a removed object.
+  void forget(const Object& object);
+
+  [[nodiscard]] PairVerdict verdict(const ObjectSummary& a, const ObjectSummary& b) const;
+  [[nodiscard]] PairThresholds thresholds(const ObjectSummary& a, const ObjectSummary& b) const;
+  /// PairThresholds::reach.
+  [[nodiscard]] double reach(const ObjectSummary& a, const ObjectSummary& b) const {
+    const Distances& distances = distances_of(a.kind, b.kind);
+    return std::max(distances.range, distances.contact + (a.margin + b.margin));
+  }
+  /// Changes with every rule.
+  [[nodiscard]] std::uint64_t rules_version() const { return rules_version_; }
+  /// The same, and with every pair that is ignored or is no longer.
+  [[nodiscard]] std::uint64_t version() const { return rules_version_ + ignored_version_; }
+  [[nodiscard]] const BroadPhase::HalfReaches& half_reaches() const { return half_reaches_; }
+
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  /// Of a kind of pair, without margins.
+  struct Distances {
+    double contact = 0;
+    double range = 0;
+    std::span<const double> epsilon;
+
+    [[nodiscard]] double reach() const { return std::max(range, contact); }
+  };
+  [[nodiscard]] Distances distances_of(const PairRule& rule) const;
+  [[nodiscard]] const Distances& distances_of(std::uint32_t kind_a, std::uint32_t kind_b) const {
+    return distances_[rule_of_.empty() ? 0 : rule_of_[place_of(kind_a, kind_b)]];
+  }
+  static std::size_t place_of(std::uint32_t kind_a, std::uint32_t kind_b);
+  void find_half_reach(std::uint32_t kind);
+  void drop_forgotten();
+
+  const SceneSettings& settings_;
+  std::vector<PairRule> rules_;
+  std::vector<Distances> distances_;    ///< the scene's own, then one for each rule
+  std::vector<std::uint16_t> rule_of_;  ///< into `distances_`, for each kind and kind; empty without rules
+  std::uint64_t rules_version_ = 0;
+  std::uint64_t ignored_version_ = 0;
+  BroadPhase::HalfReaches half_reaches_{};
+  PairSet ignored_;                       ///< by serials, the lower first
+  std::vector<std::uint64_t> forgotten_;  ///< serials that `ignored_` may still name
+};
+
+}  // namespace graze

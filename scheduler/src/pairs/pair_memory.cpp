@@ -1,0 +1,58 @@
+#include "pairs/pair_memory.hpp"
+
+#include <memory>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+namespace {
+
+/// Which pair gets which memory is a matter of chance, and so is when one first needs room. Of so many each
+/// has it from the start, which is half a MiB; where there are more, reserving makes room.
+constexpr std::size_t with_room_at_once = 512;
+
+}  // namespace
+
+PairMemories::Place PairMemories::take() {
+  if (free_.empty()) {
+    memories_.emplace_back();
+    if (memories_.size() <= with_room_at_once) make_room(memories_.back(), {leaf_pairs_of_front, 0});
+    return static_cast<Place>(memories_.size() - 1);
+  }
+  const Place place = free_.back();
+  free_.pop_back();
+  return place;
+}
+
+void PairMemories::release(Place place) {
+  PairMemory& memory = memories_[place];
+  memory.front.forget();
+  memory.version_a = memory.version_b = 0;
+  free_.push_back(place);
+}
+
+void PairMemories::reserve(std::size_t pairs, const PairMemoryRoom& room) {
+  free_.reserve(pairs);
+  for (std::size_t place = memories_.size(); place < pairs; ++place) {
+    memories_.emplace_back();
+    free_.push_back(static_cast<Place>(place));
+  }
+  for (PairMemory& memory : memories_) make_room(memory, room);
+}
+
+void PairMemories::make_room(PairMemory& memory, const PairMemoryRoom& room) {
+  LeafFront& front = memory.front;
+  reserved_bytes_ -= front.byte_count();
+  front.leaves.reserve(room.leaf_pairs);
+  if (room.features > 0) {
+    if (front.near == nullptr) front.near = std::make_unique<NearList>();
+    front.near->pairs.reserve(room.features);
+  }
+  reserved_bytes_ += front.byte_count();
+}
+
+std::size_t PairMemories::byte_count() const {
+  return memories_.size() * sizeof(PairMemory) + reserved_bytes_ + bytes_of(free_);
+}
+
+}  // namespace graze

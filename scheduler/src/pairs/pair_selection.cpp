@@ -1,0 +1,282 @@
+#include "pairs/pair_selection.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+namespace {
+
+/// Pairs looked at at a time.
+constexpr std::size_t pairs_of_slice = 4096;
+static_assert(pairs_of_slice <= std::numeric_limits<decltype(SelectedPair::count)>::max());
+
+/// Where in an ascending array `pair` is or would be.
+template <typename Array>
+std::size_t place_in(const Array& array, PlacePair pair) {
+  const auto found = std::lower_bound(array.begin(), array.end(), pair,
+                                      [](const auto& each, PlacePair value) { return each.pair < value; });
+  return static_cast<std::size_t>(found - array.begin());
+}
+
+}  // namespace
+
+/// What all tasks read.
+struct PairSelection::Given {
+  std::span<const PlacePair> pairs;
+  std::span<const ListedPair> listed;
+  const ObjectSummaries& summaries;
+  const PairFilter& filter;
+  bool same_filter;
+
+  [[nodiscard]] bool stands(PlacePair pair) const {
+    return same_filter && !summaries.changed(first_of(pair)) && !summaries.changed(second_of(pair));
+  }
+};
+
+/// One task: goes through its part of the pairs, of what was known and of what was listed side by side. It
+/// writes its own part of `known_` and `selected_`, and into that of `last_`, behind itself, the memories of
+/// those to be forgotten.
+class PairSelection::Walk {
+ public:
+  Walk(PairSelection& selection, const Given& given, Slice& slice)
+      : selection_(selection),
+        given_(given),
+        slice_(slice),
+        last_(slice.last_begin),
+        listed_(slice.listed_begin) {}
+
+  void run() {
+    for (std::size_t place = slice_.begin; place < slice_.end; ++place) take(place);
+    pass_by(slice_.end < given_.pairs.size() ? given_.pairs[slice_.end] : no_pair);  // behind all others
+  }
+
+ private:
+  [[nodiscard]] bool is_known(PlacePair pair) const {
+    return last_ < slice_.last_end && selection_.last_[last_].pair == pair;
+  }
+  std::uint32_t next_listed(PlacePair pair) {
+    if (listed_ == slice_.listed_end || given_.listed[listed_].pair != pair) return SelectedPair::none;
+    return static_cast<std::uint32_t>(listed_++);
+  }
+
+  /// Pairs below `end` that the broad phase keeps no longer.
+  void pass_by(PlacePair end) {
+    while (true) {
+      PlacePair pair = end;
+      if (last_ < slice_.last_end) pair = std::min(pair, selection_.last_[last_].pair);
+      if (listed_ < slice_.listed_end) pair = std::min(pair, given_.listed[listed_].pair);
+      if (pair == end) return;
+      const std::uint32_t memory = is_known(pair) ? selection_.last_[last_++].memory : SelectedPair::none;
+      leave({pair, SelectedPair::none, memory, next_listed(pair)});
+    }
+  }
+
+  void take(std::size_t place) {
+    const PlacePair pair = given_.pairs[place];
+    pass_by(pair);
+    Known known{pair};
+    if (is_known(pair)) known = selection_.last_[last_++];
+    const SelectedPair selected{pair, static_cast<std::uint32_t>(place), known.memory, next_listed(pair)};
+    if (!known.rests || !given_.stands(pair)) {
+      known.fate =
+          fate_of(given_.summaries[first_of(pair)], given_.summaries[second_of(pair)], given_.filter);
+      known.rests = known.fate != Fate::looked_at && known.fate != Fate::frozen;
+    }
+    ++slice_.fates[static_cast<std::size_t>(known.fate)];
+    if (known.fate != Fate::looked_at) {
+      known.memory = SelectedPair::none;
+      leave(selected);
+    } else if (known.rests) {
+      add_resting(selected);
+    } else {
+      add(selected);
+    }
+    selection_.known_[place] = known;
+  }
+
+  void add(const SelectedPair& selected) {
+    selection_.selected_[slice_.selected_begin + slice_.selected++] = selected;
+  }
+  void add_resting(SelectedPair selected) {
+    ++slice_.resting;
+    if (selected.listed == SelectedPair::none) return;
+    if (slice_.selected > 0) {
+      SelectedPair& before = selection_.selected_[slice_.selected_begin + slice_.selected - 1];
+      const auto row = [&](std::uint32_t listed) { return given_.listed[listed].row; };
+      if (before.kind == SelectedPair::Kind::resting && before.listed + before.count == selected.listed &&
+          row(before.listed) + before.count == row(selected.listed)) {
+        ++before.count;
+        return;
+      }
+    }
+    selected.kind = SelectedPair::Kind::resting;
+    add(selected);
+  }
+  void leave(SelectedPair selected) {
+    if (selected.listed != SelectedPair::none) {
+      selected.kind = SelectedPair::Kind::not_selected;
+      add(selected);
+    } else if (selected.memory != SelectedPair::none) {
+      // It comes from a pair of `last_` that has been passed by.
+      selection_.last_[slice_.last_begin + slice_.forgotten++].memory = selected.memory;
+    }
+  }
+
+  PairSelection& selection_;
+  const Given& given_;
+  Slice& slice_;
+  std::size_t last_;
+  std::size_t listed_;
+};
+
+std::span<const SelectedPair> PairSelection::select(std::span<const PlacePair> pairs,
+                                                    std::span<const ListedPair> listed,
+                                                    const ObjectSummaries& summaries,
+                                                    const PairFilter& filter, TaskPool& tasks,
+                                                    StepStatistics& statistics) {
+  for (const PairMemories::Place memory : leaving_) memories_.release(memory);
+  leaving_.clear();
+  last_.swap(known_);
+  if (!summaries.moves().empty()) follow(summaries.moves());
+  known_.resize(pairs.size());
+  cut(pairs, listed);
+  const bool same_filter = std::exchange(filter_version_, filter.version()) == filter.version();
+  const Given given{pairs, listed, summaries, filter, same_filter};
+  const auto select_slice = [&](unsigned, std::size_t index) { Walk(*this, given, slices_[index]).run(); };
+  tasks.run(slices_.size(), std::ref(select_slice));
+  validate(given);
+  statistics.pairs_close = pairs.size();
+  count(statistics);
+  return std::span(selected_).first(gather());
+}
+
+/// Calls pairs by the places that their objects have now.
+void PairSelection::follow(std::span<const std::uint32_t> moves) {
+  std::size_t kept = 0;
+  for (Known known : last_) {
+    known.pair = moved_pair(known.pair, moves);
+    if (known.pair != no_pair)
+      last_[kept++] = known;
+    else if (known.memory != SelectedPair::none)
+      memories_.release(known.memory);
+  }
+  last_.resize(kept);
+}
+
+/// Where a slice begins in one of the three, it begins in the others.
+void PairSelection::cut(std::span<const PlacePair> pairs, std::span<const ListedPair> listed) {
+  slices_.clear();
+  Slice slice{};
+  do {
+    slice.end = std::min(slice.begin + pairs_of_slice, pairs.size());
+    const bool is_last = slice.end == pairs.size();
+    slice.last_end = is_last ? last_.size() : place_in(last_, pairs[slice.end]);
+    slice.listed_end = is_last ? listed.size() : place_in(listed, pairs[slice.end]);
+    slice.selected_begin = slice.begin + slice.listed_begin;
+    slices_.push_back(slice);
+    slice.begin = slice.end;
+    slice.last_begin = slice.last_end;
+    slice.listed_begin = slice.listed_end;
+  } while (slice.begin < pairs.size());
+  selected_.resize(std::max(selected_.size(), pairs.size() + listed.size()));
+}
+
+PairSelection::Fate PairSelection::fate_of(const ObjectSummary& a, const ObjectSummary& b,
+                                           const PairFilter& filter) {
+  switch (filter.verdict(a, b)) {
+    case PairVerdict::fixed:
+      return Fate::fixed;
+    case PairVerdict::layer:
+      return Fate::layer;
+    case PairVerdict::group:
+      return Fate::group;
+    case PairVerdict::ignored:
+      return Fate::ignored;
+    case PairVerdict::looked_at:
+      break;
+  }
+  if (!may_be_near(lower_distance(a.box, b.box), filter.reach(a, b))) return Fate::apart;
+  return a.frozen || b.frozen ? Fate::frozen : Fate::looked_at;
+}
+
+/// Puts what the slices found together, and releases the memories of which there is nothing to be said.
+std::size_t PairSelection::gather() {
+  std::size_t count = 0;
+  for (const Slice& slice : slices_) {
+    const auto from = selected_.begin() + static_cast<std::ptrdiff_t>(slice.selected_begin);
+    std::copy_n(from, slice.selected, selected_.begin() + static_cast<std::ptrdiff_t>(count));
+    count += slice.selected;
+    for (std::size_t i = 0; i < slice.forgotten; ++i) memories_.release(last_[slice.last_begin + i].memory);
+  }
+  return count;
+}
+
+void PairSelection::count(StepStatistics& statistics) const {
+  const auto sum = [&](Fate fate) {
+    std::uint64_t pairs = 0;
+    for (const Slice& slice : slices_) pairs += slice.fates[static_cast<std::size_t>(fate)];
+    return pairs;
+  };
+  statistics.pairs_fixed = sum(Fate::fixed);
+  statistics.pairs_by_layer = sum(Fate::layer);
+  statistics.pairs_in_group = sum(Fate::group);
+  statistics.pairs_ignored = sum(Fate::ignored);
+  statistics.pairs_filtered = statistics.pairs_fixed + statistics.pairs_by_layer + statistics.pairs_in_group +
+                              statistics.pairs_ignored;
+  statistics.pairs_apart = sum(Fate::apart);
+  for (const Slice& slice : slices_) statistics.pairs_unchanged += slice.resting;
+}
+
+#ifdef GRAZE_VALIDATE
+/// What is known of pairs that rest is what a look at their objects says.
+void PairSelection::validate(const Given& given) {
+  for (const Known& known : known_) {
+    if (!known.rests) continue;
+    const ObjectSummary& a = given.summaries[first_of(known.pair)];
+    const ObjectSummary& b = given.summaries[second_of(known.pair)];
+    bool holds = known.fate == fate_of(a, b, given.filter);
+    if (known.fate == Fate::looked_at) {
+      const PairMemory& memory = memories_[known.memory];
+      holds = holds && memory.version_a == a.version && memory.version_b == b.version &&
+              memory.rules_version == given.filter.rules_version();
+    }
+    if (!holds) throw std::logic_error("graze validator: a pair rests of which something has changed");
+  }
+}
+#else
+void PairSelection::validate(const Given&) {}
+#endif
+
+PairMemory& PairSelection::memory_of(const SelectedPair& selected) {
+  const PairMemories::Place memory =
+      selected.memory == SelectedPair::none ? memories_.take() : selected.memory;
+  if (selected.place == SelectedPair::none)
+    leaving_.push_back(memory);
+  else
+    known_[selected.place].memory = memory;
+  return memories_[memory];
+}
+
+void PairSelection::forget(const SelectedPair& selected) {
+  if (selected.memory != SelectedPair::none) memories_.release(selected.memory);
+}
+
+void PairSelection::reserve(std::size_t pairs, const PairMemoryRoom& room) {
+  memories_.reserve(pairs, room);
+  known_.reserve(pairs);
+  last_.reserve(pairs);
+  leaving_.reserve(pairs);
+  selected_.reserve(2 * pairs);
+  slices_.reserve(pairs / pairs_of_slice + 1);
+}
+
+std::size_t PairSelection::byte_count() const {
+  return memories_.byte_count() + bytes_of(known_) + bytes_of(last_) + bytes_of(leaving_) +
+         bytes_of(selected_) + bytes_of(slices_);
+}
+
+}  // namespace graze

@@ -1,0 +1,223 @@
+#include "pairs/pair_table.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+namespace {
+
+/// So many pairs before it is asked for a memory begins to come from further away.
+constexpr std::size_t ahead = 12;
+
+}  // namespace
+
+PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
+                         StepStatistics& statistics) {
+  const auto objects = store_.objects();
+  statistics.objects = objects.size();
+  statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
+  summaries_.refresh(objects, tasks);
+  find_listed(previous);
+  find_ended(previous);
+  const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), tasks);
+  statistics.boxes_tested = broad_phase_.counters().boxes_tested;
+  statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
+  if (summaries_.some_unread()) read_what_is_near(close, tasks, diagnostics);
+  list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);
+  // Those counted so far rest, and have no job.
+  const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
+  count_jobs(statistics);
+  return {jobs_, last_rows_, pair_count};
+}
+
+/// The pairs that the last report lists, by the places that their objects have now.
+void PairTable::find_listed(const FrameReport& previous) {
+  // Of another report where a step did not go through the pairs, or after one that came to no end.
+  if (rows_frame_ != previous.frame()) return look_up_listed(previous);
+  listed_.swap(rows_);
+  const auto moves = summaries_.moves();
+  if (moves.empty()) return;
+  std::size_t kept = 0;
+  for (const auto [pair, row] : listed_)
+    if (const PlacePair moved = moved_pair(pair, moves); moved != no_pair) listed_[kept++] = {moved, row};
+  listed_.resize(kept);
+}
+
+void PairTable::look_up_listed(const FrameReport& previous) {
+  listed_.clear();
+  for (std::uint32_t row = 0; row < previous.pairs().size(); ++row) {
+    const Object* const a = store_.find(previous.pairs()[row].a);
+    const Object* const b = store_.find(previous.pairs()[row].b);
+    if (a != nullptr && b != nullptr)
+      listed_.push_back({pair_of(summaries_.place_of(*a), summaries_.place_of(*b)), row});
+  }
+}
+
+/// The pairs that the last report has in contact and of which an object was removed since, in its order.
+void PairTable::find_ended(const FrameReport& previous) {
+  ended_.clear();
+  ended_listed_ = 0;
+  if (store_.departed().empty()) return;
+  for (std::uint32_t row = 0; row < previous.pairs().size(); ++row) {
+    const PairReport& pair = previous.pairs()[row];
+    if (!is_contact(pair.phase)) continue;
+    if (store_.find(pair.a) != nullptr && store_.find(pair.b) != nullptr) continue;
+    ended_.push_back({{serial_of(pair.a), serial_of(pair.b)}, row});
+  }
+}
+
+/// Object::serial, also of an object that was removed since the last report.
+std::uint64_t PairTable::serial_of(ObjectId id) {
+  if (const Object* const object = store_.find(id)) return object->serial;
+  return std::lower_bound(store_.departed().begin(), store_.departed().end(), id,
+                          [](const DepartedObject& departed, ObjectId value) { return departed.id < value; })
+      ->serial;
+}
+
+/// Has the rows of ended pairs that come before a pair stand before what is listed next.
+void PairTable::list_ended(SerialPair before) {
+  for (; ended_listed_ < ended_.size() && ended_[ended_listed_].pair < before; ++ended_listed_)
+    last_rows_.push_back({jobs_.size(), 0, ended_[ended_listed_].row, 1, true});
+}
+
+void PairTable::begin_rows(std::uint64_t frame) {
+  rows_.clear();
+  row_count_ = 0;
+  rows_frame_ = frame;
+  std::size_t most = jobs_.size();
+  for (const LastRows& rows : last_rows_) most += rows.count;
+  rows_.reserve(most);
+}
+
+void PairTable::add_rows(const LastRows& rows) {
+  for (std::uint32_t i = 0; i < rows.count; ++i) add_row(listed_[rows.listed + i].pair);
+}
+
+/// A pair of which one object was not read, because of a promise or since it was surveyed, is near only where
+/// their boxes are; then it is read after all. So is what the last report listed, since that has to be said
+/// of it again.
+void PairTable::read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
+                                  std::vector<Diagnostic>& diagnostics) {
+  const auto objects = store_.objects();
+  wanted_.clear();
+  const bool same_filter = std::exchange(filter_version_, filter_.version()) == filter_.version();
+  const auto want = [&](std::uint32_t place) {
+    Object* const object = objects[place].get();
+    if (object->unread && !std::exchange(object->wanted, true)) wanted_.push_back(object);
+  };
+  for (const PlacePair pair : pairs) {
+    // Both are read, or were found to be apart in an earlier step.
+    if (same_filter && !summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair))) continue;
+    const ObjectSummary& a = summaries_[first_of(pair)];
+    const ObjectSummary& b = summaries_[second_of(pair)];
+    if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::looked_at &&
+        lower_distance(a.box, b.box) <= filter_.reach(a, b)) {
+      want(first_of(pair));
+      want(second_of(pair));
+    }
+  }
+  for (const ListedPair& listed : listed_)
+    for (const std::uint32_t place : {first_of(listed.pair), second_of(listed.pair)})
+      if (summaries_.changed(place)) want(place);
+  if (wanted_.empty()) return;
+  store_.read_unread(wanted_, tasks, diagnostics);
+  summaries_.refresh(wanted_);
+}
+
+void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous) {
+  jobs_.clear();
+  last_rows_.clear();
+  jobs_.reserve(selected.size());  // no more than that: with millions of pairs half as much again is felt
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    if (i + ahead < selected.size()) selection_.prefetch(selected[i + ahead]);
+    const SelectedPair& each = selected[i];
+    if (ended_listed_ < ended_.size())
+      list_ended({summaries_[first_of(each.pair)].serial, summaries_[second_of(each.pair)].serial});
+    if (each.kind == SelectedPair::Kind::resting) {
+      last_rows_.push_back({jobs_.size(), each.listed, listed_[each.listed].row, each.count});
+      continue;
+    }
+    PairJob job = job_of(each, previous);
+    if (each.kind == SelectedPair::Kind::looked_at || says_something(job))
+      add(job, each);
+    else
+      selection_.forget(each);
+  }
+  constexpr std::uint64_t behind_all = std::numeric_limits<std::uint64_t>::max();
+  list_ended({behind_all, behind_all});
+}
+
+PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previous) const {
+  PairJob job;
+  job.places = selected.pair;
+  job.a = store_.objects()[first_of(selected.pair)].get();
+  job.b = store_.objects()[second_of(selected.pair)].get();
+  if (selected.listed != SelectedPair::none) job.last = &previous.pairs()[listed_[selected.listed].row];
+  job.thresholds =
+      filter_.thresholds(summaries_[first_of(selected.pair)], summaries_[second_of(selected.pair)]);
+  return job;
+}
+
+/// Decides about a pair that the last report listed and that is filtered out now, has parted, or is frozen:
+/// one that was in contact is listed once more however far it is.
+bool PairTable::says_something(PairJob& job) const {
+  const ObjectSummary& a = summaries_[first_of(job.places)];
+  const ObjectSummary& b = summaries_[second_of(job.places)];
+  job.allowed = filter_.verdict(a, b) == PairVerdict::looked_at;
+  if (!job.allowed && !job.was_in_contact()) return false;
+  if (!job.allowed) job.task = PairJob::Task::end;
+  if (a.frozen || b.frozen) {
+    job.task = PairJob::Task::repeat_last;
+    return true;
+  }
+  return job.was_in_contact() || may_be_near(lower_distance(a.box, b.box), job.thresholds.reach);
+}
+
+void PairTable::add(PairJob job, const SelectedPair& selected) {
+  job.memory = &selection_.memory_of(selected);
+  if (job.task == PairJob::Task::detect && is_unchanged(job)) {
+    job.task = PairJob::Task::unchanged;
+    if (may_rest_ && selected.kind == SelectedPair::Kind::looked_at) selection_.let_rest(selected);
+  }
+  jobs_.push_back(job);
+}
+
+/// Whether the last answer, about the same positions by the same rules, is also this one's.
+bool PairTable::is_unchanged(const PairJob& job) const {
+  return job.memory->version_a == summaries_[first_of(job.places)].version &&
+         job.memory->version_b == summaries_[second_of(job.places)].version &&
+         job.memory->rules_version == filter_.rules_version();
+}
+
+void PairTable::count_jobs(StepStatistics& statistics) const {
+  for (const PairJob& job : jobs_) {
+    if (job.is_looked_at()) {
+      ++statistics.pairs_tested;
+      job.a->looked_at = job.b->looked_at = true;
+    }
+    if (job.task == PairJob::Task::unchanged) ++statistics.pairs_unchanged;
+  }
+}
+
+void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemoryRoom& room) {
+  summaries_.reserve(objects);
+  broad_phase_.reserve(objects, pairs);
+  selection_.reserve(pairs, room);
+  jobs_.reserve(pairs);
+  last_rows_.reserve(pairs);
+  listed_.reserve(pairs);
+  rows_.reserve(pairs);
+  ended_.reserve(pairs);
+  wanted_.reserve(objects);
+}
+
+std::size_t PairTable::byte_count() const {
+  return filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
+         selection_.byte_count() + bytes_of(jobs_) + bytes_of(last_rows_) + bytes_of(listed_) +
+         bytes_of(rows_) + bytes_of(ended_) + bytes_of(wanted_);
+}
+
+}  // namespace graze

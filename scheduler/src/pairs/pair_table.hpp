@@ -1,0 +1,87 @@
+#pragma once
+
+#include <graze/report.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/task_pool.hpp"
+#include "broad_phase/broad_phase.hpp"
+#include "objects/object_store.hpp"
+#include "objects/object_summary.hpp"
+#include "pairs/pair_filter.hpp"
+#include "pairs/pair_job.hpp"
+#include "pairs/pair_selection.hpp"
+
+namespace graze {
+
+/// The n(n-1)/2 pairs of a scene's objects, of which only those that may be close have an entry (the paper's
+/// numcd). Stepping thread only.
+class PairTable {
+ public:
+  PairTable(const SceneSettings& settings, PairFilter& filter, ObjectStore& store)
+      : store_(store), filter_(filter), may_rest_(!settings.max_contacts) {}
+
+  [[nodiscard]] PairFilter& filter() { return filter_; }
+
+  /// The pairs that have to be looked at or said something about. Reads objects that promises left unread,
+  /// where they may be near after all. `previous` is the last report.
+  PairList list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
+                StepStatistics& statistics);
+
+  /// Begins to be told which pairs a report lists, in its order.
+  void begin_rows(std::uint64_t frame);
+  void add_row(const PairJob& job) { add_row(job.places); }
+  void add_rows(const LastRows& rows);
+  /// A row that the next step has nothing to say about.
+  void pass_row() { ++row_count_; }
+
+  /// Makes room for so many objects, and pairs whose loose boxes meet.
+  /// Before a step's `list` only.
+  void reserve(std::size_t objects, std::size_t pairs, const PairMemoryRoom& room);
+  /// Of the fronts only what was reserved.
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  /// Two objects by Object::serial. Pairs of rows ascend by them.
+  using SerialPair = std::pair<std::uint64_t, std::uint64_t>;
+  /// A pair that was in contact, of which an object was removed.
+  struct EndedPair {
+    SerialPair pair;
+    std::uint32_t row;  ///< in the last report
+  };
+
+  void find_listed(const FrameReport& previous);
+  void look_up_listed(const FrameReport& previous);
+  void find_ended(const FrameReport& previous);
+  [[nodiscard]] std::uint64_t serial_of(ObjectId id);
+  void list_ended(SerialPair before);
+  void read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
+                         std::vector<Diagnostic>& diagnostics);
+  void list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous);
+  [[nodiscard]] PairJob job_of(const SelectedPair& selected, const FrameReport& previous) const;
+  void add(PairJob job, const SelectedPair& selected);
+  [[nodiscard]] bool says_something(PairJob& job) const;
+  [[nodiscard]] bool is_unchanged(const PairJob& job) const;
+  void count_jobs(StepStatistics& statistics) const;
+  void add_row(PlacePair pair) { rows_.push_back({pair, row_count_++}); }
+
+  ObjectStore& store_;
+  PairFilter& filter_;
+  const bool may_rest_;  ///< a pair may stand as it was without being looked at; not where all share contacts
+  std::uint64_t filter_version_ = ~std::uint64_t{0};  ///< of the last look for what is near and unread
+  ObjectSummaries summaries_;
+  BroadPhase broad_phase_;
+  PairSelection selection_;
+  std::vector<PairJob> jobs_;
+  std::vector<LastRows> last_rows_;
+  std::vector<ListedPair> listed_;  ///< by the last report
+  std::vector<ListedPair> rows_;    ///< by the report of `rows_frame_`
+  std::uint64_t rows_frame_ = 0;
+  std::uint32_t row_count_ = 0;  ///< of that report
+  std::vector<EndedPair> ended_;
+  std::size_t ended_listed_ = 0;  ///< of `ended_`
+  std::vector<Object*> wanted_;   ///< to be read after all
+};
+
+}  // namespace graze

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <algorithm>
+#include <graze/report.hpp>
+
+#include "core/base/bytes_of.hpp"
+#include "core/base/room_to_spare.hpp"
+
+namespace graze {
+
+/// How much reports have room for.
+struct ReportRoom {
+  std::size_t pairs = 0;
+  std::size_t contacts = 0;
+  std::size_t region_distances = 0;
+
+  [[nodiscard]] bool covers(const ReportRoom& other) const {
+    return pairs >= other.pairs && contacts >= other.contacts && region_distances >= other.region_distances;
+  }
+  void include(const ReportRoom& other) {
+    pairs = std::max(pairs, other.pairs);
+    contacts = std::max(contacts, other.contacts);
+    region_distances = std::max(region_distances, other.region_distances);
+  }
+};
+
+/// The one place that writes into a report, before it is published.
+class ReportBuilder {
+ public:
+  explicit ReportBuilder(FrameReport& report) : report_(report) {}
+
+  /// Empties the report and keeps its memory; its contacts are to be written over.
+  void begin(std::uint64_t frame, std::uint64_t tag) {
+    report_.frame_ = frame;
+    report_.tag_ = tag;
+    report_.complete_ = true;
+    report_.shown_ = &report_.rows_;
+    report_.rows_.pairs.clear();
+    report_.rows_.region_distances.clear();
+    report_.diagnostics_.clear();
+    report_.statistics_ = {};
+  }
+  /// Appends a pair with what belongs to it, but for its contacts, which follow those of the pair before.
+  void add(PairReport pair, std::size_t contact_count, std::span<const RegionDistance> region_distances) {
+    pair.first_region_distance = report_.rows_.region_distances.size();
+    pair.region_distance_count = region_distances.size();
+    report_.rows_.region_distances.insert(report_.rows_.region_distances.end(), region_distances.begin(),
+                                          region_distances.end());
+    pair.first_contact = contact_count_of_pairs();
+    pair.contact_count = contact_count;
+    report_.rows_.pairs.push_back(pair);
+    report_.complete_ = report_.complete_ && pair.complete;
+  }
+  /// Appends pairs that followed each other in an earlier report, as they were there, with the distances of
+  /// regions that belonged to them.
+  void add_again(std::span<const PairReport> pairs, std::span<const RegionDistance> region_distances) {
+    if (pairs.empty()) return;
+    auto& rows = report_.rows_;
+    const std::size_t contacts = contact_count_of_pairs() - pairs.front().first_contact;
+    const std::size_t regions = rows.region_distances.size() - pairs.front().first_region_distance;
+    const std::size_t count = rows.pairs.size();
+    rows.region_distances.insert(rows.region_distances.end(), region_distances.begin(),
+                                 region_distances.end());
+    rows.pairs.insert(rows.pairs.end(), pairs.begin(), pairs.end());
+    for (PairReport& pair : std::span(rows.pairs).subspan(count)) {
+      // Modulo 2^64 where they stand further ahead than they did.
+      pair.first_contact += contacts;
+      pair.first_region_distance += regions;
+      report_.complete_ = report_.complete_ && pair.complete;
+    }
+  }
+  /// Where the contacts of the pairs are to be written, when all pairs are there. What is there is of a
+  /// report before.
+  std::span<Contact> contacts() {
+    resize_to_overwrite(report_.rows_.contacts, contact_count_of_pairs());
+    return report_.rows_.contacts;
+  }
+  /// The memory of its contacts, which may be used for something else until they are written.
+  std::vector<Contact>& contact_memory() { return report_.rows_.contacts; }
+  /// Takes a list of contacts together with its memory, when all pairs are there, and puts it where it
+  /// belongs, which begins at `first`. The list gets the memory that the report's contacts had.
+  void take(std::vector<Contact>& list, std::size_t first) {
+    auto& rows = report_.rows_.contacts;
+    rows.swap(list);
+    const auto end = static_cast<std::ptrdiff_t>(rows.size());
+    if (rows.capacity() < contact_count_of_pairs())
+      rows.reserve(with_room_to_spare(contact_count_of_pairs()));
+    rows.resize(contact_count_of_pairs(), Contact{});
+    if (first > 0)
+      std::move_backward(rows.begin(), rows.begin() + end,
+                         rows.begin() + static_cast<std::ptrdiff_t>(first) + end);
+  }
+  /// Makes room for so many contacts in small pieces, as long as `goes_on()`; whether there is room then.
+  template <typename GoesOn>
+  bool make_room_while(std::size_t contacts, const GoesOn& goes_on) {
+    constexpr std::size_t at_once = 128;
+    auto& rows = report_.rows_.contacts;
+    if (rows.capacity() < contacts) reserve_to_overwrite(rows, with_room_to_spare(contacts));
+    while (rows.size() < contacts && goes_on())
+      rows.resize(std::min(contacts, rows.size() + at_once), Contact{});
+    return rows.size() >= contacts;
+  }
+  /// Shows the rows of another report, which must stay as it is while this one is read, in place of its own.
+  void show_rows_of(const FrameReport& other) {
+    report_.shown_ = other.shown_;
+    report_.complete_ = other.complete_;
+  }
+  [[nodiscard]] std::uint64_t frame() const { return report_.frame_; }
+  std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
+  StepStatistics& statistics() { return report_.statistics_; }
+
+  /// Of a report that is to be filled: what it has no room for is gone.
+  void reserve(const ReportRoom& room) {
+    reserve_to_overwrite(report_.rows_.pairs, room.pairs);
+    reserve_to_overwrite(report_.rows_.contacts, room.contacts);
+    reserve_to_overwrite(report_.rows_.region_distances, room.region_distances);
+  }
+  /// Lets go of its rows and their memory.
+  void release() noexcept {
+    report_.shown_ = &report_.rows_;
+    report_.rows_ = {};
+  }
+  [[nodiscard]] ReportRoom room() const {
+    return {report_.rows_.pairs.capacity(), report_.rows_.contacts.capacity(),
+            report_.rows_.region_distances.capacity()};
+  }
+  [[nodiscard]] std::size_t byte_count() const {
+    std::size_t bytes = bytes_of(report_.rows_.pairs) + bytes_of(report_.rows_.contacts) +
+                        bytes_of(report_.rows_.region_distances) + bytes_of(report_.diagnostics_);
+    for (const Diagnostic& diagnostic : report_.diagnostics_) bytes += diagnostic.message.capacity();
+    return bytes;
+  }
+
+ private:
+  [[nodiscard]] std::size_t contact_count_of_pairs() const {
+    if (report_.rows_.pairs.empty()) return 0;
+    const PairReport& last = report_.rows_.pairs.back();
+    return last.first_contact + last.contact_count;
+  }
+
+  FrameReport& report_;
+};
+
+}  // namespace graze

@@ -1,0 +1,200 @@
+#include <atomic>
+#include <exception>
+#include <graze/error.hpp>
+#include <graze/scene.hpp>
+#include <memory>
+#include <utility>
+
+#include "base/settings_check.hpp"
+#include "calls/staging.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "core/pair/pair_query.hpp"
+#include "report/report_pool.hpp"
+#include "step/stepper.hpp"
+
+namespace graze {
+namespace {
+
+const SceneSettings& checked(const SceneSettings& settings) {
+  if (const auto problem = problem_of(settings)) throw Error(*problem);
+  return settings;
+}
+
+/// Makes what pairs of an object will ask its mesh for, so that no step waits for it.
+void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneSettings& scene) {
+  const ContactDetail detail = scene.detail;
+  if (wants_blocks(detail, scene.accuracy.mode())) mesh.prepare_for(IndexedMesh::Use::blocks);
+  if (scene.accuracy.mode() == AccuracyMode::paper) mesh.prepare_for(IndexedMesh::Use::neighbours);
+  if (detail != ContactDetail::none)
+    mesh.prepare_for(is_about_vertices(detail) ? IndexedMesh::Use::normals_of_points : IndexedMesh::Use::normals);
+  if (object.motion != Motion::deformable) mesh.prepare_for(IndexedMesh::Use::poses);
+}
+
+/// Says whether a step runs. Shared with the step, so that it can be told to a scene that then goes away.
+using Stepping = std::shared_ptr<std::atomic<bool>>;
+
+void begin_stepping(const Stepping& stepping) {
+  if (stepping->exchange(true, std::memory_order_acquire))
+    throw Error("scene: a step of this scene is already running on another thread");
+}
+
+/// Says that it runs no more, when this goes.
+class SteppingEnd {
+ public:
+  explicit SteppingEnd(Stepping stepping) : stepping_(std::move(stepping)) {}
+  ~SteppingEnd() {
+    if (stepping_ == nullptr) return;
+    stepping_->store(false, std::memory_order_release);
+    stepping_->notify_all();
+  }
+  SteppingEnd(const SteppingEnd&) = delete;
+  SteppingEnd& operator=(const SteppingEnd&) = delete;
+  /// Leaves it to another.
+  void leave() noexcept { stepping_ = nullptr; }
+
+ private:
+  Stepping stepping_;
+};
+
+/// The pool deletes itself when its scene and all handles are gone.
+struct PoolCloser {
+  void operator()(ReportPool* pool) const { pool->close(); }
+};
+
+}  // namespace
+
+class Scene::State {
+ public:
+  explicit State(const SceneSettings& given)
+      : settings(checked(given)), reports(ReportPool::create()), stepper(settings, staging, *reports) {}
+  ~State() { stepping->wait(true, std::memory_order_acquire); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  const SceneSettings settings;
+  Staging staging;
+  const std::unique_ptr<ReportPool, PoolCloser> reports;
+  Stepper stepper;  ///< goes before `staging`, to which its objects give buffers back
+  const Stepping stepping = std::make_shared<std::atomic<bool>>(false);
+  std::exception_ptr problem;  ///< of the last step_async
+};
+
+Scene::Scene(const SceneSettings& settings) : state_(std::make_unique<State>(settings)) {}
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+const SceneSettings& Scene::settings() const {
+  return state_->settings;
+}
+
+ObjectId Scene::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+  if (mesh != nullptr) prepare(indexed(*mesh), settings, state_->settings);
+  return state_->staging.add(std::move(mesh), settings);
+}
+void Scene::remove(ObjectId object) {
+  state_->staging.remove(object);
+}
+std::size_t Scene::object_count() const {
+  return state_->staging.object_count();
+}
+bool Scene::contains(ObjectId object) const {
+  return state_->staging.contains(object);
+}
+std::shared_ptr<const Mesh> Scene::mesh(ObjectId object) const {
+  const auto named = state_->staging.find(object);
+  return named ? named->mesh : nullptr;
+}
+ObjectSettings Scene::object_settings(ObjectId object) const {
+  const auto named = state_->staging.find(object);
+  return named ? named->settings : ObjectSettings{};
+}
+
+void Scene::set_pose_rows(ObjectId object, const std::array<double, 12>& rows) {
+  state_->staging.set_pose(object, rows);
+}
+void Scene::set_pose_matrix(ObjectId object, const std::array<double, 16>& rows) {
+  state_->staging.set_pose(object, rows);
+}
+void Scene::set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices) {
+  state_->staging.set_poses(objects, matrices);
+}
+void Scene::set_positions(ObjectId object, PositionView positions, double max_displacement) {
+  state_->staging.set_positions(object, positions, max_displacement);
+}
+void Scene::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                          double max_displacement) {
+  state_->staging.set_positions(objects, positions, max_displacement);
+}
+void Scene::bind_positions(ObjectId object, PositionView positions, BindPolicy policy) {
+  state_->staging.bind_positions(object, positions, policy);
+}
+void Scene::bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                           BindPolicy policy) {
+  state_->staging.bind_positions(objects, positions, policy);
+}
+void Scene::unbind_positions(ObjectId object) {
+  state_->staging.unbind_positions(object);
+}
+void Scene::positions_changed(ObjectId object, double max_displacement) {
+  state_->staging.positions_changed(object, max_displacement);
+}
+void Scene::positions_changed(std::span<const ObjectId> objects, double max_displacement) {
+  state_->staging.positions_changed(objects, max_displacement);
+}
+void Scene::positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements) {
+  state_->staging.positions_changed(objects, max_displacements);
+}
+void Scene::ignore(ObjectId a, ObjectId b) {
+  state_->staging.set_ignored(a, b, true);
+}
+void Scene::watch(ObjectId a, ObjectId b) {
+  state_->staging.set_ignored(a, b, false);
+}
+void Scene::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
+  state_->staging.set_rule(kind_a, kind_b, rule);
+}
+void Scene::reserve(const SceneCapacity& capacity) {
+  state_->staging.reserve(capacity);
+}
+
+ReportHandle Scene::step(std::uint64_t tag) {
+  begin_stepping(state_->stepping);
+  const SteppingEnd end(state_->stepping);
+  state_->stepper.take_calls();
+  return state_->stepper.run(tag);
+}
+
+void Scene::step_async(std::uint64_t tag) {
+  begin_stepping(state_->stepping);
+  SteppingEnd unless_started(state_->stepping);
+  State* const state = state_.get();
+  state->stepper.take_calls();
+  state->stepper.start([state, tag] {
+    // After this the scene may be gone.
+    const SteppingEnd end(state->stepping);
+    state->problem = nullptr;
+    try {
+      (void)state->stepper.run(tag);
+    } catch (...) {
+      state->problem = std::current_exception();
+    }
+  });
+  unless_started.leave();
+}
+
+bool Scene::is_stepping() const {
+  return state_->stepping->load(std::memory_order_acquire);
+}
+
+ReportHandle Scene::wait() {
+  state_->stepping->wait(true, std::memory_order_acquire);
+  if (state_->problem) std::rethrow_exception(std::exchange(state_->problem, nullptr));
+  return latest_report();
+}
+
+ReportHandle Scene::latest_report() const {
+  return state_->reports->latest();
+}
+
+}  // namespace graze

@@ -1,0 +1,315 @@
+#include "step/step.hpp"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "step/report_rows.hpp"
+
+namespace graze {
+namespace {
+
+template <typename... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <typename... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+/// How many pairs of features a reserved pair's list has room for, for each of its part of the contacts;
+/// SceneCapacity says so.
+constexpr std::size_t features_of_contact = 4;
+
+PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
+  const bool has_lists = detail == ContactDetail::features || detail == ContactDetail::vertices;
+  const std::size_t contacts = capacity.contacts / capacity.near_pairs + 1;
+  return {leaf_pairs_of_front, has_lists ? features_of_contact * contacts : 0};
+}
+
+/// Milliseconds since the last call, or since it was made.
+class Lap {
+ public:
+  explicit Lap(std::chrono::steady_clock::time_point start) : last_(start) {}
+  double operator()() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_;
+};
+
+bool is_nothing(const SceneCapacity& capacity) {
+  return capacity.objects == 0 && capacity.near_pairs == 0 && capacity.contacts == 0 && capacity.reports == 0;
+}
+
+/// The largest of each number.
+SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
+  return {std::max(left.objects, right.objects), std::max(left.calls_per_step, right.calls_per_step),
+          std::max(left.near_pairs, right.near_pairs), std::max(left.contacts, right.contacts),
+          std::max(left.reports, right.reports)};
+}
+
+}  // namespace
+
+Step::Step(const SceneSettings& settings, SceneContent& content, Staging& staging, ReportPool& reports)
+    : settings_(settings),
+      content_(content),
+      staging_(staging),
+      reports_(reports),
+      tasks_(content.tasks),
+      store_(content.store),
+      pairs_(settings, content.filter, store_),
+      refit_(settings, tasks_),
+      jobs_(settings, tasks_) {}
+
+void Step::run(const FrameReport& previous, FrameReport& report) {
+  const Clock::time_point start = Clock::now();
+  Lap lap(start);
+  ReportBuilder builder(report);
+  StepStatistics& statistics = builder.statistics();
+
+  take_up_calls(builder.diagnostics());
+  store_.read_positions(tasks_, builder.diagnostics());
+  statistics.read_ms = lap();
+  if (std::exchange(is_settled_, false) && !store_.changed()) {
+    repeat_rows(previous, statistics);
+  } else {
+    const PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
+    statistics.pairs_ms = lap();
+    refit_.run(list.jobs);
+    statistics.refit_ms = lap();
+    jobs_.run(list, pairs_.filter().rules_version(), start, previous, builder);
+    statistics.jobs_ms = lap();
+    write_pairs(list, previous, builder);
+    sum_counters(statistics);
+    even_out(start);
+    count_bytes_of_pairs(list.jobs, statistics);
+  }
+  statistics.objects_unread = store_.unread_count();
+  statistics.objects_surveyed = store_.surveyed_count();
+  statistics.object_bytes = store_.byte_count() + staging_.byte_count();
+  statistics.report_bytes = reports_.byte_count();
+  store_.forget_departed();  // the report is made: nothing throws from here on
+  statistics.publish_ms = lap();
+  statistics.step_ms = Lap(start)();
+}
+
+void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
+  staging_.visit_taken(
+      Overloaded{[&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
+                 [&](SetRule& rule) {
+                   pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
+                   is_settled_ = false;
+                 },
+                 [&](IgnorePair& pair) {
+                   is_settled_ = false;
+                   const Object* const a = store_.find(pair.a);
+                   const Object* const b = store_.find(pair.b);
+                   if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
+                 },
+                 [&](RemoveObject& removed) {
+                   if (const Object* const object = store_.find(removed.object))
+                     pairs_.filter().forget(*object);
+                   store_.apply(removed);
+                 },
+                 [&](RefusePose& refused) {
+                   diagnostics.push_back(refused.problem);
+                   store_.apply(refused);
+                 },
+                 [&](BindPositions& bound) {
+                   store_.apply(bound);
+                   Object* const object = store_.find(bound.object);
+                   if (is_reserved_ && object != nullptr) make_ready_to_copy(*object);
+                 },
+                 [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
+                 [&](Reserve& call) {
+                   is_settled_ = false;  // a step that repeats rows does not count what is made room for
+                   // Where there is no memory for it, it is not tried again: the scene may do without.
+                   reserve(std::exchange(call.capacity, {}));
+                 },
+                 [&](AddObject& added) {
+                   if (is_reserved_) make_ready(*added.surface, added.settings.motion);
+                   store_.apply(added);
+                 },
+                 [&](auto& other) { store_.apply(other); }});
+}
+
+void Step::reserve(const SceneCapacity& capacity) {
+  if (is_nothing(capacity)) return;
+  store_.reserve(capacity.objects);
+  reports_.reserve(capacity.reports, {capacity.near_pairs, capacity.contacts,
+                                      capacity.near_pairs > 0 ? settings_.region_distances : 0});
+  if (capacity.near_pairs > 0) reserve_for_pairs(capacity);
+  content_.reserved = both(content_.reserved, capacity);
+}
+
+void Step::reserve_for_pairs(const SceneCapacity& capacity) {
+  is_reserved_ = true;
+  pairs_.reserve(std::max(capacity.objects, store_.objects().size()), capacity.near_pairs,
+                 room_for(capacity, settings_.detail));
+  refit_.reserve(capacity.near_pairs);
+  jobs_.reserve(capacity.near_pairs, capacity.contacts);
+  contacts_.reserve(capacity.near_pairs);
+  for (const auto& object : store_.objects()) {
+    if (object == nullptr) continue;  // removed in this step
+    if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
+    make_ready(object->surface_to_write(), object->settings.motion);
+    store_.count_bytes(*object);
+    make_ready_to_copy(*object);
+  }
+}
+
+/// Makes room for the first pair of an object: bounds of its regions, its leaves in working memory, and what
+/// it has by its pose.
+void Step::make_ready(Surface& surface, Motion motion) {
+  if (motion != Motion::deformable) surface.reserve_positions(true);
+  refit_.make_ready(surface);
+  jobs_.reserve_for(surface.mesh());
+}
+
+/// Makes room for the positions of an object that is bound, which are copied when it comes near another;
+/// where they are viewed they never are.
+void Step::make_ready_to_copy(Object& object) {
+  if (!object.bound) return;
+  const bool is_viewed = wants_blocks(settings_.detail, settings_.accuracy.mode()) &&
+                         settings_.region_distances == 0 && object.surface().can_view(*object.bound);
+  if (is_viewed) return;
+  object.surface_to_write().reserve_positions(object.bound->is_double());
+  store_.count_bytes(object);
+}
+
+/// The end of a step: jobs ran in any order, but their answers are put together in the order of the pairs.
+void Step::write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder) {
+  StepStatistics& statistics = builder.statistics();
+  rows_again_ = 0;
+  contacts_.begin();
+  pairs_.begin_rows(builder.frame());
+  auto rows = list.last_rows.begin();
+  const auto write_rows_before = [&](std::size_t job) {
+    for (; rows != list.last_rows.end() && rows->job == job; ++rows)
+      rows->ended ? end_pair(previous.pairs()[rows->row], builder) : repeat_pairs(*rows, previous, builder);
+  };
+  for (std::size_t index = 0; index < list.jobs.size(); ++index) {
+    write_rows_before(index);
+    write_pair(list.jobs[index], index, previous, builder);
+  }
+  write_rows_before(list.jobs.size());
+  if (std::vector<Contact>* const longest = jobs_.longest_list()) contacts_.take(*longest, builder);
+  contacts_.write(tasks_, builder.contacts(), builder.frame());
+  is_settled_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
+}
+
+void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& previous,
+                      ReportBuilder& builder) {
+  StepStatistics& statistics = builder.statistics();
+  const bool repeats = !job.is_looked_at();
+  std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
+  if (!row) return;
+  if (repeats && !job.allowed) row->phase = PairPhase::ended;
+  if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again_;
+  const bool in_contact = is_contact(row->phase);
+  const KeptAnswer& answer = jobs_.answer(index);
+  const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
+  std::span<const Contact> contacts;
+  if (in_contact) contacts = repeats && !settings_.max_contacts ? last : answer.contacts;
+  if (settings_.max_contacts && answer.contacts_left_out > 0) row->contacts_cut = true;
+  if (row->contacts_cut) row->complete = false;
+  repeats ? contacts_.add_again(contacts) : contacts_.add(contacts, last);
+  const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
+  builder.add(*row, contacts.size(), regions);
+  pairs_.add_row(job);
+  statistics.region_distances += regions.size();
+  if (!repeats) statistics.region_distances_left_out += answer.region_distances_left_out;
+  ++statistics.pairs_near;
+  if (in_contact) ++statistics.pairs_in_contact;
+  statistics.contacts += contacts.size();
+  if (!row->contacts_cut) return;
+  ++statistics.pairs_cut;
+  const std::size_t left_out = settings_.max_contacts ? answer.contacts_left_out : 0;
+  statistics.contacts_left_out += std::max<std::size_t>(left_out, 1);
+}
+
+/// The last row of a pair of which an object was removed while it was in contact.
+void Step::end_pair(PairReport row, ReportBuilder& builder) {
+  row.phase = PairPhase::ended;
+  row.complete = true;
+  row.stale = row.contacts_cut = false;
+  builder.add(row, 0, {});
+  pairs_.pass_row();
+  ++builder.statistics().pairs_near;
+}
+
+/// Rows of the last report, with all that belongs to them.
+void Step::repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder) {
+  StepStatistics& statistics = builder.statistics();
+  const auto rows = previous.pairs().subspan(resting.row, resting.count);
+  const PairReport& first = rows.front();
+  const PairReport& last = rows.back();
+  const auto contacts = previous.contacts().subspan(
+      first.first_contact, last.first_contact + last.contact_count - first.first_contact);
+  const auto regions = previous.region_distances().subspan(
+      first.first_region_distance,
+      last.first_region_distance + last.region_distance_count - first.first_region_distance);
+  contacts_.add_again(contacts);
+  builder.add_again(rows, regions);
+  pairs_.add_rows(resting);
+  rows_again_ += rows.size();
+  statistics.pairs_near += rows.size();
+  statistics.contacts += contacts.size();
+  statistics.region_distances += regions.size();
+  for (const PairReport& row : rows) {
+    if (is_contact(row.phase)) ++statistics.pairs_in_contact;
+    if (!row.contacts_cut) continue;
+    ++statistics.pairs_cut;
+    ++statistics.contacts_left_out;
+  }
+}
+
+/// The rows of the last report again, which looked at no pair.
+void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) {
+  reports_.repeat_rows();
+  const double read_ms = statistics.read_ms;
+  statistics = previous.statistics();
+  statistics.read_ms = read_ms;
+  statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
+  // Of objects without pairs.
+  statistics.boxes_tested = statistics.objects_in_slack = 0;
+  is_settled_ = true;
+}
+
+/// Makes room for steps like this one. A step is complete without: where there is no memory for that, or no
+/// time within the budget, later steps take some.
+void Step::even_out(Clock::time_point start) {
+  try {
+    reports_.even_out(jobs_.even_out_memory(start));
+  } catch (const std::bad_alloc&) {
+    return;
+  }
+}
+
+void Step::sum_counters(StepStatistics& statistics) {
+  const PairCounters sum = jobs_.counters();
+  statistics.region_pairs_tested = sum.region_pairs_tested;
+  statistics.leaf_pairs_tested = sum.leaf_pairs_tested;
+  statistics.discarded_in_float = sum.discarded_in_float;
+  statistics.named_in_float = sum.named_in_float;
+  statistics.decided_in_double = sum.decided_in_double;
+  statistics.exact_decisions = sum.exact_decisions;
+  statistics.fronts_left_out = sum.fronts_left_out;
+  statistics.pairs_by_list = sum.pairs_by_list;
+  statistics.regions_expanded = sum.regions_expanded;
+}
+
+/// Of what nothing touches in a step that repeats rows, where counting it would be a third of the work.
+void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics) {
+  // Only what a job looked at may have got memory for its regions.
+  for (const PairJob& job : jobs)
+    if (job.is_looked_at())
+      for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
+  statistics.pair_bytes =
+      pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() + contacts_.byte_count();
+  statistics.thread_bytes = jobs_.thread_byte_count();
+}
+
+}  // namespace graze

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <graze/report.hpp>
+#include <span>
+#include <vector>
+
+#include "calls/staging.hpp"
+#include "jobs/pair_jobs.hpp"
+#include "jobs/region_refit.hpp"
+#include "pairs/pair_table.hpp"
+#include "report/contact_rows.hpp"
+#include "report/report_builder.hpp"
+#include "report/report_pool.hpp"
+#include "step/scene_content.hpp"
+
+namespace graze {
+
+/// What one step does, and what is remembered from step to step. Stepping thread only.
+class Step {
+ public:
+  Step(const SceneSettings& settings, SceneContent& content, Staging& staging, ReportPool& reports);
+
+  /// Fills `report`, the last that the reports' pool has begun, which follows `previous`. Where it throws the
+  /// report is of no use, nor is this.
+  void run(const FrameReport& previous, FrameReport& report);
+  /// Makes room ahead of time, where any number is not 0.
+  void reserve(const SceneCapacity& capacity);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void take_up_calls(std::vector<Diagnostic>& diagnostics);
+  void reserve_for_pairs(const SceneCapacity& capacity);
+  void make_ready(Surface& surface, Motion motion);
+  void make_ready_to_copy(Object& object);
+  void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
+  void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);
+  void end_pair(PairReport row, ReportBuilder& builder);
+  void repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder);
+  void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
+  void even_out(Clock::time_point start);
+  void sum_counters(StepStatistics& statistics);
+  void count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics);
+
+  const SceneSettings& settings_;
+  SceneContent& content_;
+  Staging& staging_;
+  ReportPool& reports_;
+  TaskPool& tasks_;
+  ObjectStore& store_;
+  PairTable pairs_;
+  RegionRefit refit_;
+  PairJobs jobs_;
+  ContactRows contacts_;
+  bool is_reserved_ = false;    ///< room for near pairs, also of objects that come
+  std::size_t rows_again_ = 0;  ///< of the report being written, as they were in the last
+  /// The last step looked at no pair and all its rows were as before: so will be the next one's if nothing
+  /// changes.
+  bool is_settled_ = false;
+};
+
+}  // namespace graze

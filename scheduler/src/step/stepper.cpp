@@ -1,0 +1,62 @@
+#include "step/stepper.hpp"
+
+#include <utility>
+
+#include "core/base/floating_point_scope.hpp"
+
+namespace graze {
+
+Stepper::Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports)
+    : settings_(settings), staging_(staging), reports_(reports), content_(settings), step_(begun_afresh()) {}
+
+ReportHandle Stepper::run(std::uint64_t tag) {
+  const FloatingPointScope scope;
+  try {
+    if (step_ == nullptr) step_ = begun_afresh();
+    fill(reports_.begin(), tag);
+  } catch (...) {
+    step_failed();
+    throw;
+  }
+  return reports_.publish();
+}
+
+void Stepper::start(std::function<void()> work) {
+  try {
+    content_.tasks.start(std::move(work));
+  } catch (...) {
+    step_failed();
+    throw;
+  }
+}
+
+void Stepper::step_failed() noexcept {
+  staging_.step_failed();
+  content_.store.forget_promises();
+}
+
+/// With the room that was reserved. Where there is no memory for that it is not tried again: the scene may do
+/// without.
+std::unique_ptr<Step> Stepper::begun_afresh() {
+  auto step = std::make_unique<Step>(settings_, content_, staging_, reports_);
+  step->reserve(std::exchange(content_.reserved, {}));
+  return step;
+}
+
+void Stepper::fill(FrameReport& report, std::uint64_t tag) {
+  ReportBuilder builder(report);
+  const ReportHandle previous = reports_.latest();
+  builder.begin(previous->frame() + 1, tag);
+  if (!untold_.empty()) builder.diagnostics().swap(untold_);
+  try {
+    step_->run(*previous, report);
+  } catch (...) {
+    untold_.swap(builder.diagnostics());
+    step_.reset();
+    content_.store.forget();
+    reports_.cancel();
+    throw;
+  }
+}
+
+}  // namespace graze
