@@ -62,8 +62,8 @@ Claim growth_claim(const PaperResults& results) {
   const std::uint64_t middle = sum(third, 2 * third);
   const std::uint64_t last = sum(2 * third, 3 * third);
   return {"The number of collisions increases as objects become closer.",
-          format("in the first, second and last third of the steps: %llu, %llu and %llu", number(first),
-                 number(middle), number(last)),
+          format("collisions in the first, second and last third of the steps: %llu, %llu and %llu",
+                 number(first), number(middle), number(last)),
           yes_or_no(first <= middle && middle < last)};
 }
 
@@ -86,20 +86,19 @@ Claim too_many_claim(const PaperResults& results) {
   const RowResult& fourth = results.rows[3];
   const RowResult& fifth = results.rows[4];
   const bool more = reported(fourth) > reported(best) && reported(fifth) > reported(best);
-  return {
-      "Rows 4 and 5 report more collisions than there should be, because of a large ε.",
-      format("DV's walk ends below the last ε for %s leaf pairs, of which %llu, %llu and %llu have no "
-             "vertices that near: their walks lead into other leaves. Row 4 differs from row 3 in ε of "
-             "level 1 only: read as leaf regions that are near, it cannot find any that should not be "
-             "there, and finds %llu where row 3 finds %llu of %llu. Row 5 has another last ε, and so %llu "
-             "collisions where the others have %llu",
-             list_of({best, fourth, fifth}, reported).c_str(), number(extra(best)), number(extra(fourth)),
-             number(extra(fifth)), number(fourth.found()), number(best.found()),
-             number(best.sum(&StepCount::truth)), number(fifth.sum(&StepCount::truth)),
-             number(best.sum(&StepCount::truth))),
-      more ? "yes, if every end of DV's walk is counted; by leaf regions that are near, only row 5 by its "
-             "last ε"
-           : "no"};
+  return {"Rows 4 and 5 report more collisions than there should be, because of a large ε.",
+          format("leaf pairs where DV's walk ends below the last ε: %s. Of those %llu, %llu and %llu have no "
+                 "vertices that near: their walks lead into other leaves. Row 4 differs from row 3 in ε of "
+                 "level 1 only, so it cannot find a collision that is not there. It finds %llu where row 3 "
+                 "finds %llu of %llu. Row 5 has another last ε, and so %llu collisions where the others have "
+                 "%llu",
+                 list_of({best, fourth, fifth}, reported).c_str(), number(extra(best)), number(extra(fourth)),
+                 number(extra(fifth)), number(fourth.found()), number(best.found()),
+                 number(best.sum(&StepCount::truth)), number(fifth.sum(&StepCount::truth)),
+                 number(best.sum(&StepCount::truth))),
+          more ? "yes, if every end of DV's walk counts; if only near leaf regions count, only row 5, by its "
+                 "last ε"
+               : "no"};
 }
 
 Claim best_claim(const PaperResults& results) {
@@ -118,9 +117,9 @@ Claim best_claim(const PaperResults& results) {
   return {
       "Row 3 is the optimum: all collisions are detected, with the fewest nodes expanded, 76 in level 1, "
       "288 in level 2 and 151 in level 3.",
-      format("row 3 misses %llu of %llu; summed by eq. 6 it misses %llu. In the last step %llu pairs of "
-             "regions pass eq. 4 in level 1, %llu in level 2, and %llu of %llu collisions are found; "
-             "summed, %llu, %llu and %llu of %llu",
+      format("row 3 misses %llu of %llu; with the numbers summed by eq. 6 it misses %llu. In the last step "
+             "%llu pairs of regions pass eq. 4 in level 1, %llu in level 2, and %llu of %llu collisions "
+             "are found. With summed numbers it is %llu, %llu, and %llu of %llu",
              number(missed(best)), number(best.sum(&StepCount::truth)), number(missed(summed[best_row])),
              number(last.passed[1]), number(last.passed[2]), number(last.found()), number(last.truth),
              number(last_summed.passed[1]), number(last_summed.passed[2]), number(last_summed.found()),
@@ -136,8 +135,8 @@ Claim thirty_claim(const PaperResults& results) {
   return {
       "In general fewer than 30 pairs of regions of a pair of objects are expanded in a level (section "
       "3.2).",
-      format("row 3, where any pass eq. 4: fewer than 30 in %llu of %llu cases in level 1 (at most %llu), "
-             "in %llu of %llu in level 2 (at most %llu)",
+      format("row 3, where any pairs pass eq. 4: fewer than 30 in %llu of %llu cases in level 1 (at most "
+             "%llu), and in %llu of %llu cases in level 2 (at most %llu)",
              number(first.below_thirty), number(first.cases), number(first.most), number(second.below_thirty),
              number(second.cases), number(second.most)),
       always ? "yes" : (mostly ? "mostly" : "in level 1 only")};

@@ -32,8 +32,8 @@ ResultTable shapes_table(const RecordedMotion& motion) {
                      {"faces", "faces"},
                      {"edges", "edges"},
                      {"level_1", "ε of level 1"},
-                     {"level_2", "of level 2"},
-                     {"level_3", "of level 3"},
+                     {"level_2", "ε of level 2"},
+                     {"level_3", "ε of level 3"},
                      {"leaves", "leaf regions"}},
                     {}};
   std::set<std::string> seen;
@@ -58,12 +58,12 @@ ResultTable rows_table(const PaperResults& results) {
                     "Collisions of all steps together",
                     {{"row", "row"},
                      {"epsilon", "ε of level 1 / 2 / last step"},
-                     {"truth", "there are"},
+                     {"truth", "collisions (truth)"},
                      {"found", "found"},
                      {"missed", "missed"},
                      {"missed_percent", "missed, %"},
                      {"reported", "reported by DV"},
-                     {"extra", "that are none"},
+                     {"extra", "reported, no collision"},
                      {"contacts", "different vertex pairs"}},
                     {}};
   for (const RowResult* row : rows_and_formula(results)) {
@@ -80,13 +80,13 @@ ResultTable last_step_table(const PaperResults& results) {
   ResultTable table{"last_step",
                     "The last step",
                     {{"row", "row"},
-                     {"truth", "collisions there are"},
+                     {"truth", "collisions (truth)"},
                      {"found", "found"},
                      {"reported", "reported by DV"},
-                     {"passed_1", "pairs of regions that pass eq. 4, level 1"},
-                     {"passed_2", "level 2"},
-                     {"expanded_1", "pairs expanded, level 1"},
-                     {"expanded_2", "level 2"},
+                     {"passed_1", "region pairs that pass eq. 4, level 1"},
+                     {"passed_2", "that pass, level 2"},
+                     {"expanded_1", "region pairs expanded, level 1"},
+                     {"expanded_2", "expanded, level 2"},
                      {"given_to_dv", "leaf pairs given to DV"}},
                     {}};
   for (const RowResult* row : rows_and_formula(results)) {
@@ -107,13 +107,13 @@ ResultTable readings_table(const PaperResults& results) {
                     "Other readings of the paper's numbers; all steps together",
                     {{"reading", "reading"},
                      {"row", "row"},
-                     {"truth", "collisions there are"},
+                     {"truth", "collisions (truth)"},
                      {"found", "found"},
                      {"missed", "missed"},
                      {"missed_percent", "missed, %"},
                      {"reported", "reported by DV"},
-                     {"passed_1", "pairs that pass eq. 4, level 1"},
-                     {"passed_2", "level 2"},
+                     {"passed_1", "region pairs that pass eq. 4, level 1"},
+                     {"passed_2", "that pass, level 2"},
                      {"given_to_dv", "leaf pairs given to DV"}},
                     {}};
   std::vector<const RowResult*> rows;
@@ -136,16 +136,16 @@ ResultTable checks_table(const PaperResults& results) {
                      {"detail", "detail"},
                      {"contact_distance", "contact distance"},
                      {"compared", "pairs of objects compared"},
-                     {"contacts", "contacts there are"},
+                     {"contacts", "contacts (truth)"},
                      {"recall_percent", "recall, %"},
                      {"precision_percent", "precision, %"},
-                     {"wrong", "pairs with any wrong"},
+                     {"wrong", "pairs with a wrong or missing contact"},
                      {"distances", "distances compared"},
-                     {"distances_wrong", "of them wrong"},
+                     {"distances_wrong", "distances wrong"},
                      {"widest", "widest bounds"},
                      {"expanded_1", "regions expanded, level 1"},
-                     {"expanded_2", "level 2"},
-                     {"leaf_pairs", "leaf pairs looked into"}},
+                     {"expanded_2", "expanded, level 2"},
+                     {"leaf_pairs", "leaf pairs tested"}},
                     {}};
   const auto share = [](std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 100.0 : percent(part, whole);
@@ -167,10 +167,10 @@ ResultTable escapes_table(const PaperResults& results) {
                      {"epsilon", "ε of the level (eq. 3)"},
                      {"vertices", "vertices, in all later steps"},
                      {"outside_own", "outside ε of their region (eq. 2)"},
-                     {"outside_own_percent", "%"},
+                     {"outside_own_percent", "outside ε of their region, %"},
                      {"outside_level", "outside ε of the level (eq. 3)"},
-                     {"outside_level_percent", "%"},
-                     {"furthest", "furthest, by ε of its region"}},
+                     {"outside_level_percent", "outside ε of the level, %"},
+                     {"furthest", "furthest, in ε of its region"}},
                     {}};
   for (const EscapeCount& count : results.escapes)
     table.rows.push_back({count.kind, std::uint64_t{count.level}, count.epsilon, count.vertices,

@@ -71,8 +71,8 @@ ResultTable scene_table(const std::vector<SceneResult>& results) {
                      {"regions", "regions"},
                      {"frames", "frames"},
                      {"distance", "distance"},
-                     {"near_vertex_pairs", "vertex pairs within it, a frame"},
-                     {"near_leaf_pairs", "leaf pairs that have any, a frame"}},
+                     {"near_vertex_pairs", "near vertex pairs, a frame"},
+                     {"near_leaf_pairs", "near leaf pairs, a frame"}},
                     {}};
   for (const SceneResult& result : results)
     table.rows.push_back({result.name, result.what, result.vertices, result.regions,
@@ -90,8 +90,8 @@ ResultTable tightness_table(const std::vector<SceneResult>& results) {
                      {"bytes_a_region", "bytes a region"},
                      {"tests", "region pairs tested"},
                      {"leaf_pairs", "leaf pairs reached"},
-                     {"of_near", "of those that are near"},
-                     {"vertex_pairs", "vertex pairs in them"},
+                     {"of_near", "leaf pairs reached / near leaf pairs"},
+                     {"vertex_pairs", "vertex pairs in the leaves reached"},
                      {"face_tests", "region pairs tested, bounds of faces"},
                      {"face_leaf_pairs", "leaf pairs reached, bounds of faces"},
                      {"corner_pairs", "corner pairs left after clipping"}},
@@ -200,7 +200,7 @@ BesideBox beside_box(const std::vector<SceneResult>& results, std::size_t bound)
 
 ResultTable beside_box_table(const std::vector<BesideBox>& all) {
   ResultTable table{"beside_box",
-                    "Work beside the box's (1: as much), geometric means over the scenes",
+                    "Work relative to the box (box = 1), geometric means over the scenes",
                     {{"bound", "bound"},
                      {"tests", "region pairs tested"},
                      {"leaf_pairs", "leaf pairs reached"},
@@ -214,15 +214,15 @@ ResultTable beside_box_table(const std::vector<BesideBox>& all) {
 
 ResultTable beside_box_time_table(const std::vector<BesideBox>& all) {
   ResultTable table{"times_beside_box",
-                    "Time beside the box's (1: as much), geometric means over the scenes",
+                    "Time relative to the box (box = 1), geometric means over the scenes",
                     {{"bound", "bound"},
                      {"test", "one test"},
                      {"update", "update"},
                      {"walk", "walk"},
                      {"step", "step, vertices"},
-                     {"faster_scenes", "scenes where that is faster"},
+                     {"faster_scenes", "scenes with a faster step, vertices"},
                      {"face_step", "step, faces"},
-                     {"faster_face_scenes", "scenes where that is faster"}},
+                     {"faster_face_scenes", "scenes with a faster step, faces"}},
                     {}};
   table.timed = true;
   for (const BesideBox& each : all)
@@ -271,7 +271,7 @@ void add_distances(const bench::BenchScene& models, const ExperimentOptions& opt
   ResultTable table{
       "distance",
       figure.title,
-      {{"edges", "distance, in mean edge lengths"}, {"near_leaf_pairs", "leaf pairs that are near, a frame"}},
+      {{"edges", "distance, in mean edge lengths"}, {"near_leaf_pairs", "near leaf pairs, a frame"}},
       {}};
   bench::BenchScene scene = models;
   const double edge_length = models.distance;
@@ -313,31 +313,45 @@ void check(const SceneResult& result, Study& study) {
 std::string text_of(const std::vector<BesideBox>& all, const ComparisonScenes& scenes,
                     std::size_t scene_count, bool with_times) {
   std::string text =
-      "The paper's conclusion names a comparison with other methods as future work: \"the intersection test, "
-      "tight fitting, computation time, and the use of memory\". Here every kind of bound stands over the "
-      "same "
-      "regions (graze's octree) and the same walk (breadth first, as DMV, expanding where the lower bound is "
-      "below the distance), in double and rounded to the safe side; each finds all vertex pairs within the "
-      "distance, as a grid without any hierarchy finds them. All regions are updated in each frame, inner "
-      "ones from their children where that gives the same (box, k-DOP), otherwise from all their vertices. "
-      "The spheres are that of eq. 2 and one about the centre of the region's box; the oriented box stands "
-      "along the principal axes; the swept spheres are those of a segment (line) and of a rectangle along "
-      "them; k-DOPs have 14 (axes and the cube's diagonals), 18 (axes and the faces' diagonals) and 26 "
-      "sides. "
-      "The bounds of oriented and swept boxes are the gap along a direction that three rounds of alternating "
-      "projections find.\n\n" +
+      "**What was measured.** The paper's conclusion names a comparison with other methods as future "
+      "work: \"the intersection test, tight fitting, computation time, and the use of memory\". Nine "
+      "kinds of bound are compared here over the same regions, those of graze's octree.\n\n"
+      "| bound | what it is |\n| :-- | :-- |\n"
+      "| middle-vertex sphere | the paper's sphere (eq. 2) |\n"
+      "| centred sphere | a sphere about the centre of the region's box |\n"
+      "| box | along the coordinate axes; the one that the library has |\n"
+      "| oriented box | along the principal axes |\n"
+      "| line swept sphere | a sphere swept along a segment, which lies along a principal axis |\n"
+      "| rectangle swept sphere | a sphere swept along a rectangle, which lies along two principal axes "
+      "|\n"
+      "| 14-DOP | 14 sides, across the axes and the cube's diagonals |\n"
+      "| 18-DOP | 18 sides, across the axes and the faces' diagonals |\n"
+      "| 26-DOP | 26 sides, across all of these directions |\n\n"
+      "| condition | value |\n| :-- | :-- |\n"
+      "| walk | breadth first, as DMV; a pair of regions is expanded where its lower bound is below the "
+      "distance |\n"
+      "| arithmetic | double, rounded to the safe side |\n"
+      "| check | each bound must find all vertex pairs within the distance. A grid without a hierarchy "
+      "says which |\n"
+      "| update | all regions in each frame. A box or k-DOP of an inner region is made from its children, "
+      "which gives the same; all other bounds from all vertices of the region |\n"
+      "| lower bound of oriented boxes and swept spheres | the gap along a direction that three rounds of "
+      "alternating projections find |\n"
+      "| step, vertices | update, walk, and every vertex pair of the leaves reached |\n"
+      "| step, faces | for contacts between features. Bounds cover faces, and a step is update, walk and "
+      "clipping: each leaf reached keeps the corners within the distance of the other's box, as graze "
+      "does first. A pair reached in vain is left early |\n\n" +
       scenes.left_out;
   const auto fewest = std::min_element(all.begin(), all.end(), [](const BesideBox& a, const BesideBox& b) {
     return a.leaf_pairs < b.leaf_pairs;
   });
   text += format(
-      "The tightest is the %s, with %.2f of the box's leaf pairs; the sphere of eq. 2 reaches %.1f times as "
-      "many as the box.\n\n",
+      "**Result.** The tightest bound is the %s, with %.2f of the box's leaf pairs. The sphere of eq. 2 "
+      "reaches %.1f times as many leaf pairs as the box.\n\n",
       fewest->bound.c_str(), fewest->leaf_pairs, all[middle_sphere].leaf_pairs);
   text += format(
-      "Of the pairs of corners that clipping by the leaves' boxes leaves to look at after the box, it leaves "
-      "%.2f: "
-      "what clipping leaves out anyway does not count.\n\n",
+      "For features this bound leaves %.2f of the pairs of corners that the box leaves. Pairs that "
+      "clipping by the leaves' boxes removes anyway do not count here.\n\n",
       fewest->corner_pairs);
   if (!with_times) return text;
   const auto fastest = std::min_element(
@@ -351,14 +365,9 @@ std::string text_of(const std::vector<BesideBox>& all, const ComparisonScenes& s
                : format("the %s takes %.2f of the box's time on average and is faster in %zu of %zu scenes",
                         winner.bound.c_str(), ratio, scenes_won, scene_count);
   };
-  text +=
-      "Of a step for near vertices (update, walk, and every vertex pair of the leaves reached), " +
-      verdict(*fastest, fastest->step, fastest->faster_scenes) +
-      ". For contacts between features the bounds cover faces, and a step is update, walk, and clipping: "
-      "each "
-      "leaf reached keeps the corners within the distance of the other's box, as graze does first, so that a "
-      "pair reached in vain is left early. There, " +
-      verdict(*fastest_faces, fastest_faces->face_step, fastest_faces->faster_face_scenes) + ".\n\n";
+  text += "For a step between vertices, " + verdict(*fastest, fastest->step, fastest->faster_scenes) +
+          ". For a step between faces, " +
+          verdict(*fastest_faces, fastest_faces->face_step, fastest_faces->faster_face_scenes) + ".\n\n";
   return text;
 }
 

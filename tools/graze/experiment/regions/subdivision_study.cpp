@@ -96,7 +96,7 @@ ResultTable scene_table(const std::vector<SceneResult>& results) {
                      {"vertices", "vertices"},
                      {"frames", "frames"},
                      {"distance", "distance"},
-                     {"near_vertex_pairs", "vertex pairs within it, a frame"}},
+                     {"near_vertex_pairs", "near vertex pairs, a frame"}},
                     {}};
   for (const SceneResult& result : results)
     table.rows.push_back({result.name, result.what, result.vertices, std::uint64_t{result.frames},
@@ -129,13 +129,13 @@ ResultTable work_table(const std::vector<SceneResult>& results) {
                     "Work a frame, with boxes and with the spheres of eq. 2",
                     {{"scene", "scene"},
                      {"partition", "partition"},
-                     {"near_leaf_pairs", "leaf pairs that are near"},
+                     {"near_leaf_pairs", "near leaf pairs"},
                      {"box_tests", "region pairs tested, boxes"},
                      {"box_leaf_pairs", "leaf pairs reached, boxes"},
-                     {"box_vertex_pairs", "vertex pairs in them"},
+                     {"box_vertex_pairs", "vertex pairs in the leaves reached, boxes"},
                      {"sphere_tests", "region pairs tested, spheres"},
                      {"sphere_leaf_pairs", "leaf pairs reached, spheres"},
-                     {"sphere_vertex_pairs", "vertex pairs in them"}},
+                     {"sphere_vertex_pairs", "vertex pairs in the leaves reached, spheres"}},
                     {}};
   for (const SceneResult& result : results)
     for (const DivisionResult& each : result.divisions)
@@ -228,11 +228,11 @@ BesideOctree beside_octree(const std::vector<SceneResult>& results, std::size_t 
 
 ResultTable beside_table(const std::vector<BesideOctree>& all) {
   ResultTable table{"beside_octree",
-                    "Work beside the octree's (1: as much), geometric means over the scenes",
+                    "Work relative to the octree (octree = 1), geometric means over the scenes",
                     {{"partition", "partition"},
                      {"tests", "region pairs tested, boxes"},
                      {"vertex_pairs", "vertex pairs in the leaves reached, boxes"},
-                     {"sphere_vertex_pairs", "the same, spheres"},
+                     {"sphere_vertex_pairs", "vertex pairs in the leaves reached, spheres"},
                      {"bytes", "memory, tree and boxes"}},
                     {}};
   for (const BesideOctree& each : all)
@@ -242,12 +242,12 @@ ResultTable beside_table(const std::vector<BesideOctree>& all) {
 
 ResultTable beside_time_table(const std::vector<BesideOctree>& all) {
   ResultTable table{"times_beside_octree",
-                    "Time beside the octree's (1: as much), geometric means over the scenes",
+                    "Time relative to the octree (octree = 1), geometric means over the scenes",
                     {{"partition", "partition"},
                      {"build", "build"},
                      {"update", "update, boxes"},
                      {"step", "step, boxes"},
-                     {"faster_scenes", "scenes where that is faster"},
+                     {"faster_scenes", "scenes with a faster step, boxes"},
                      {"sphere_step", "step, spheres"}},
                     {}};
   table.timed = true;
@@ -292,20 +292,26 @@ void check(const SceneResult& result, Study& study) {
 std::string text_of(const std::vector<BesideOctree>& all, const std::vector<SceneResult>& results,
                     const ComparisonScenes& scenes, bool with_times) {
   std::string text =
-      "The octree of regions (leaves of at most 30 vertices) beside other partitions of the same vertices: "
-      "**median**, halves of equal count across the longest side, a control that also goes by space alone; "
-      "**surface halves**, halves of equal count by the distance along the surface between two far ends; "
-      "**edge collapse**, bottom up: of two adjacent regions those become one first that stay the most "
-      "compact. "
-      "The number is how many vertices a leaf may have: those of the octree may have 30 but are seldom full, "
-      "so that 15 compares partitions and 30 what the same rule gives. All are measured over one kind of "
-      "tree (up to eight children a region) by the same walk and must find all near vertex pairs.\n\n" +
+      "**What was measured.** The octree of regions is compared with other partitions of the same "
+      "vertices.\n\n"
+      "| partition | how it divides |\n| :-- | :-- |\n"
+      "| octree | eight equal boxes of a region's box, as in the library; at most 30 vertices a leaf |\n"
+      "| median | halves of equal count across the longest side; a control that also goes by space alone "
+      "|\n"
+      "| surface halves | halves of equal count by the distance along the surface between two far ends |\n"
+      "| edge collapse | bottom up: of two adjacent regions those become one first that stay the most "
+      "compact |\n\n"
+      "The number after a name is how many vertices a leaf may have. The octree's leaves may have 30 but "
+      "are seldom full. So 15 compares the partitions, and 30 shows what the same rule gives. All are "
+      "measured over one kind of tree, with up to eight children a region, and by the same walk. All must "
+      "find every near vertex pair.\n\n" +
       scenes.left_out;
   const auto fewest = std::min_element(
       all.begin(), all.end(),
       [](const BesideOctree& a, const BesideOctree& b) { return a.vertex_pairs < b.vertex_pairs; });
   text += format(
-      "The fewest vertex pairs are left by %s: %.2f of the octree's with boxes, %.2f with spheres.\n\n",
+      "**Result.** *%s* leaves the fewest vertex pairs: %.2f of the octree's with boxes, and %.2f with "
+      "spheres.\n\n",
       fewest->name.c_str(), fewest->vertex_pairs, fewest->sphere_vertex_pairs);
   for (const SceneResult& result : results) {
     if (!is_of_folds(result)) continue;
@@ -313,8 +319,8 @@ std::string text_of(const std::vector<BesideOctree>& all, const std::vector<Scen
                                        [](const DivisionResult& a, const DivisionResult& b) {
                                          return a.boxes.leaf_vertex_pairs < b.boxes.leaf_vertex_pairs;
                                        });
-    text += format("In the scene \"%s\" the fewest are those of %s, with %.2f of the octree's. ",
-                   result.name.c_str(), best->name.c_str(),
+    text += format("In the scene \"%s\" *%s* leaves the fewest, %.2f of the octree's. ", result.name.c_str(),
+                   best->name.c_str(),
                    static_cast<double>(best->boxes.leaf_vertex_pairs) /
                        static_cast<double>(result.divisions[octree].boxes.leaf_vertex_pairs));
   }
@@ -323,11 +329,11 @@ std::string text_of(const std::vector<BesideOctree>& all, const std::vector<Scen
   const auto fastest = std::min_element(
       all.begin(), all.end(), [](const BesideOctree& a, const BesideOctree& b) { return a.step < b.step; });
   if (fastest->name == all[octree].name) {
-    text += "By time a step, with boxes, the octree is the fastest on average.";
+    text += "With boxes, the octree has the fastest step on average.";
   } else {
     text += format(
-        "By time a step, with boxes, %s is the fastest on average, with %.2f of the octree's time, and "
-        "faster in %zu of %zu scenes; it takes %.1f times as long to build.",
+        "With boxes, *%s* has the fastest step on average, with %.2f of the octree's time. It is faster "
+        "in %zu of %zu scenes, and takes %.1f times as long to build.",
         fastest->name.c_str(), fastest->step, fastest->faster_scenes, results.size(), fastest->build);
     std::vector<SceneResult> others = results;
     std::erase_if(others, is_of_folds);

@@ -13,24 +13,32 @@ namespace graze::tools {
 namespace {
 
 const char* introduction =
-    R"(Which accuracy mode gives what for its time? Two questions are asked of every scene, both about vertices, so that
-all modes can answer them: *contacts*, every vertex pair closer than the contact distance; and *distances*, the same and
-how far each pair of objects is apart, however far. Each mode is turned along its dial: the tolerance of `within(t)`,
-in mean edge lengths and as loose as the regions of a level are (eq. 6); the paper's test with the numbers that eq. 3 and
-6 give in each step, and with fixed parts of the most they give at rest; and budgets of time and of work (region pairs),
-as parts of what exact mode takes. In *the last number too large* DV's threshold is 1.5 times the contact distance, as
-if ε were chosen badly the other way. Of the answers between the levels of regions the tolerance is the dial: a step
-stops at a level where its bounds are tight enough.
+    R"(**What was measured.** Which accuracy mode gives what for its time? Every scene is asked two questions. Both are about
+vertices, so that all modes can answer them.
 
-The truth is exact mode, which is checked by brute force over all pairs of vertices in some of the frames. The *distance
-error* is how much further apart the two named vertices are than the closest ones. A budget goes to the pairs of
-objects in order of urgency; one whose turn does not come, or that is cut short, has no contacts, and for a distance the
-upper bound known by then. A setting is on the *Pareto front* where no other is both as fast and as right, and better in
-one.
+| question | answer |
+| :-- | :-- |
+| contacts | every vertex pair closer than the contact distance |
+| distances | the same, and how far each pair of objects is apart, however far |
 
-The paper's scenes are the last 25 frames of its experiments with one contact distance for all pairs, the last number of
-row 3; the real ones are meshes whose parts wobble by half an edge length, and their contact distance is the mean edge
-length.
+Each mode is turned along its dial:
+
+| setting | dial |
+| :-- | :-- |
+| `within(t)` | the tolerance, in mean edge lengths and as loose as the regions of a level are (eq. 6). A step stops at a level where its bounds are tight enough |
+| paper, eq. 3 and 6 | the numbers that these equations give in each step |
+| numbers × f | fixed parts of the most that eq. 3 and 6 give at rest |
+| the last × 1.5 | DV's threshold is 1.5 times the contact distance, as if ε were chosen badly the other way. Figures call it *last number too large* |
+| work budget, time budget | parts of what exact mode takes. Work is counted in region pairs |
+
+| term or condition | meaning |
+| :-- | :-- |
+| truth | exact mode. Brute force over all pairs of vertices checks it in some of the frames |
+| distance error | how much further apart the two named vertices are than the closest ones |
+| budget | goes to the pairs of objects in order of urgency. A pair whose turn does not come, or that is cut short, has no contacts. Its distance is the upper bound known by then |
+| Pareto front | settings that no other beats: no other is both as fast and as right, and better in one |
+| the paper's scenes | the last 25 frames of its experiments. All pairs have one contact distance, the last number of row 3 |
+| real scenes | meshes whose parts wobble by half an edge length. Their contact distance is the mean edge length |
 )";
 
 /// The least and largest of a value over scenes.
@@ -88,22 +96,20 @@ std::string percent_text(const Range& range) {
 std::string answers_text(std::span<const SpeedResults> scenes) {
   const Range formula = range_of(scenes, SpeedQuestion::contacts, ModeFamily::paper_formula, recall);
   const Range numbers = range_of(scenes, SpeedQuestion::contacts, ModeFamily::paper_numbers, recall);
-  return "\nThe paper's test by eq. 3 and 6 finds " + percent_text(formula) +
-         " of the contacts, from scene to scene; with fixed numbers " + percent_text(numbers) +
-         ", from setting to setting. `within(t)` finds all of them and no others at every tolerance.\n";
+  return "\n**Result.**\n\n| setting | contacts found |\n| :-- | :-- |\n| paper, eq. 3 and 6, from scene to "
+         "scene | " +
+         percent_text(formula) + " |\n| numbers × f, from setting to setting | " + percent_text(numbers) +
+         " |\n| `within(t)`, at every tolerance | all, and no others |\n";
 }
 
 std::string times_text(std::span<const SpeedResults> scenes) {
   const Range formula = range_of(scenes, SpeedQuestion::contacts, ModeFamily::paper_formula, relative_ms);
   const Range loose = range_of(scenes, SpeedQuestion::distances, ModeFamily::within, relative_ms);
   return format(
-      "\nFor contacts the paper's test by eq. 3 and 6 takes %.2f to %.2f times as long as exact mode; in %zu "
-      "of %zu "
-      "scenes some setting of the paper's test gives the same contacts in less time. For distances "
-      "`within(t)` takes "
-      "%.2f to %.2f times as long as exact mode, depending on the tolerance; in %zu of %zu scenes some "
-      "setting of the "
-      "paper's test gives the same distances in less time.\n",
+      "\n| question | setting | time / exact mode's | scenes where some setting of the paper's test gives "
+      "the same answers in less time |\n| :-- | :-- | :-- | :-- |\n"
+      "| contacts | paper, eq. 3 and 6 | %.2f to %.2f | %zu of %zu |\n"
+      "| distances | `within(t)`, by tolerance | %.2f to %.2f | %zu of %zu |\n",
       formula.least, formula.largest, scenes_paper_wins(scenes, SpeedQuestion::contacts), scenes.size(),
       loose.least, loose.largest, scenes_paper_wins(scenes, SpeedQuestion::distances), scenes.size());
 }

@@ -26,8 +26,8 @@ ResultTable scene_table(std::span<const SpeedResults> scenes) {
                      {"edge_length", "mean edge length"},
                      {"contacts_per_step", "contacts a step"},
                      {"pairs_checked", "pairs of objects checked by brute force"},
-                     {"contacts_checked", "contacts there"},
-                     {"wrong", "of the pairs, wrong"}},
+                     {"contacts_checked", "contacts of these pairs"},
+                     {"wrong", "of these pairs, wrong"}},
                     {}};
   for (const SpeedResults& scene : scenes)
     table.rows.push_back({scene.title, std::uint64_t{scene.objects}, std::uint64_t{scene.vertices},
@@ -105,7 +105,10 @@ ResultTable time_table(std::span<const SpeedResults> scenes, SpeedQuestion quest
   ResultTable table{
       std::string(word_of(question)) + (only_front ? "_front" : "_times"),
       question == SpeedQuestion::contacts ? "Contacts: the Pareto fronts" : "Distances: the Pareto fronts",
-      {{"scene", "scene"}, {"setting", "setting"}, {"ms", "ms a step"}, {"relative_ms", "of exact mode"}},
+      {{"scene", "scene"},
+       {"setting", "setting"},
+       {"ms", "ms a step"},
+       {"relative_ms", "time / exact mode's"}},
       {},
       true,
       only_front};
@@ -127,9 +130,9 @@ ResultTable time_table(std::span<const SpeedResults> scenes, SpeedQuestion quest
 ResultTable mean_table(std::span<const SpeedResults> scenes, SpeedQuestion question) {
   const bool is_contacts = question == SpeedQuestion::contacts;
   ResultTable table{std::string(word_of(question)) + "_means",
-                    is_contacts ? "Contacts: means over all scenes, of times geometric"
-                                : "Distances: means over all scenes, of times geometric",
-                    {{"setting", "setting"}, {"relative_ms", "time, of exact mode"}},
+                    is_contacts ? "Contacts: means over all scenes (times: geometric means)"
+                                : "Distances: means over all scenes (times: geometric means)",
+                    {{"setting", "setting"}, {"relative_ms", "time / exact mode's"}},
                     {},
                     true};
   if (is_contacts) {
