@@ -118,11 +118,11 @@ def main():
         write_obj(work / "ball.obj", ball(0.15, 40, 80))
         write_scene(work / "example.json", ["cloth", "ball"], 0.002)
         print("\nball on cloth: contacts of features and vertices by contact distance in mm")
-        for millimetres in (4, 8, 16, 26):
+        for millimetres in (4, 8, 16, 26.5):
             counts = [len(pair_of(program, work / "example.json", "--detail", detail,
                                   "--contact-distance", str(millimetres / 1000))["contacts"])
                       for detail in ("features", "vertices")]
-            print("%d:" % millimetres, ", ".join(str(count) for count in counts))
+            print("%g:" % millimetres, ", ".join(str(count) for count in counts))
 
 
 if __name__ == "__main__":
