@@ -3,6 +3,7 @@
 import re
 import subprocess
 
+CPP = ("cpp", "c++")
 PROGRAM = re.compile(r"\bint\s+main\s*\(")
 # A block with a function or a class at the left margin stands outside of functions.
 OUTSIDE = re.compile(
@@ -15,7 +16,7 @@ def is_program(block):
 
 
 def cpp_blocks(page):
-    return [block for block in page.blocks if block[1] in ("cpp", "c++")]
+    return [block for block in page.blocks if block[1] in CPP]
 
 
 def parts_in_one_file(pages, names_header):
@@ -46,11 +47,15 @@ def parts_in_one_file(pages, names_header):
 
 
 def programs(page):
-    """(name, text) of each block that is a program."""
+    """(name, text, output or None) of each block that is a program. A block of text after it is what it prints."""
     stem = re.sub(r"\W", "_", page.path.stem).lower()
-    found = [block for block in cpp_blocks(page) if is_program(block)]
-    return [(f"{stem}_{number}", f'#line {line} "{page.name}"\n{text}\n')
-            for number, (line, _, text) in enumerate(found, 1)]
+    found = []
+    for block, after in zip(page.blocks, [*page.blocks[1:], (0, "", "")]):
+        line, language, text = block
+        if language in CPP and is_program(block):
+            output = after[2] + "\n" if after[1] == "text" else None
+            found.append((f"{stem}_{len(found) + 1}", f'#line {line} "{page.name}"\n{text}\n', output))
+    return found
 
 
 def compile_text(compiler, folders, text):

@@ -4,15 +4,18 @@
     pages_test.py --source ROOT [--compiler CXX] [--include FOLDER]... [PAGE...]
     pages_test.py --source ROOT --self-test [--compiler CXX] [--include FOLDER]...
     pages_test.py --source ROOT --programs FOLDER
+    pages_test.py --run PROGRAM OUTPUT
 
 Without pages: README.md and all pages under docs. Without --compiler code is not compiled. The self test reads
 wrong_page.md, in which each mistake is marked, and fails unless exactly these are found. With --programs each block
-of C++ that has a `main` is written into the folder as a file; their names are printed. Exits 1 for a mistake.
+of C++ that has a `main` is written into the folder as a file, and what the page says that it prints as another; their
+names are printed. With --run a program is run and must print what such a file says. Exits 1 for a mistake.
 """
 
 import argparse
 import pathlib
 import re
+import subprocess
 import sys
 import urllib.parse
 
@@ -156,7 +159,7 @@ class Checker:
     def compile(self, pages, compiler, folders):
         header = (HERE / "page_names.hpp").as_posix()
         texts = [code_blocks.parts_in_one_file(pages, header)]
-        texts += [text for page in pages for _, text in code_blocks.programs(page)]
+        texts += [text for page in pages for _, text, _ in code_blocks.programs(page)]
         by_name = {page.name: page for page in pages}
         for text in texts:
             for file, line, message in code_blocks.compile_text(compiler, folders, text):
@@ -190,25 +193,43 @@ def self_test(checker, compiler, folders):
     return 0 if found == marked else 1
 
 
+def write_if_other(path, text):
+    """Leaves a file alone that has this text, so that it is not compiled again."""
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
+def run_program(program, output):
+    """Whether a program succeeds and prints what its page says, where the page says anything."""
+    done = subprocess.run([program], stdout=subprocess.PIPE, text=True, errors="replace")
+    expected = output.read_text(encoding="utf-8")
+    if expected and done.stdout != expected:
+        print(f"the page says:\n{expected}the program prints:\n{done.stdout}")
+        return 1
+    return 1 if done.returncode else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--source", type=pathlib.Path, required=True)
+    parser.add_argument("--source", type=pathlib.Path, default=HERE.parent.parent)
     parser.add_argument("--compiler", nargs="?")
     parser.add_argument("--include", action="append", default=[])
     parser.add_argument("--programs", type=pathlib.Path)
+    parser.add_argument("--run", nargs=2, type=pathlib.Path, metavar=("PROGRAM", "OUTPUT"))
     parser.add_argument("--self-test", action="store_true")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
+    if options.run:
+        return run_program(*options.run)
     root = options.source.resolve()
     paths = options.pages or pages_of(root)
 
     if options.programs:
         options.programs.mkdir(parents=True, exist_ok=True)
         for path in paths:
-            for name, text in code_blocks.programs(Page(path, path.resolve().relative_to(root).as_posix())):
-                file = options.programs / f"{name}.cpp"
-                if not file.exists() or file.read_text(encoding="utf-8") != text:
-                    file.write_text(text, encoding="utf-8")
+            for name, text, output in code_blocks.programs(Page(path, path.resolve().relative_to(root).as_posix())):
+                write_if_other(options.programs / f"{name}.cpp", text)
+                write_if_other(options.programs / f"{name}.txt", output or "")
                 print(name)
         return 0
 
