@@ -19,6 +19,11 @@ def cpp_blocks(page):
     return [block for block in page.blocks if block[1] in CPP]
 
 
+def words(page):
+    """The names that a page's own code has: the compiler knows them."""
+    return set(re.findall(r"\w+", "\n".join(text for _, _, text in cpp_blocks(page))))
+
+
 def parts_in_one_file(pages, names_header):
     """One file with the blocks of all pages that are no programs, each page in a namespace of its own."""
     includes, bodies = [f'#include "{names_header}"'], []

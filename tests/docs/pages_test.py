@@ -153,7 +153,7 @@ class Checker:
         is_function = one.group(3) is not None
         if is_type or is_function or ("_" in word and re.search(r"[a-z]", word)):
             mistake = self.names.mistake_of_word(word, is_user_page, is_type or is_function)
-            if mistake:
+            if mistake and word not in code_blocks.words(page):
                 self.add(page, line, "name", mistake)
 
     def compile(self, pages, compiler, folders):
