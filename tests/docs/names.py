@@ -36,7 +36,7 @@ ALLOWED = {
 class Names:
     """Words and classes of a checkout, read once."""
 
-    def __init__(self, root, ignored):
+    def __init__(self, root):
         self.public_words, self.outer_words, self.words = set(), set(), set()
         self.public_members = {}  # class or enum -> words of its body
         self.members = {}
@@ -45,7 +45,7 @@ class Names:
         self.targets = set()
         for folder in SOURCE_FOLDERS:
             for path in sorted((root / folder).rglob("*")):
-                if not path.is_file() or ignored in path.parents:
+                if not path.is_file():
                     continue
                 self.file_names.add(path.name)
                 self.paths.add(path.relative_to(root).as_posix())

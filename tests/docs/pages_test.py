@@ -40,7 +40,7 @@ NAME = r"[A-Za-z_]\w*"
 class Checker:
     def __init__(self, root):
         self.root = root
-        self.names = known.Names(root, ignored=HERE)
+        self.names = known.Names(root)
         self.pages = {}
         self.mistakes = []  # (page, line, kind, message)
 
