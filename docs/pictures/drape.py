@@ -20,6 +20,8 @@ BALL_CENTRE = (0.0, 0.0, 0.6)
 GAP = 0.012
 CONTACT_DISTANCE = 0.0114
 STEPS = 220
+# Rows down, columns to the right, and strength: along the edges, across the quads, and against bending.
+LINKS = [(0, 1, 1), (1, 0, 1), (1, 1, 0.35), (1, -1, 0.35), (0, 2, 0.12), (2, 0, 0.12)]
 ITERATIONS = 14
 
 
@@ -41,7 +43,7 @@ def drape():
     links = []
     for row in range(CELLS + 1):
         for column in range(CELLS + 1):
-            for down, right, strength in [(0, 1, 1), (1, 0, 1), (1, 1, 0.35), (1, -1, 0.35), (0, 2, 0.12), (2, 0, 0.12)]:
+            for down, right, strength in LINKS:
                 if row + down <= CELLS and 0 <= column + right <= CELLS:
                     links.append((vertex(row, column), vertex(row + down, column + right),
                                   spacing * math.hypot(down, right), strength))

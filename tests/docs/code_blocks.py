@@ -7,7 +7,8 @@ CPP = ("cpp", "c++")
 PROGRAM = re.compile(r"\bint\s+main\s*\(")
 # A block with a function or a class at the left margin stands outside of functions.
 OUTSIDE = re.compile(
-    r"^(?:template\b|(?:class|struct|enum)\s+\w+|(?!else\b|return\b|new\b)[A-Za-z_][\w:<>,&* ]*?[\s&*]\w+\([^;]*\)\s*(?:const\s*)?\{)",
+    r"^(?:template\b|(?:class|struct|enum)\s+\w+"
+    r"|(?!else\b|return\b|new\b)[A-Za-z_][\w:<>,&* ]*?[\s&*]\w+\([^;]*\)\s*(?:const\s*)?\{)",
     re.M)
 
 

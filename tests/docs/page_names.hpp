@@ -1,7 +1,7 @@
 #pragma once
 
-/// What blocks of code in pages use without declaring it: the names that stand for the reader's own program. Only
-/// declared: blocks are compiled and not linked.
+/// What blocks of code in pages use without declaring it: the names that stand for the reader's own program.
+/// Only declared: blocks are compiled and not linked.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -52,6 +52,6 @@ extern const float* engine_matrix;
 extern bool running;
 
 void simulate(std::vector<Particle>& particles);
-void push_apart(graze::ObjectId a, graze::ObjectId b, const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b,
-                const Eigen::Vector3d& normal, double depth);
+void push_apart(graze::ObjectId a, graze::ObjectId b, const Eigen::Vector3d& point_a,
+                const Eigen::Vector3d& point_b, const Eigen::Vector3d& normal, double depth);
 void respond(const graze::PairReport& pair, const graze::Contact& contact);
