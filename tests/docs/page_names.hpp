@@ -1,7 +1,7 @@
 #pragma once
 
-/// What blocks of code in pages use without declaring it: the names that stand for the reader's own program.
-/// Only declared: blocks are compiled and not linked.
+/// Names that blocks of code in pages use without declaring them. They stand for the reader's own program.
+/// They are only declared, since blocks are compiled and not linked.
 
 #include <Eigen/Geometry>
 #include <array>
