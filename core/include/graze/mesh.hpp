@@ -216,8 +216,8 @@ class GRAZE_API Mesh {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// Holds lists of numbers one after the other. List i is `values[begin[i]]` up to, without, `values[begin[i
-  /// + 1]]`.
+  /// Holds lists of numbers one after the other. List i begins at index `begin[i]` of `values`, and the next
+  /// list follows it.
   struct Rows {
     std::vector<std::uint32_t> values;
     std::vector<std::uint32_t> begin;

@@ -11,7 +11,8 @@ namespace graze {
 /// @{
 
 /// Names one object of a scene. A scene never gives the same id twice, so an id stays valid as a key after
-/// its object is removed. A default-constructed id names no object.
+/// its object is removed. A default-constructed id names no object. `std::hash` is defined for ids, so they
+/// can be keys of `std::unordered_map`.
 struct ObjectId {
   /// The slot of the object in its scene. A later object may use the slot of a removed one.
   std::uint32_t index = 0;
@@ -26,6 +27,7 @@ struct ObjectId {
 
 }  // namespace graze
 
+/// @cond
 /// Makes ids usable as keys of `std::unordered_map` and `std::unordered_set`.
 template <>
 struct std::hash<graze::ObjectId> {
@@ -38,3 +40,4 @@ struct std::hash<graze::ObjectId> {
     return static_cast<std::size_t>(bits ^ bits >> 31);
   }
 };
+/// @endcond
