@@ -179,6 +179,10 @@ def main():
         excluded = excluded_names(options.doxyfile)
         headers = [path for path in public_headers(options.source) if path.name not in excluded]
         complaints = check(options.doxygen, options.doxyfile, options.source, headers)
+        first_page = pathlib.Path(__file__).with_name("reference.dox")
+        for page in re.findall(r"@graze_page\{([^,}]*),", first_page.read_text(encoding="utf-8")):
+            if not (options.source / page).exists():
+                complaints.append(f"{first_page}: there is no {page}")
         print(f"{len(headers)} headers")
     for complaint in complaints:
         print(complaint)

@@ -76,13 +76,13 @@ enum class ContactDetail : std::uint8_t {
 struct Contact {
   /// In whose relative interiors the two points lie.
   ContactKind kind = ContactKind::VV;
-  /// The side of the surface of a on which #point_b lies.
+  /// The side of the surface of object a on which #point_b lies.
   Side side_a = Side::none;
-  /// The side of the surface of b on which #point_a lies.
+  /// The side of the surface of object b on which #point_a lies.
   Side side_b = Side::none;
-  /// The feature of a.
+  /// The feature of object a.
   Feature feature_a;
-  /// The feature of b.
+  /// The feature of object b.
   Feature feature_b;
   /// The closest point on #feature_a.
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
@@ -114,9 +114,9 @@ struct DistanceBounds {
 /// Two features and a point on each, which show the upper bound of a distance. The points are
 /// DistanceBounds::upper apart.
 struct Witness {
-  /// The feature of a.
+  /// The feature of object a.
   Feature feature_a;
-  /// The feature of b.
+  /// The feature of object b.
   Feature feature_b;
   /// The point on #feature_a, in the caller's units.
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
@@ -129,13 +129,13 @@ struct Witness {
 struct RegionDistance {
   /// The deeper one of the levels of the two regions. Level 1 is the first level of the paper.
   std::uint32_t level = 0;
-  /// The index of the region of a. Region 0 is the whole mesh.
+  /// The index of the region of object a. Region 0 is the whole mesh.
   std::uint32_t region_a = 0;
-  /// The index of the region of b. Region 0 is the whole mesh.
+  /// The index of the region of object b. Region 0 is the whole mesh.
   std::uint32_t region_b = 0;
-  /// The middle vertex of the region of a: the vertex closest to the average of the region's vertices.
+  /// The middle vertex of the region of object a: the vertex closest to the average of the region's vertices.
   std::uint32_t vertex_a = 0;
-  /// The middle vertex of the region of b: the vertex closest to the average of the region's vertices.
+  /// The middle vertex of the region of object b: the vertex closest to the average of the region's vertices.
   std::uint32_t vertex_b = 0;
   /// The position of #vertex_a now, in the caller's units.
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();

@@ -76,6 +76,9 @@ class GRAZE_API Mesh {
   /// Stands in face_edges() where two consecutive corners are the same vertex.
   static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 
+  /// @name Making a mesh
+  /// @{
+
   /// Makes a mesh from rest positions and the three corners of each triangle. Positions are in the caller's
   /// units.
   static Mesh from_triangles(PositionView rest, std::span<const std::array<std::uint32_t, 3>> triangles);
@@ -126,6 +129,11 @@ class GRAZE_API Mesh {
     return from_polygons(rest, as_unsigned(corners), std::span<const std::uint32_t>(counts));
   }
 
+  /// @}
+
+  /// @name Vertices, faces and edges
+  /// @{
+
   /// Returns the number of vertices, including those that no face uses.
   [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_.size()); }
   /// Returns the number of faces.
@@ -148,8 +156,12 @@ class GRAZE_API Mesh {
   /// Returns the two vertices of an edge, the lower one first. There is no bounds check.
   [[nodiscard]] std::array<std::uint32_t, 2> edge(std::uint32_t index) const { return edges_[index]; }
 
-  // Each of the lists that follow is made as a whole when a thread first asks for it. Few uses of a mesh need
-  // all of them.
+  /// @}
+
+  /// @name Neighbours
+  /// Each of these lists is made as a whole when a thread first asks for it. Few uses of a mesh need all of
+  /// them.
+  /// @{
 
   /// Returns the vertices that share an edge with `vertex`, in ascending order. The first call makes the
   /// lists of all vertices. Any thread may make it.
@@ -166,6 +178,8 @@ class GRAZE_API Mesh {
   [[nodiscard]] std::span<const std::uint32_t> edge_faces(std::uint32_t edge) const {
     return faces_of_edges().row(edge);
   }
+  /// @}
+
   /// @cond internal
   /// Returns the vertices around `vertex` as a fan of triangles. Each neighbouring two of them and `vertex`
   /// are a triangle, in the sense of its face. `vertex` itself stands between two that are no triangle, which
@@ -198,6 +212,9 @@ class GRAZE_API Mesh {
   [[nodiscard]] bool has_stretches() const;
   /// @endcond
 
+  /// @name Used vertices, and memory
+  /// @{
+
   /// Returns whether any face uses `vertex`. There is no bounds check.
   [[nodiscard]] bool is_used(std::uint32_t vertex) const { return used_.empty() || used_[vertex] != 0; }
   /// Returns whether some face uses each of the vertices.
@@ -214,6 +231,8 @@ class GRAZE_API Mesh {
 
   /// Returns how many bytes the mesh holds now, with its octree of regions and with the lists made so far.
   [[nodiscard]] std::size_t byte_count() const;
+
+  /// @}
 
  private:
   /// Holds lists of numbers one after the other. List i begins at index `begin[i]` of `values`, and the next

@@ -56,6 +56,9 @@ class GRAZE_API Scene {
   /// Stands for no promise: vertices may have moved any distance.
   static constexpr double any_displacement = std::numeric_limits<double>::infinity();
 
+  /// @name Making a scene
+  /// @{
+
   /// Makes a scene without objects.
   ///
   /// Throws Error if a distance is negative or NaN, if `contact_distance` is infinite, if a value is no
@@ -76,6 +79,11 @@ class GRAZE_API Scene {
   /// Returns the settings that the scene was made with.
   [[nodiscard]] const SceneSettings& settings() const;
 
+  /// @}
+
+  /// @name Objects
+  /// @{
+
   /// Adds an object, which stands at the rest shape of its mesh until a call moves it. Any number of objects
   /// and scenes may share one mesh.
   ///
@@ -93,6 +101,11 @@ class GRAZE_API Scene {
   [[nodiscard]] std::shared_ptr<const Mesh> mesh(ObjectId object) const;
   /// Returns the settings that an object was added with, or default settings if the id names no object.
   [[nodiscard]] ObjectSettings object_settings(ObjectId object) const;
+
+  /// @}
+
+  /// @name Moving rigid and fixed objects
+  /// @{
 
   /// Places a rigid or fixed object. A rest vertex (x, y, z) goes to `((r0*x + r1*y) + r2*z) + t`, computed
   /// in double without fused operations. Here r0, r1 and r2 are the columns of the rotation R, and t is the
@@ -139,6 +152,11 @@ class GRAZE_API Scene {
     static_assert(sizeof(Eigen::Isometry3d) == 16 * sizeof(double));
     set_pose_matrices(objects, {poses.empty() ? nullptr : poses[0].data(), 16 * poses.size()});
   }
+
+  /// @}
+
+  /// @name Moving deformable objects
+  /// @{
 
   /// Copies the positions of a deformable object, one for each vertex of its mesh. The later one of this call
   /// and bind_positions() counts.
@@ -190,6 +208,11 @@ class GRAZE_API Scene {
   /// Both spans have the same size.
   void positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements);
 
+  /// @}
+
+  /// @name Pairs
+  /// @{
+
   /// Takes one pair out, until watch() puts it back. A pair that was in contact is listed once more as
   /// `ended`. The order of the two objects does not matter.
   void ignore(ObjectId a, ObjectId b);
@@ -200,6 +223,11 @@ class GRAZE_API Scene {
   /// replace the scene's own. Kinds are 0 to 255, see ObjectSettings::kind.
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
 
+  /// @}
+
+  /// @name Memory
+  /// @{
+
   /// Makes room ahead of time, so that calls and steps within it take no memory from the allocator. Even the
   /// first contacts then take none. The call makes room for calls at once, and the next step for everything
   /// else. Throws `std::bad_alloc`.
@@ -207,6 +235,11 @@ class GRAZE_API Scene {
   /// Three things still take memory: pairs of two surfaces of 4,096 vertices or more, more than 4,096 pairs
   /// of objects that one task of the broad phase finds, and diagnostics.
   void reserve(const SceneCapacity& capacity);
+
+  /// @}
+
+  /// @name Stepping and reports
+  /// @{
 
   /// Runs one step: takes up the calls made since the last one, reads positions, and publishes a report.
   /// `tag` is any number of the caller's, which the report carries.
@@ -227,6 +260,8 @@ class GRAZE_API Scene {
   /// Returns the last published report. Before the first step it is an empty report of frame 0. The call is
   /// wait-free.
   [[nodiscard]] ReportHandle latest_report() const;
+
+  /// @}
 
  private:
   /// Returns the upper three rows of a transform. It is inline because what Eigen aligns depends on the
