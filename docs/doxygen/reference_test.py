@@ -184,7 +184,7 @@ def main():
             if not (options.source / page).exists():
                 complaints.append(f"{first_page}: there is no {page}")
         print(f"{len(headers)} headers")
-    for complaint in complaints:
+    for complaint in dict.fromkeys(complaints):
         print(complaint)
     return 1 if complaints else 0
 
