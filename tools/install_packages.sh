@@ -1,13 +1,14 @@
 #!/bin/sh
-# Installs the Debian packages that graze is built, run and tested with; with the argument `peers` also those that
-# `graze bench` measures it against and what its kernels are timed and its instructions counted with. Run as root, or where sudo asks for no word.
+# Installs the Debian packages that graze is built, run and tested with. With the argument `peers` it also installs the
+# libraries that `graze bench` compares graze with, what kernels are timed and instructions are counted with, and Doxygen.
+# Run as root, or where sudo asks for no word.
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
   libtinyobjloader-dev nlohmann-json3-dev libcli11-dev libpng-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
   libmd4c-html0-dev libmd4c-dev"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
-  libbenchmark-dev valgrind"
+  libbenchmark-dev valgrind doxygen doxygen-awesome-css"
 
 missing=""
 for package in $packages; do

@@ -6,75 +6,145 @@
 
 namespace graze {
 
-/// A feature's dimension: vertices 0, edges 1, faces 2.
-enum class FeatureKind : std::uint8_t { vertex, edge, face };
+/// @addtogroup report
+/// @{
 
-/// One vertex, edge or face of a mesh, by the mesh's own number.
+/// The kinds of features of a mesh. The value of each is the dimension of the feature.
+enum class FeatureKind : std::uint8_t {
+  vertex,  ///< A vertex, of dimension 0.
+  edge,    ///< An edge, of dimension 1.
+  face,    ///< A triangle or a quad, of dimension 2.
+};
+
+/// Names one vertex, edge or face of a mesh.
 struct Feature {
+  /// Whether it is a vertex, an edge or a face.
   FeatureKind kind = FeatureKind::vertex;
+  /// The index of the feature in its mesh: a vertex or face index of the caller's, or an index for
+  /// Mesh::edge().
   std::uint32_t index = 0;
 
+  /// Compares by kind, then by index.
   friend auto operator<=>(const Feature&, const Feature&) = default;
 };
 
-/// The six kinds of contact: in whose relative interiors the closest points lie, the lower dimension first.
-/// `VF` is a vertex of either object and a face of the other.
-enum class ContactKind : std::uint8_t { VV, VE, VF, EE, EF, FF };
-
-/// On which side of a surface a point lies, by the angle-weighted normal at the feature. `none`: double
-/// arithmetic cannot be sure of the sign, or there is no normal.
-enum class Side : std::uint8_t { none, front, back };
-
-/// How much a step says about each pair in contact.
-enum class ContactDetail : std::uint8_t {
-  none,      ///< distances and phases only
-  closest,   ///< the one closest contact, of any of the six kinds
-  regions,   ///< for each pair of leaf regions its closest vertex pair (the paper's answer)
-  vertices,  ///< every pair of vertices below the threshold
-  features,  ///< every vertex-face and edge-edge pair below the threshold, and every edge that pierces a face
+/// The six kinds of contact. The kind says in whose relative interiors the two closest points lie. The
+/// feature of lower dimension comes first, and may belong to either object. A fold is the inner diagonal of a
+/// quad that is not flat.
+///
+/// A point that several features share is named by the lowest dimension, then by the lowest index. So a
+/// vertex over the edge between two faces is one VE contact, and not two VF contacts.
+enum class ContactKind : std::uint8_t {
+  VV,  ///< Two vertices.
+  VE,  ///< A vertex and an edge.
+  VF,  ///< A vertex and a face.
+  EE,  ///< Two edges.
+  EF,  ///< An edge that pierces a face, is parallel to one, or is closest to a quad at its fold.
+  FF,  ///< Two faces that are parallel, or that are closest at the fold of a quad.
 };
 
-/// One contact between objects a and b. Points and distance are in the caller's units.
+/// Says on which side of a surface a point lies, by the angle-weighted normal at the feature.
+enum class Side : std::uint8_t {
+  none,   ///< Double arithmetic cannot be sure of the sign, or there is no normal.
+  front,  ///< The point lies on the side to which the normal points.
+  back,   ///< The point lies on the other side.
+};
+
+/// Selects what a step says about each pair in contact. More details may be added, so do not rely on there
+/// being only these.
+enum class ContactDetail : std::uint8_t {
+  /// Distances and phases only. Distances are between surfaces.
+  none,
+  /// One contact for each pair in contact: the closest one, of any of the six kinds. Exact ties go to the
+  /// smallest
+  /// kind, feature a, feature b. Distances are between surfaces.
+  closest,
+  /// The paper's answer: for each pair of leaf regions below the threshold, its closest pair of vertices.
+  /// Ties go to
+  /// the lowest vertex of a, then of b. Distances are between vertices.
+  regions,
+  /// Every pair of vertices below the threshold. Distances are between vertices.
+  vertices,
+  /// Every vertex-face and edge-edge pair below the threshold, named by its closest features, and every edge
+  /// that
+  /// pierces a face. Each pair of features is listed once. Distances are between surfaces.
+  features,
+};
+
+/// One contact between two objects a and b. Points and distances are in the caller's units. Contacts of a
+/// pair are sorted by kind, feature a, feature b, and these three are the key of a contact from step to step.
 struct Contact {
+  /// In whose relative interiors the two points lie.
   ContactKind kind = ContactKind::VV;
-  Side side_a = Side::none;  ///< the side of a's surface on which point_b lies
-  Side side_b = Side::none;  ///< the side of b's surface on which point_a lies
+  /// The side of the surface of object a on which #point_b lies.
+  Side side_a = Side::none;
+  /// The side of the surface of object b on which #point_a lies.
+  Side side_b = Side::none;
+  /// The feature of object a.
   Feature feature_a;
+  /// The feature of object b.
   Feature feature_b;
+  /// The closest point on #feature_a.
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
+  /// The closest point on #feature_b.
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit length, from a to b
+  /// The direction from a to b, of length 1. At distance 0 it depends on the positions only.
+  ///
+  /// At distance 0 it is the first of these that exists: the face normal of a by its winding, or minus the
+  /// face normal of b. For EE it is the cross product of the edges, with the sign that agrees with the
+  /// averaged vertex normal of a. Otherwise it is the averaged normal of a, or minus that of b, or +z.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// The distance of the two points, as in real arithmetic and then rounded. It may equal the threshold by
+  /// rounding. Its absolute error is at most 2^-48 times the size of the two features plus their gap.
   double distance = 0;
-  /// In reports of a scene: frame() of the first report of those, without a break up to this one, that list
-  /// the two features in contact.
+  /// FrameReport::frame() of the first report that lists the two features in contact, without a break up to
+  /// this one. It is 0 outside the reports of a scene.
   std::uint64_t since = 0;
 };
 
-/// lower ≤ true distance ≤ upper.
+/// Bounds of a distance: #lower ≤ true distance ≤ #upper. With Accuracy::exact() they are the true distance,
+/// rounded down and up.
 struct DistanceBounds {
+  /// The distance is not less than this.
   double lower = 0;
+  /// The distance is not more than this.
   double upper = 0;
 };
 
-/// Two features and a point on each that are `DistanceBounds::upper` apart.
+/// Two features and a point on each, which show the upper bound of a distance. The points are
+/// DistanceBounds::upper apart.
 struct Witness {
+  /// The feature of object a.
   Feature feature_a;
+  /// The feature of object b.
   Feature feature_b;
+  /// The point on #feature_a, in the caller's units.
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
+  /// The point on #feature_b, in the caller's units.
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
 };
 
-/// A pair of regions that are near each other: one line of the paper's figure 7, between their middle
-/// vertices.
+/// A pair of regions that are near each other. It is one line of the paper's figure 7, between the middle
+/// vertices of the two regions. SceneSettings::region_distances asks for these.
 struct RegionDistance {
-  std::uint32_t level = 0;  ///< the deeper of the regions' levels; 1 is the paper's first
+  /// The deeper one of the levels of the two regions. Level 1 is the first level of the paper.
+  std::uint32_t level = 0;
+  /// The index of the region of object a. Region 0 is the whole mesh.
   std::uint32_t region_a = 0;
+  /// The index of the region of object b. Region 0 is the whole mesh.
   std::uint32_t region_b = 0;
-  std::uint32_t vertex_a = 0;  ///< the middle vertices
+  /// The middle vertex of the region of object a: the vertex closest to the average of the region's vertices.
+  std::uint32_t vertex_a = 0;
+  /// The middle vertex of the region of object b: the vertex closest to the average of the region's vertices.
   std::uint32_t vertex_b = 0;
+  /// The position of #vertex_a now, in the caller's units.
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
+  /// The position of #vertex_b now, in the caller's units.
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
-  double distance = 0;  ///< of the points, rounded: eq. 4's δ
+  /// The distance of the two points, rounded: δ in equation 4 of the paper.
+  double distance = 0;
 };
+
+/// @}
 
 }  // namespace graze

@@ -5,11 +5,18 @@
 
 namespace graze {
 
-/// Thrown by constructors, `Scene::add` and a second concurrent `Scene::step`: one sentence that names what
-/// was wrong and where. Calls on a running scene never throw it; they leave a Diagnostic instead.
+/// @addtogroup errors
+/// @{
+
+/// Thrown for input that cannot be used. Its message is one sentence that names what was wrong and where.
+///
+/// Constructors, the functions that make a Mesh, Scene::add() and a second concurrent Scene::step() throw it.
+/// Calls on a running scene never throw it: they leave a Diagnostic in the next report instead.
 class GRAZE_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// @}
 
 }  // namespace graze

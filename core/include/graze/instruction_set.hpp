@@ -7,22 +7,33 @@
 
 namespace graze {
 
-/// What the float kernels are compiled for. They give the same bits with every one of them, so a report does
-/// not depend on the choice. `scalar` is plain code, `baseline` what every processor of the target has (SSE2
-/// on x86-64), `avx512` is F, VL, BW and DQ.
-enum class InstructionSet : std::uint8_t { scalar, baseline, avx2, avx512 };
+/// @addtogroup instruction_sets
+/// @{
 
-/// The enumerator's own name.
+/// The instruction sets that the float kernels are compiled for. All of them give the same bits, so a report
+/// does not depend on the choice.
+enum class InstructionSet : std::uint8_t {
+  scalar,    ///< Plain code without vector instructions.
+  baseline,  ///< The vector instructions that every processor of the target has: SSE2 on x86-64.
+  avx2,      ///< AVX2.
+  avx512,    ///< AVX-512 with its parts F, VL, BW and DQ.
+};
+
+/// Returns the enumerator's own name, such as "avx2".
 GRAZE_API std::string_view to_string(InstructionSet set);
 
-/// Those that the processor, its operating system and this build of the library have, ascending.
+/// Returns the instruction sets that the processor, its operating system and this build of the library have.
+/// They are in the order of the enumeration. Any thread may call it.
 GRAZE_API std::span<const InstructionSet> available_instruction_sets();
 
-/// The one in use in the whole process: the best available, unless told otherwise. Any thread.
+/// Returns the instruction set in use in the whole process. It is the best one available, unless
+/// use_instruction_set() has chosen another. Any thread may call it.
 GRAZE_API InstructionSet instruction_set();
 
-/// For tests and measurements: what is used in the whole process from now on. Throws Error for one that is
-/// not available. Not while a scene steps or a PairDetector detects.
+/// Chooses the instruction set for the whole process, for tests and measurements. Throws Error if `set` is
+/// not available. No scene may step during the call.
 GRAZE_API void use_instruction_set(InstructionSet set);
+
+/// @}
 
 }  // namespace graze

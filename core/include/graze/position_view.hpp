@@ -15,49 +15,60 @@
 
 namespace graze {
 
-/// A point type whose memory is three floats or three doubles and nothing else: Eigen::Vector3f and Vector3d,
-/// std::array, and a caller's own struct of three such numbers.
+/// @addtogroup positions
+/// @{
+
+/// A point type whose memory is three floats or three doubles and nothing else. `Eigen::Vector3f`,
+/// `Eigen::Vector3d`, `std::array` and a caller's own struct of three such numbers are point types.
 template <typename Point>
 concept PackedPoint = TupleOf<Point, float, 3> || TupleOf<Point, double, 3>;
 
-/// A member of a caller's struct at which a position begins: its x, an array of three, or a PackedPoint.
+/// The type of a member of a caller's struct at which a position begins. The member is the x coordinate, an
+/// array of three numbers, or a PackedPoint.
 template <typename Member>
 concept PositionMember = PackedPoint<Member> || std::same_as<Member, float> || std::same_as<Member, double> ||
     std::same_as<Member, float[3]> || std::same_as<Member, double[3]>;
 
-/// A matrix of Eigen's whose entries lie in memory as floats or doubles.
+/// A matrix of Eigen whose entries lie in memory as floats or doubles.
 template <typename Matrix>
 concept MatrixInMemory =
     std::derived_from<Matrix, Eigen::DenseBase<Matrix>> &&
         (int(Matrix::Flags) & Eigen::DirectAccessBit) != 0 &&
     PositionMember<typename Matrix::Scalar>&& std::floating_point<typename Matrix::Scalar>;
 
-/// One that has three columns or may have them, or exactly three rows by its type.
+/// A matrix of Eigen that may hold points. By its type it has three rows, three columns, or any number of
+/// columns.
 template <typename Matrix>
 concept PositionMatrix = MatrixInMemory<Matrix> &&
     (int(Matrix::ColsAtCompileTime) == 3 || int(Matrix::RowsAtCompileTime) == 3 ||
      int(Matrix::ColsAtCompileTime) == Eigen::Dynamic);
 
-/// Positions in somebody else's memory: `size()` points of three floats or doubles. Owns nothing; the memory
-/// must outlive the view's use.
+/// Describes positions in the caller's memory: size() points of three floats or three doubles. A view copies
+/// nothing and owns nothing, so the memory must stay valid as long as the view is used.
 ///
-/// The x of each point is `stride_bytes()` after the x of the one before. Its y is
-/// `coordinate_stride_bytes()` after its x, and its z as far after its y.
+/// The x of each point is stride_bytes() after the x of the point before. Its y is coordinate_stride_bytes()
+/// after its x, and its z is as far after its y. Points whose three numbers follow each other without gaps
+/// are read fastest.
 class PositionView {
  public:
+  /// Makes a view of no points.
   PositionView() = default;
 
-  /// `first` points at the x of point 0. By default y and z follow x at once, and the next point follows
-  /// them.
+  /// Makes a view of `count` points of floats. `first` points at the x of the first point. By default y and z
+  /// follow x without a gap, and so does the next point. A null pointer or a wrong stride is a Diagnostic
+  /// when a scene gets the view.
   PositionView(const float* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(float),
                std::size_t coordinate_stride_bytes = sizeof(float))
       : PositionView(first, count, stride_bytes, coordinate_stride_bytes, sizeof(float)) {}
+  /// Makes a view of `count` points of doubles. `first` points at the x of the first point. By default y and
+  /// z follow x without a gap, and so does the next point.
   PositionView(const double* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(double),
                std::size_t coordinate_stride_bytes = sizeof(double))
       : PositionView(first, count, stride_bytes, coordinate_stride_bytes, sizeof(double)) {}
 
-  /// A vector, array or span of points: Eigen::Vector3f, Eigen::Vector3d, std::array<float, 3>,
-  /// std::array<double, 3>, or a caller's own struct of three floats or three doubles.
+  /// Makes a view of a vector, array or span of points. A point is an `Eigen::Vector3f`, an
+  /// `Eigen::Vector3d`, a `std::array<float, 3>`, a `std::array<double, 3>`, or a caller's own struct of
+  /// three floats or three doubles.
   template <std::ranges::contiguous_range Points>
   requires std::ranges::sized_range<Points> && PackedPoint<std::ranges::range_value_t<Points>> PositionView(
       const Points& points)  // NOLINT(google-explicit-constructor): a range of points is its view
@@ -65,13 +76,14 @@ class PositionView {
             std::ranges::data(points), std::ranges::size(points), sizeof(std::ranges::range_value_t<Points>),
             sizeof(std::ranges::range_value_t<Points>) / 3, sizeof(std::ranges::range_value_t<Points>) / 3) {}
 
-  /// A vector, array or span of a caller's own structs, with the member at which each one's position begins:
-  /// its x, which y and z follow at once, or all three together.
+  /// Makes a view of a vector, array or span of the caller's own structs. The position of each begins at the
+  /// member `position`. That member holds all three coordinates, or it is x, and y and z follow without a
+  /// gap.
   ///
   ///     struct Vertex { float u, v, x, y, z; };
   ///     PositionView(vertices, &Vertex::x)
   ///
-  /// Throws Error where y and z would lie outside the struct.
+  /// Throws Error if y and z would lie outside the struct.
   template <std::ranges::contiguous_range Structs, typename Owner, PositionMember Member>
   requires std::ranges::sized_range<Structs> && std::derived_from<std::ranges::range_value_t<Structs>, Owner>
   PositionView(const Structs& structs, Member Owner::*position)
@@ -79,11 +91,12 @@ class PositionView {
                      sizeof(std::ranges::range_value_t<Structs>), sizeof(NumberOf<Member>),
                      sizeof(NumberOf<Member>)) {}
 
-  /// A matrix of Eigen's with a point in each row, such as libigl's `Eigen::MatrixXd V` of n rows and 3
-  /// columns, by columns or by rows; also a Map, Ref or Block of one. A type with exactly three rows and
-  /// another number of columns, such as Eigen::Matrix3Xd, has a point in each column.
+  /// Makes a view of a matrix of Eigen with a point in each row, such as libigl's `Eigen::MatrixXd V`. It may
+  /// be stored by columns or by rows, and may be a `Map`, `Ref` or `Block`. A type with exactly three rows
+  /// and another number of columns, such as `Eigen::Matrix3Xd`, has a point in each column.
   ///
-  /// Throws Error where a matrix of any number of columns has not 3 of them.
+  /// The matrix must not be resized as long as the view is used. Throws Error if a matrix of any number of
+  /// columns has not three of them.
   template <PositionMatrix Matrix>
   PositionView(const Matrix& matrix)  // NOLINT(google-explicit-constructor): a matrix of points is its view
       : PositionView(
@@ -93,17 +106,22 @@ class PositionView {
             bytes<Matrix>(has_points_in_rows<Matrix> ? matrix.colStride() : matrix.rowStride()),
             sizeof(typename Matrix::Scalar)) {}
 
+  /// Returns the address of the x of the first point.
   [[nodiscard]] const void* data() const { return first_; }
+  /// Returns the number of points.
   [[nodiscard]] std::size_t size() const { return count_; }
+  /// Returns the bytes from the x of a point to the x of the next one.
   [[nodiscard]] std::size_t stride_bytes() const { return stride_bytes_; }
+  /// Returns the bytes from the x of a point to its y, and from its y to its z.
   [[nodiscard]] std::size_t coordinate_stride_bytes() const { return coordinate_stride_bytes_; }
+  /// Returns true for doubles, and false for floats.
   [[nodiscard]] bool is_double() const { return form_ == Form::doubles || form_ == Form::doubles_apart; }
-  /// Whether y follows x at once, and z follows y.
+  /// Returns whether y follows x without a gap, and z follows y.
   [[nodiscard]] bool has_joined_coordinates() const {
     return form_ == Form::doubles || form_ == Form::floats;
   }
 
-  /// Point `index` in double (a float converts exactly). No bounds check.
+  /// Returns point `index` in double. A float converts exactly. There is no bounds check.
   [[nodiscard]] Eigen::Vector3d operator[](std::size_t index) const {
     const auto* const point = static_cast<const std::byte*>(first_) + index * stride_bytes_;
     if (form_ == Form::doubles) {
@@ -120,7 +138,7 @@ class PositionView {
   }
 
  private:
-  /// Which numbers, and whether a point's coordinates lie apart.
+  /// Says which numbers the memory holds, and whether the coordinates of a point lie apart.
   enum class Form : std::uint8_t { doubles, floats, doubles_apart, floats_apart };
 
   template <typename Member>
@@ -182,5 +200,7 @@ class PositionView {
   std::size_t coordinate_stride_bytes_ = sizeof(double);
   Form form_ = Form::doubles;
 };
+
+/// @}
 
 }  // namespace graze

@@ -5,7 +5,7 @@
 
 namespace graze {
 
-Mesh::Mesh(std::shared_ptr<const IndexedMesh> data) : data_(std::move(data)) {}
+Mesh::Mesh(std::shared_ptr<const IndexedMesh> indexed) : indexed_(std::move(indexed)) {}
 
 Mesh Mesh::from_triangles(PositionView rest, std::span<const std::array<std::uint32_t, 3>> triangles) {
   return from_corners(rest, 3, triangles);
@@ -28,43 +28,43 @@ Mesh Mesh::from_polygons(PositionView rest, std::span<const std::uint32_t> corne
 }
 
 std::uint32_t Mesh::vertex_count() const {
-  return data_->vertex_count();
+  return indexed_->vertex_count();
 }
 std::uint32_t Mesh::face_count() const {
-  return data_->face_count();
+  return indexed_->face_count();
 }
 std::uint32_t Mesh::edge_count() const {
-  return data_->edge_count();
+  return indexed_->edge_count();
 }
 std::span<const Eigen::Vector3d> Mesh::rest() const {
-  return data_->rest();
+  return indexed_->rest();
 }
 std::span<const std::uint32_t> Mesh::face(std::uint32_t index) const {
-  return data_->face(index);
+  return indexed_->face(index);
 }
 std::span<const std::uint32_t> Mesh::face_edges(std::uint32_t index) const {
-  return data_->face_edges(index);
+  return indexed_->face_edges(index);
 }
 std::array<std::uint32_t, 2> Mesh::edge(std::uint32_t index) const {
-  return data_->edge(index);
+  return indexed_->edge(index);
 }
 std::span<const std::uint32_t> Mesh::vertex_neighbours(std::uint32_t vertex) const {
-  return data_->vertex_neighbours(vertex);
+  return indexed_->vertex_neighbours(vertex);
 }
 std::span<const std::uint32_t> Mesh::vertex_faces(std::uint32_t vertex) const {
-  return data_->vertex_faces(vertex);
+  return indexed_->vertex_faces(vertex);
 }
 std::span<const std::uint32_t> Mesh::edge_faces(std::uint32_t edge) const {
-  return data_->edge_faces(edge);
+  return indexed_->edge_faces(edge);
 }
 bool Mesh::is_used(std::uint32_t vertex) const {
-  return data_->is_used(vertex);
+  return indexed_->is_used(vertex);
 }
 bool Mesh::uses_all_vertices() const {
-  return data_->uses_all_vertices();
+  return indexed_->uses_all_vertices();
 }
 std::size_t Mesh::byte_count() const {
-  return sizeof(Mesh) + data_->byte_count();
+  return sizeof(Mesh) + indexed_->byte_count();
 }
 
 }  // namespace graze

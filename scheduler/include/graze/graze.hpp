@@ -1,6 +1,8 @@
 #pragma once
 
-/// Everything that a program needs to embed graze: meshes, a scene, its reports.
+/// @file
+/// Includes everything that a program needs to embed graze: meshes, a scene and its reports. Files are read
+/// and written by graze::io, which has headers of its own in `graze/io/`.
 
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>

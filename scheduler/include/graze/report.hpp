@@ -14,153 +14,246 @@
 
 namespace graze {
 
-/// Whether a pair is in contact, and was in the report before: `near` is not in contact, `began` is and was
-/// not, `touching` is and was, `ended` is not and was. Every contact that began ends in one row: also where
-/// an object is removed, or the pair is taken out by a filter.
-enum class PairPhase : std::uint8_t { near, began, touching, ended };
+/// @addtogroup report
+/// @{
 
-/// One listed pair of objects; a was added before b.
+/// Says whether a pair is in contact now, and whether it was in the report before. Every contact that began
+/// ends in one row. That also holds when an object is removed, or when a filter takes the pair out.
+enum class PairPhase : std::uint8_t {
+  near,      ///< The pair is not in contact, and was not in the report before.
+  began,     ///< The pair is in contact, and was not in the report before.
+  touching,  ///< The pair is in contact, and was in the report before.
+  ended,     ///< The pair is not in contact, and was in the report before.
+};
+
+/// One row of a report: a pair of objects that is near, in contact, or has just ended. Object a was added to
+/// the scene before object b.
 struct PairReport {
-  /// The objects. An id stays good as a key in the row in which the pair ended because its object was
-  /// removed.
+  /// The object of the pair that was added first. If a pair ends because its object was removed, the id stays
+  /// valid as a key in that row.
   ObjectId a;
+  /// The object of the pair that was added last. The id stays valid as a key in the row that reports a
+  /// removal.
   ObjectId b;
-  std::uint64_t user_data_a = 0;  ///< ObjectSettings::user_data of a, also after a's removal
-  std::uint64_t user_data_b = 0;  ///< and of b
+  /// ObjectSettings::user_data of object a, even after that object was removed.
+  std::uint64_t user_data_a = 0;
+  /// ObjectSettings::user_data of object b, even after that object was removed.
+  std::uint64_t user_data_b = 0;
+  /// Whether the pair is in contact, and whether it was in the report before.
   PairPhase phase = PairPhase::near;
-  /// False: a budget ran out; bounds hold, the phase is the last one, no contacts. Or `contacts_cut`.
+  /// False if a budget ran out before the pair was done, or if #contacts_cut is true. When a budget ran out,
+  /// the bounds still hold, the phase is the last known one, and there are no contacts.
   bool complete = true;
-  /// The positions or the pose of one of the objects were not taken: these are the last values.
+  /// True if the positions or the pose of one of the objects were not taken. The row then repeats the last
+  /// values of the pair.
   bool stale = false;
-  /// There are more contacts than SceneSettings::max_contacts or max_contacts_per_pair let be listed: the
-  /// nearest are. All else is said of all.
+  /// True if SceneSettings::max_contacts or SceneSettings::max_contacts_per_pair left contacts out. The
+  /// nearest ones are listed. Phase, distance and witness are those of all contacts.
   bool contacts_cut = false;
-  /// A pair that ended because an object was removed has the bounds and the witness of the report before.
+  /// The bounds of the distance of the pair, in the caller's units. If the pair ended because an object was
+  /// removed, they are those of the report before.
   DistanceBounds distance;
+  /// The two points that are DistanceBounds::upper apart. If the pair ended because an object was removed,
+  /// they are those of the report before.
   Witness witness;
-  std::size_t first_contact = 0;  ///< into FrameReport::contacts()
+  /// The index of the pair's first contact in FrameReport::contacts().
+  std::size_t first_contact = 0;
+  /// The number of contacts of the pair.
   std::size_t contact_count = 0;
-  std::size_t first_region_distance = 0;  ///< into FrameReport::region_distances()
+  /// The index of the pair's first region distance in FrameReport::region_distances().
+  std::size_t first_region_distance = 0;
+  /// The number of region distances of the pair.
   std::size_t region_distance_count = 0;
 };
 
+/// The kinds of bad input that a step reports. docs/embedding.md says what graze does in each case.
 enum class DiagnosticKind : std::uint8_t {
-  stale_id,           ///< the id names no object (any more)
-  wrong_count,        ///< another number of positions than the mesh has vertices
-  null_memory,        ///< no memory given
-  misaligned_memory,  ///< memory or stride not aligned to its number type
-  wrong_motion,       ///< positions for a rigid or fixed object, or a pose for a deformable one
-  bad_pose,           ///< further than 1e-3 from a rotation, or not finite
-  not_finite,         ///< NaN or infinity in a used vertex
-  too_large,          ///< a coordinate of a used vertex beyond 2^120
-  broken_promise,     ///< a vertex moved further than max_displacement
-  bad_pair,           ///< a pair of an object with itself
-  bad_rule,           ///< a kind above 255, or a threshold that is negative or NaN
-  out_of_memory,      ///< there was no memory for a call
+  stale_id,           ///< The id names no object of the scene, or no longer does.
+  wrong_count,        ///< The number of positions differs from the number of vertices of the mesh.
+  null_memory,        ///< The memory that was given is null.
+  misaligned_memory,  ///< The memory or a stride is not aligned to its number type.
+  wrong_motion,       ///< Positions were given for a rigid or fixed object, or a pose for a deformable one.
+  /// The pose is further than 1e-3 from a rotation, mirrors, or is not finite. Or the last row of a 4 x 4
+  /// matrix is further than 1e-6 from (0, 0, 0, 1).
+  bad_pose,
+  not_finite,      ///< A vertex that a face uses has a coordinate that is NaN or infinite.
+  too_large,       ///< A vertex that a face uses has a coordinate beyond 2^120.
+  broken_promise,  ///< A vertex moved further than `max_displacement` promised.
+  bad_pair,        ///< The pair is of an object with itself.
+  bad_rule,        ///< A kind is above 255, or a threshold is negative or NaN.
+  out_of_memory,   ///< There was no memory for a call.
 };
 
-/// The enumerator's own name.
+/// Returns the enumerator's own name, such as "stale_id".
 GRAZE_API std::string_view to_string(DiagnosticKind kind);
+/// Returns the enumerator's own name, such as "touching".
 GRAZE_API std::string_view to_string(PairPhase phase);
+/// Returns the enumerator's own name, such as "VF".
 GRAZE_API std::string_view to_string(ContactKind kind);
+/// Returns the enumerator's own name, such as "vertex".
 GRAZE_API std::string_view to_string(FeatureKind kind);
+/// Returns the enumerator's own name, such as "front".
 GRAZE_API std::string_view to_string(Side side);
 
-/// Bad input to one object: what it was, and that the scene goes on.
+/// Says what was wrong with the input about one object. The scene goes on.
 struct Diagnostic {
+  /// The object, by the id that the call named. It is a default id if the diagnostic names no object.
   ObjectId object;
+  /// The kind of bad input.
   DiagnosticKind kind = DiagnosticKind::stale_id;
+  /// One sentence for people that says what was wrong and where.
   std::string message;
 };
 
 /// The most levels that the octree of a mesh can have, with level 0, the whole mesh.
 inline constexpr std::size_t max_region_levels = 41;
 
-/// Counters and times of one step.
+/// Counts the work of one step, the memory that the scene holds, and the time that the step took. Every step
+/// fills it. Times are in milliseconds.
 struct StepStatistics {
+  /// Objects in the scene.
   std::uint64_t objects = 0;
-  std::uint64_t objects_unread = 0;    ///< not read, since promises say that they are far from everything
-  std::uint64_t objects_surveyed = 0;  ///< looked at for their box first, in place of being copied
-  std::uint64_t pairs_total = 0;       ///< n(n-1)/2
-  /// Objects that moved, but inside their loose boxes (docs/embedding.md): no pair of them can have come.
+  /// Objects whose positions were not read, because promises of `max_displacement` show that they are far
+  /// from everything.
+  std::uint64_t objects_unread = 0;
+  /// Objects that were surveyed: the step computed their bounding box without a copy of their positions.
+  /// Those that came near another object, so that they were read as well, are included.
+  std::uint64_t objects_surveyed = 0;
+  /// All pairs of objects: n(n-1)/2 for n objects.
+  std::uint64_t pairs_total = 0;
+  /// Objects that moved but stayed inside their loose boxes, so that the broad phase looked for no new pairs
+  /// of them. A loose box is the object's box with room to move.
   std::uint64_t objects_in_slack = 0;
-  std::uint64_t boxes_tested = 0;     ///< boxes against a box, to find pairs of loose boxes that meet
-  std::uint64_t pairs_close = 0;      ///< pairs whose loose boxes meet; those that follow are among them
-  std::uint64_t pairs_filtered = 0;   ///< taken out by the filters: the sum of the next four
-  std::uint64_t pairs_fixed = 0;      ///< both objects are fixed
-  std::uint64_t pairs_by_layer = 0;   ///< otherwise: one's layer is not in the other's mask
-  std::uint64_t pairs_in_group = 0;   ///< otherwise: both are in one group
-  std::uint64_t pairs_ignored = 0;    ///< otherwise: ignored one by one
-  std::uint64_t pairs_apart = 0;      ///< not filtered out, but the objects' boxes are not within reach
-  std::uint64_t pairs_unchanged = 0;  ///< neither object has moved since the last answer, which is repeated
-  std::uint64_t pairs_tested = 0;     ///< given to DMV, but for
-  std::uint64_t pairs_by_list = 0;  ///< those of which the features near in an earlier step were asked alone
-  std::uint64_t pairs_near = 0;     ///< listed in the report
+  /// Boxes that the broad phase compared with another box.
+  std::uint64_t boxes_tested = 0;
+  /// Pairs whose loose boxes meet. The counters from #pairs_filtered to #pairs_tested divide these pairs.
+  /// None of them has the pairs of an object that is frozen because its input was bad.
+  std::uint64_t pairs_close = 0;
+  /// Pairs that a filter took out: the sum of the next four counters.
+  std::uint64_t pairs_filtered = 0;
+  /// Pairs of two fixed objects.
+  std::uint64_t pairs_fixed = 0;
+  /// Pairs that are not counted in #pairs_fixed, and where the layer of one object is not in the mask of the
+  /// other.
+  std::uint64_t pairs_by_layer = 0;
+  /// Pairs that no counter above has, and whose objects are in one group.
+  std::uint64_t pairs_in_group = 0;
+  /// Pairs that no counter above has, and that Scene::ignore() took out.
+  std::uint64_t pairs_ignored = 0;
+  /// Pairs that passed the filters, but whose bounding boxes are further apart than the pair's reach.
+  std::uint64_t pairs_apart = 0;
+  /// Pairs that repeat their last answer, because neither object has moved since.
+  std::uint64_t pairs_unchanged = 0;
+  /// Pairs that the step searched.
+  std::uint64_t pairs_tested = 0;
+  /// Pairs among #pairs_tested for which the step asked only the features that an earlier step found near.
+  std::uint64_t pairs_by_list = 0;
+  /// Rows in the report.
+  std::uint64_t pairs_near = 0;
+  /// Rows of pairs that are in contact.
   std::uint64_t pairs_in_contact = 0;
+  /// Contacts in the report.
   std::uint64_t contacts = 0;
-  std::uint64_t pairs_cut = 0;  ///< of which contacts had no place within SceneSettings' limits,
-  /// and at least how many. What a pair's own limit leaves out is not looked for, and counts as one.
+  /// Rows with PairReport::contacts_cut.
+  std::uint64_t pairs_cut = 0;
+  /// The report left out at least this many contacts, because of the limits in SceneSettings. A pair that
+  /// only its own limit cuts counts as one, because graze does not look for its further contacts.
   std::uint64_t contacts_left_out = 0;
+  /// Region distances in the report.
   std::uint64_t region_distances = 0;
-  /// At least so many more had no place within SceneSettings::region_distances.
+  /// The report left out at least this many region distances, because of SceneSettings::region_distances.
   std::uint64_t region_distances_left_out = 0;
+  /// Pairs of regions whose bounds were tested. In detail ContactDetail::vertices these are blocks of
+  /// vertices.
   std::uint64_t region_pairs_tested = 0;
+  /// Pairs of leaf regions whose features or vertices were tested.
   std::uint64_t leaf_pairs_tested = 0;
-  std::uint64_t discarded_in_float = 0;  ///< pairs of features or vertices that were certainly too far
-  std::uint64_t named_in_float = 0;      ///< contacts that float was certain of, as often as they were found
-  std::uint64_t decided_in_double = 0;   ///< questions that double answered
-  std::uint64_t exact_decisions = 0;     ///< questions that double could not decide
-  /// Pairs that will be searched from their roots in the next step: all pairs' fronts together are kept up to
-  /// 2^22 pairs of leaves, and each pair's up to an equal share of it. It costs time and changes no answer.
+  /// Pairs of features or vertices that float arithmetic showed to be too far apart.
+  std::uint64_t discarded_in_float = 0;
+  /// Contacts whose features float arithmetic determined with certainty. A contact that is found more than
+  /// once counts each time.
+  std::uint64_t named_in_float = 0;
+  /// Questions that double arithmetic answered with certainty.
+  std::uint64_t decided_in_double = 0;
+  /// Questions that double arithmetic left open, and that exact arithmetic answered.
+  std::uint64_t exact_decisions = 0;
+  /// Pairs that the next step searches from their root regions, because their front was too large to keep.
+  /// All fronts together keep up to 2^22 pairs of leaves, and each pair of objects up to an equal share. It
+  /// costs time and changes no answer.
   std::uint64_t fronts_left_out = 0;
-  /// Region pairs expanded, by level.
+  /// Pairs of regions that were expanded, by level. The root is level 0, and there are at most 40 levels
+  /// below.
   std::array<std::uint64_t, max_region_levels> regions_expanded{};
-  // Memory that the scene holds from step to step, in bytes; meshes and what oneTBB holds are not counted.
-  std::uint64_t object_bytes = 0;  ///< of objects: positions, copies of them, boxes, radii; waiting calls
-  std::uint64_t pair_bytes = 0;    ///< of pairs: what is remembered, and answers
-  std::uint64_t report_bytes = 0;  ///< of all reports, those held by handles and those to be filled again
-  std::uint64_t thread_bytes = 0;  ///< working memory of the threads; which of them does what is chance
-  double read_ms = 0;              ///< staged changes, positions, objects' boxes
-  double pairs_ms = 0;             ///< broad phase and filters
-  double refit_ms = 0;             ///< boxes and radii of the regions
-  double jobs_ms = 0;              ///< DMV, DV and contacts
-  double publish_ms = 0;           ///< the report
-  double step_ms = 0;              ///< all of them
+  /// Bytes that the scene holds for objects from step to step: positions, copies of them, bounds, and calls
+  /// that wait. Meshes are not counted, see Mesh::byte_count(). Memory that oneTBB holds is in none of the
+  /// counters.
+  std::uint64_t object_bytes = 0;
+  /// Bytes that the scene holds for pairs from step to step: answers, and what speeds up the next search.
+  std::uint64_t pair_bytes = 0;
+  /// Bytes of all reports: those that handles keep, and those that the scene keeps to fill again.
+  std::uint64_t report_bytes = 0;
+  /// Bytes of the working memory of the threads. It differs from run to run, because chance decides which
+  /// thread does which work.
+  std::uint64_t thread_bytes = 0;
+  /// Time to take up calls, read positions, and compute the bounding boxes of objects.
+  double read_ms = 0;
+  /// Time of the broad phase and the filters.
+  double pairs_ms = 0;
+  /// Time to refit the boxes and radii of regions.
+  double refit_ms = 0;
+  /// Time to search pairs for distances and contacts.
+  double jobs_ms = 0;
+  /// Time to put the report together.
+  double publish_ms = 0;
+  /// Time of the whole step.
+  double step_ms = 0;
 };
 
-/// The published answer of one step; immutable. Read it from any thread.
+/// The published answer of one step. It never changes, so any number of threads may read it at the same time.
+/// Programs get one through a ReportHandle.
 class GRAZE_API FrameReport {
  public:
+  /// Makes an empty report of frame 0.
   FrameReport() = default;
+  /// Copies everything. The copy depends on no scene and no handle. Throws `std::bad_alloc`.
   FrameReport(const FrameReport& other);
+  /// Replaces this report with a copy of `other`. Throws `std::bad_alloc`.
   FrameReport& operator=(const FrameReport& other);
+  /// Frees the report.
   ~FrameReport() = default;
 
-  /// 1 for the first step; 0 before it.
+  /// Returns the number of the step. The first step is 1, and the report before it is 0.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
-  /// The number that the caller gave to `Scene::step` or `Scene::step_async`; 0 where none was given, and
-  /// before the first step.
+  /// Returns the number that the caller gave to Scene::step() or Scene::step_async(). It is 0 if none was
+  /// given, and before the first step.
   [[nodiscard]] std::uint64_t tag() const { return tag_; }
-  /// Sorted by the order in which a, then b, were added.
+  /// Returns one row for each listed pair. Rows are sorted by the order in which a, then b, were added.
+  ///
+  /// A pair is listed if its distance is below the larger of its range and its threshold, or if an edge
+  /// pierces a face. It is listed once more when it has just ended, even beyond the range.
   [[nodiscard]] std::span<const PairReport> pairs() const { return shown_->pairs; }
-  /// The contacts of all pairs, in the pairs' order; within a pair by (kind, feature a, feature b).
+  /// Returns the contacts of all pairs in one array, in the order of the rows. The contacts of a pair are
+  /// sorted by kind, feature a, feature b.
   [[nodiscard]] std::span<const Contact> contacts() const { return shown_->contacts; }
-  /// The contacts of one pair of this report.
+  /// Returns the contacts of one row of this report.
   [[nodiscard]] std::span<const Contact> contacts(const PairReport& pair) const {
     return contacts().subspan(pair.first_contact, pair.contact_count);
   }
-  /// For how many steps before this one the features of one of its contacts have been so without a break.
+  /// Returns for how many steps before this one the features of a contact have been in contact without a
+  /// break. `contact` is one of this report.
   [[nodiscard]] std::uint64_t age(const Contact& contact) const { return frame_ - contact.since; }
-  /// The distances of regions that are alive, of all pairs, where SceneSettings::region_distances asks for
-  /// them: in the pairs' order, within a pair by level.
+  /// Returns the region distances of all pairs in one array, in the order of the rows. Those of a pair are
+  /// sorted by level. The array is empty unless SceneSettings::region_distances asks for it.
   [[nodiscard]] std::span<const RegionDistance> region_distances() const { return shown_->region_distances; }
-  /// Those of one pair of this report.
+  /// Returns the region distances of one row of this report.
   [[nodiscard]] std::span<const RegionDistance> region_distances(const PairReport& pair) const {
     return region_distances().subspan(pair.first_region_distance, pair.region_distance_count);
   }
+  /// Returns what was wrong with the input of this step. It is empty if all input was good.
   [[nodiscard]] std::span<const Diagnostic> diagnostics() const { return diagnostics_; }
+  /// Returns the counters and times of this step.
   [[nodiscard]] const StepStatistics& statistics() const { return statistics_; }
-  /// Whether no budget cut any pair short, and no limit its contacts.
+  /// Returns true if no budget cut a pair short, and no limit left contacts out.
   [[nodiscard]] bool complete() const { return complete_; }
 
  private:
@@ -175,35 +268,48 @@ class GRAZE_API FrameReport {
   std::uint64_t tag_ = 0;
   bool complete_ = true;
   Rows rows_;
-  /// Its own rows, or those of an earlier report of the scene, which were these.
+  /// Either `rows_`, or the rows of an earlier report of the scene that are equal to what this report says.
   const Rows* shown_ = &rows_;
   std::vector<Diagnostic> diagnostics_;
   StepStatistics statistics_;
 };
 
+/// @cond internal
 class ReportPool;
+/// @endcond
 
-/// Keeps one report alive, also after its scene. Copying, moving and destroying are wait-free. A handle
-/// belongs to one thread at a time; handles of one report may live on any number of threads.
+/// Keeps one report alive, even after its scene is gone. A handle is used like a pointer to the report.
+///
+/// Copying, moving and destroying a handle is wait-free. One thread at a time may use a handle. Any number of
+/// threads may hold handles of one report. A handle keeps the memory of its report, so let go of it soon.
 class GRAZE_API ReportHandle {
  public:
+  /// Makes an empty handle. It points at no report and must not be dereferenced.
   ReportHandle() = default;
+  /// Makes a second handle of the same report.
   ReportHandle(const ReportHandle& other);
+  /// Takes the report of `other`, which is empty afterwards.
   ReportHandle(ReportHandle&& other) noexcept
       : pool_(std::exchange(other.pool_, nullptr)),
         slot_(std::exchange(other.slot_, 0)),
         report_(std::exchange(other.report_, nullptr)) {}
+  /// Lets go of the report of this handle, and keeps that of `other`.
   ReportHandle& operator=(ReportHandle other) noexcept {
     std::swap(pool_, other.pool_);
     std::swap(slot_, other.slot_);
     std::swap(report_, other.report_);
     return *this;
   }
+  /// Lets go of the report. The scene fills its memory again when no handle is left.
   ~ReportHandle();
 
+  /// Returns the report. The handle must not be empty.
   [[nodiscard]] const FrameReport& operator*() const { return *report_; }
+  /// Gives access to the members of the report. The handle must not be empty.
   [[nodiscard]] const FrameReport* operator->() const { return report_; }
+  /// Returns the report, or null if the handle is empty.
   [[nodiscard]] const FrameReport* get() const { return report_; }
+  /// Returns true if the handle points at a report.
   [[nodiscard]] explicit operator bool() const { return report_ != nullptr; }
 
  private:
@@ -215,5 +321,7 @@ class GRAZE_API ReportHandle {
   std::uint32_t slot_ = 0;
   const FrameReport* report_ = nullptr;
 };
+
+/// @}
 
 }  // namespace graze

@@ -17,69 +17,119 @@
 
 namespace graze {
 
-/// n objects and the n(n-1)/2 pairs between them. Each `step` reads where the vertices are now and publishes
-/// which pairs are near, how near, and every contact.
+/// @addtogroup scene
+/// @{
+
+/// Holds n objects and answers for all n(n-1)/2 pairs between them. Each step reads where the vertices are
+/// now. It publishes a report that says which pairs are near, how near they are, and where they touch.
 ///
-/// Threads: every call but `step` may come from any thread at any time and is taken up by the next step, in
-/// the order in which the calls were made; `step` runs on one thread at a time. No call but `wait` waits for
-/// another thread, other than binding, unbinding and the beginning of a step for each other. After
-/// construction only `add` and `step` throw Error; what is wrong with any other call is a Diagnostic in the
-/// next report.
+/// @par Threads
+/// Every call but step(), step_async() and wait() may come from any thread at any time. The next step takes
+/// the calls up in the order in which they were made. One thread at a time may step. Only wait() waits for
+/// another thread, except that bindings, unbindings and the beginning of a step wait for each other for a
+/// short time.
 ///
-/// Without memory `add`, `reserve`, `object_settings` and steps throw std::bad_alloc. After `add` and
-/// `reserve` the scene is as before. After a step the last report is still the latest, calls are taken up by
-/// it or by the next one, and the next one begins afresh from where the objects are. Other calls never throw:
-/// one for which there is no memory leaves a Diagnostic `out_of_memory`, and ends a binding all the same
-/// (docs/embedding.md).
+/// @par Errors
+/// Constructors, add(), step() and step_async() throw Error, and wait() throws what went wrong in
+/// step_async(). No other call throws Error: the next report has a Diagnostic that says what was wrong.
 ///
-/// Memory: `add`, `set_rule`, `object_settings` and what makes a Diagnostic allocate. The other calls do
-/// where more of them wait for a step than ever did or were reserved, and `set_positions` and
-/// `unbind_positions` for the first copies of an object, and for each beyond four that wait at once. A step
-/// takes memory where it needs more than any before and than was reserved.
+/// @par Without memory
+/// Constructors, add(), reserve(), object_settings() and steps throw `std::bad_alloc`. After add() and
+/// reserve() the scene is as before. After a step the last report stays the latest one, and no call is lost.
+/// The next step begins afresh from where the objects are. All other calls never throw. If there is no memory
+/// for such a call, the next report has a Diagnostic of kind DiagnosticKind::out_of_memory. A call that ends
+/// a binding ends it in any case. docs/embedding.md has the details.
 ///
-/// Forms for many objects mean the same as one call after the other in the order of `objects`; no other
-/// thread's calls come in between, and one step takes up all of them. Each object costs less than by a call
-/// of its own. Where the spans do not fit together nothing is taken, and a Diagnostic names no object.
+/// @par When memory is taken
+/// add(), set_rule(), object_settings() with a long name, and calls that leave a Diagnostic always take
+/// memory. Other calls take memory only if more calls wait for a step than ever before, or than were
+/// reserved. In addition, set_positions() and unbind_positions() take memory for an object's first copies,
+/// and beyond four copies that wait. A step takes memory if it needs more than any step before it, and more
+/// than was reserved.
+///
+/// @par Calls for many objects
+/// A call with spans means the same as one call for each object, in the order of `objects`. No call of
+/// another thread comes in between, and one step takes up all of them. Such a call costs less for each
+/// object. If the spans have different sizes, nothing is taken, and a Diagnostic without an object says so.
 class GRAZE_API Scene {
  public:
-  /// No promise: a vertex may have moved anywhere.
+  /// Stands for no promise: vertices may have moved any distance.
   static constexpr double any_displacement = std::numeric_limits<double>::infinity();
 
-  /// Throws Error for a threshold that is negative or NaN, a number that is no enumerator, or paper accuracy
-  /// with a detail other than `regions` and `vertices`.
+  /// @name Making a scene
+  /// @{
+
+  /// Makes a scene without objects.
+  ///
+  /// Throws Error if a distance is negative or NaN, if `contact_distance` is infinite, if a value is no
+  /// enumerator, if the time budget is negative, or if a limit of contacts is 0. Also throws Error for paper
+  /// accuracy with a detail other than `regions` and `vertices`.
   explicit Scene(const SceneSettings& settings = {});
+  /// Waits for the end of a step that is running, and frees the scene. Reports that handles keep stay valid.
   ~Scene();
+  /// Scenes are not copied.
   Scene(const Scene&) = delete;
+  /// Scenes are not copied.
   Scene& operator=(const Scene&) = delete;
+  /// Takes everything of the other scene, which may then only be destroyed or assigned to.
   Scene(Scene&&) noexcept;
+  /// Frees this scene and takes everything of the other one, which may then only be destroyed or assigned to.
   Scene& operator=(Scene&&) noexcept;
 
+  /// Returns the settings that the scene was made with.
   [[nodiscard]] const SceneSettings& settings() const;
 
-  /// Adds an object at its mesh's rest shape. Throws Error for no mesh, a margin that is negative or not
-  /// finite, or a kind above 255.
+  /// @}
+
+  /// @name Objects
+  /// @{
+
+  /// Adds an object, which stands at the rest shape of its mesh until a call moves it. Any number of objects
+  /// and scenes may share one mesh.
+  ///
+  /// Throws Error if `mesh` is null, if the margin is negative or not finite, if the kind is above 255, or if
+  /// the motion is no enumerator.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings = {});
+  /// Removes an object and ends its binding. A pair of it that was in contact is listed once more as `ended`.
+  /// The id stays valid as a key in that row, and is never given again.
   void remove(ObjectId object);
-  /// Objects added and not removed, by all calls made so far.
+  /// Returns how many objects the scene has, by all calls made so far.
   [[nodiscard]] std::size_t object_count() const;
+  /// Returns whether an id names an object of the scene, by all calls made so far.
   [[nodiscard]] bool contains(ObjectId object) const;
-  /// The mesh and settings an object was added with; null and defaults for an id that names none.
+  /// Returns the mesh that an object was added with, or null if the id names no object.
   [[nodiscard]] std::shared_ptr<const Mesh> mesh(ObjectId object) const;
+  /// Returns the settings that an object was added with, or default settings if the id names no object.
   [[nodiscard]] ObjectSettings object_settings(ObjectId object) const;
 
-  /// Places a rigid or fixed object: vertex = ((r0·x + r1·y) + r2·z) + t of its rest vertex (x, y, z), in
-  /// double.
+  /// @}
+
+  /// @name Moving rigid and fixed objects
+  /// @{
+
+  /// Places a rigid or fixed object. A rest vertex (x, y, z) goes to `((r0*x + r1*y) + r2*z) + t`, computed
+  /// in double without fused operations. Here r0, r1 and r2 are the columns of the rotation R, and t is the
+  /// translation.
+  ///
+  /// The pose is taken if no entry of RᵀR - I is larger than 1e-3 and R does not mirror, so float rotations
+  /// of an engine are taken. It is used as it stands, without being made a rotation. Otherwise the next
+  /// report has a Diagnostic of kind `bad_pose`, and the pairs of the object are `stale` until a good pose
+  /// comes.
   void set_pose(ObjectId object, const Eigen::Isometry3d& pose) { set_pose_rows(object, rows_of(pose)); }
-  /// Places it by a transform of either precision, such as Eigen::Isometry3f or Affine3d. Floats are
-  /// converted to double and used as they stand.
+  /// Places a rigid or fixed object by a transform of floats or doubles, such as `Eigen::Isometry3f` or
+  /// `Eigen::Affine3d`. Floats are converted to double and used as they stand. The checks are those of the
+  /// first form.
   template <typename Scalar, int mode, int options>
   requires(mode != Eigen::Projective) void set_pose(ObjectId object,
                                                     const Eigen::Transform<Scalar, 3, mode, options>& pose) {
     set_pose_rows(object, rows_of(pose));
   }
-  /// Places it by a 4x4 matrix of either precision, for column vectors: the translation is its last column.
-  /// An engine's 16 numbers can be given as `Eigen::Map<const Eigen::Matrix4f>`. Where an entry of the last
-  /// row is further than 1e-6 from (0, 0, 0, 1) the pose is not taken, and a Diagnostic `bad_pose` says so.
+  /// Places a rigid or fixed object by a 4 x 4 matrix of floats or doubles. The matrix is for column vectors:
+  /// the translation is its last column. The 16 floats of an engine are a
+  /// `Eigen::Map<const Eigen::Matrix4f>`.
+  ///
+  /// The checks are those of the first form. The pose is also refused if an entry of the last row is further
+  /// than 1e-6 from (0, 0, 0, 1), as in a transposed matrix or a projection.
   template <typename Matrix>
   requires(int(Matrix::RowsAtCompileTime) == 4 &&
            int(Matrix::ColsAtCompileTime) == 4) void set_pose(ObjectId object,
@@ -91,75 +141,131 @@ class GRAZE_API Scene {
         rows[static_cast<std::size_t>(row * 4 + column)] = static_cast<double>(values(row, column));
     set_pose_matrix(object, rows);
   }
-  /// Places it by the upper three rows of the 4x4 matrix, row by row.
+  /// Places a rigid or fixed object by the upper three rows of its 4 x 4 matrix, row by row. The checks are
+  /// those of set_pose().
   void set_pose_rows(ObjectId object, const std::array<double, 12>& rows);
-  /// Places it by all four rows of the 4x4 matrix, row by row. The last one is checked as above.
+  /// Places a rigid or fixed object by all four rows of its 4 x 4 matrix, row by row. The checks are those of
+  /// set_pose() for matrices.
   void set_pose_matrix(ObjectId object, const std::array<double, 16>& rows);
-  /// A pose for each object.
+  /// Places many rigid or fixed objects. Both spans have the same size.
   void set_poses(std::span<const ObjectId> objects, std::span<const Eigen::Isometry3d> poses) {
     static_assert(sizeof(Eigen::Isometry3d) == 16 * sizeof(double));
     set_pose_matrices(objects, {poses.empty() ? nullptr : poses[0].data(), 16 * poses.size()});
   }
 
-  /// Copies the positions of a deformable object, one for each vertex of its mesh. `max_displacement`
-  /// promises how far any vertex is at most from where the last step saw it.
-  void set_positions(ObjectId object, PositionView positions, double max_displacement = any_displacement);
+  /// @}
 
+  /// @name Moving deformable objects
+  /// @{
+
+  /// Copies the positions of a deformable object, one for each vertex of its mesh. The later one of this call
+  /// and bind_positions() counts.
+  ///
+  /// `max_displacement` promises how far any vertex is at most from where the last step saw it. With a
+  /// promise graze may skip reading an object that is certainly far from everything. A broken promise is a
+  /// Diagnostic.
+  ///
+  /// A coordinate is at most 2^120 in size. If a vertex that a face uses is beyond that or not finite, the
+  /// old positions stand, and a Diagnostic says so.
+  void set_positions(ObjectId object, PositionView positions, double max_displacement = any_displacement);
+  /// Copies the positions of many deformable objects, with one promise for all. Both spans have the same
+  /// size.
   void set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                      double max_displacement = any_displacement);
 
-  /// Reads a deformable object's positions from the caller's memory, without a copy, until it is unbound.
-  /// Coordinates are at most 2^120 (docs/embedding.md); where a used vertex is beyond or not finite the
-  /// object is frozen. The memory may be written between steps only. With BindPolicy::when_told it is read in
-  /// the next step and then after `positions_changed`.
+  /// Lets steps read the positions of a deformable object from the caller's memory, until it is unbound. The
+  /// call copies nothing. The later one of this call and set_positions() counts.
+  ///
+  /// The memory must stay valid, and may be written between steps only. With BindPolicy::every_step every
+  /// step reads it. With BindPolicy::when_told the next step reads it, and then only steps after
+  /// positions_changed().
+  ///
+  /// A coordinate is at most 2^120 in size. If a vertex that a face uses is beyond that or not finite, the
+  /// object is frozen: its listed pairs repeat their last values as `stale`. A Diagnostic repeats until good
+  /// positions are read.
   void bind_positions(ObjectId object, PositionView positions, BindPolicy policy = BindPolicy::every_step);
+  /// Binds many deformable objects to memory. Both spans have the same size.
   void bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                       BindPolicy policy = BindPolicy::every_step);
-  /// Ends a binding. The memory is free when the call returns, or at the end of a step that is running
-  /// meanwhile, for which `wait` waits; so it is where an object is bound anew, removed, or given positions.
-  /// Memory that is read in every step is copied a last time, in the call, and the object stays there; bad
-  /// memory freezes it until it is given good positions. Memory that is read when told is only copied if no
-  /// step has begun since it was bound, else the object stays where that was read last.
+  /// Ends a binding. The caller may free the memory when the call returns. If a step is running then, the
+  /// memory must stay until that step ends, for which wait() waits. The same holds for remove(),
+  /// set_positions() and a new binding.
+  ///
+  /// With BindPolicy::every_step the call copies the memory a last time, and the object stays there. If the
+  /// memory is bad then, the object is frozen until it is given good positions. With BindPolicy::when_told
+  /// the copy counts only if no step has begun since the binding, or if steps only surveyed the object.
+  /// Otherwise the object stays where it was read last.
   void unbind_positions(ObjectId object);
-  /// Bound memory has been written: no vertex is further than `max_displacement` from where the last step saw
-  /// it.
+  /// Tells the scene that the caller has written bound memory. `max_displacement` promises how far any vertex
+  /// is at most from where the last step saw it. A broken promise is a Diagnostic.
+  ///
+  /// A later step may read the memory as well, when another object comes near. So leave it unchanged until
+  /// the next call.
   void positions_changed(ObjectId object, double max_displacement = any_displacement);
-
+  /// Tells the scene that the caller has written the bound memory of many objects, with one promise for all.
   void positions_changed(std::span<const ObjectId> objects, double max_displacement = any_displacement);
+  /// Tells the scene that the caller has written the bound memory of many objects, with a promise for each.
+  /// Both spans have the same size.
   void positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements);
 
-  /// Takes one pair out, and puts it back.
+  /// @}
+
+  /// @name Pairs
+  /// @{
+
+  /// Takes one pair out, until watch() puts it back. A pair that was in contact is listed once more as
+  /// `ended`. The order of the two objects does not matter.
   void ignore(ObjectId a, ObjectId b);
+  /// Puts a pair back that ignore() took out. The order of the two objects does not matter.
   void watch(ObjectId a, ObjectId b);
 
-  /// Thresholds for every pair of an object of `kind_a` and one of `kind_b`, in either order.
+  /// Gives thresholds to every pair of an object of `kind_a` and one of `kind_b`, in either order. They
+  /// replace the scene's own. Kinds are 0 to 255, see ObjectSettings::kind.
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
 
-  /// Makes room ahead of time: for calls at once, for all else in the next step. Calls and steps that need no
-  /// more than that take no memory from the allocator, the first contacts included. Three things still do:
-  /// pairs of two surfaces of 4,096 vertices or more, more than 4,096 pairs of objects about one place, and
-  /// diagnostics.
+  /// @}
+
+  /// @name Memory
+  /// @{
+
+  /// Makes room ahead of time, so that calls and steps within it take no memory from the allocator. Even the
+  /// first contacts then take none. The call makes room for calls at once, and the next step for everything
+  /// else. Throws `std::bad_alloc`.
+  ///
+  /// Three things still take memory: pairs of two surfaces of 4,096 vertices or more, more than 4,096 pairs
+  /// of objects that one task of the broad phase finds, and diagnostics.
   void reserve(const SceneCapacity& capacity);
 
-  /// One step: takes up the calls made since the last, and publishes a report. Throws Error when another step
-  /// of this scene is running, or when 65,536 reports are held by handles; std::bad_alloc without memory.
-  /// The report carries `tag`, any number of the caller's.
+  /// @}
+
+  /// @name Stepping and reports
+  /// @{
+
+  /// Runs one step: takes up the calls made since the last one, reads positions, and publishes a report.
+  /// `tag` is any number of the caller's, which the report carries.
+  ///
+  /// Throws Error if another step of this scene is running, or if handles hold 65,536 reports. Throws
+  /// `std::bad_alloc` without memory.
   ReportHandle step(std::uint64_t tag = 0);
-  /// Begins a step on another thread and returns; it takes up the calls made until now. Throws Error when a
-  /// step is running, and std::bad_alloc where it cannot begin. Calls made meanwhile are for the step after;
-  /// bound memory stays as it is until `wait` has returned.
+  /// Begins a step on another thread and returns. The step takes up the calls made until now. Calls made
+  /// while it runs are for the step after it. Bound memory must not change until wait() has returned.
+  ///
+  /// Throws Error if a step is running, and `std::bad_alloc` if the step cannot begin.
   void step_async(std::uint64_t tag = 0);
-  /// Whether a step is running.
+  /// Returns whether a step is running.
   [[nodiscard]] bool is_stepping() const;
-  /// Waits for the end of the step that is running, if one is, and returns `latest_report`. Throws what went
-  /// wrong in the last step_async, as `step` does. From one thread at a time. Memory that was unbound before
-  /// is free when it returns.
+  /// Waits until no step is running, and returns the latest report. If the last step_async() went wrong, it
+  /// throws what step() would have thrown. One thread at a time may call it.
   ReportHandle wait();
-  /// The last published report; of frame 0 and empty before the first step. Wait-free.
+  /// Returns the last published report. Before the first step it is an empty report of frame 0. The call is
+  /// wait-free.
   [[nodiscard]] ReportHandle latest_report() const;
 
+  /// @}
+
  private:
-  /// The upper three rows of a transform. Unpacked here, since what Eigen aligns depends on compiler flags.
+  /// Returns the upper three rows of a transform. It is inline because what Eigen aligns depends on the
+  /// compiler flags of the caller.
   template <typename Transform>
   static std::array<double, 12> rows_of(const Transform& pose) {
     std::array<double, 12> rows;
@@ -168,11 +274,13 @@ class GRAZE_API Scene {
         rows[static_cast<std::size_t>(row * 4 + column)] = static_cast<double>(pose.matrix()(row, column));
     return rows;
   }
-  /// 16 numbers for each object: its 4x4 matrix, column by column.
+  /// Takes 16 numbers for each object: its 4 x 4 matrix, column by column.
   void set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices);
 
   class State;
   std::unique_ptr<State> state_;
 };
+
+/// @}
 
 }  // namespace graze

@@ -12,83 +12,133 @@
 
 namespace graze {
 
-/// How an object may move: `deformable` by positions, `rigid` and `fixed` by poses. Pairs of fixed objects
-/// are never looked at.
-enum class Motion : std::uint8_t { deformable, rigid, fixed };
+/// @addtogroup settings
+/// @{
 
-/// When bound memory is read: in every step, or only in the step after `Scene::positions_changed`.
-enum class BindPolicy : std::uint8_t { every_step, when_told };
+/// Says how an object may move. Pairs of two fixed objects are never looked at.
+enum class Motion : std::uint8_t {
+  deformable,  ///< Its vertices move one by one: Scene::set_positions() or Scene::bind_positions() move it.
+  rigid,       ///< It moves as a whole: Scene::set_pose() moves it.
+  fixed,       ///< Scene::set_pose() places it, as a rigid object, but it is a part of the surroundings.
+};
 
-/// Where a step's tasks run: in an arena of the scene's own, or in the one of the thread that calls `step`,
-/// at most as many at once as that has threads.
-enum class ArenaPolicy : std::uint8_t { own, callers };
+/// Says when a step reads bound memory, see Scene::bind_positions().
+enum class BindPolicy : std::uint8_t {
+  every_step,  ///< Every step reads the memory.
+  when_told,   ///< Only steps after Scene::positions_changed() read the memory.
+};
 
-/// What a scene is told of an object when it is added.
+/// Says in which arena of oneTBB a step runs its tasks.
+enum class ArenaPolicy : std::uint8_t {
+  own,      ///< The scene has an arena of its own, with SceneSettings::threads threads.
+  callers,  ///< Tasks run in the arena of the thread that calls Scene::step(), at most as many at once as it
+            ///< has.
+};
+
+/// Describes one object to Scene::add(). The settings of an object never change.
 struct ObjectSettings {
+  /// A name for people. Messages use it. Names may repeat or be empty.
   std::string name = {};
+  /// How the object may move.
   Motion motion = Motion::deformable;
-  std::uint32_t layer = 1;  ///< a pair is looked at when each one's layer is in the other's mask
+  /// A set of bits. A pair is looked at if each object's layer has a bit of the other's #collides_with.
+  std::uint32_t layer = 1;
+  /// A set of bits: the layers that this object is looked at with. All bits are set by default.
   std::uint32_t collides_with = ~std::uint32_t{0};
-  /// Objects of one group are not looked at against each other: the parts of one character, say. 0: no group.
+  /// Two objects of one group are not looked at against each other, such as the parts of one character. 0
+  /// means no group.
   std::uint64_t group = 0;
-  double margin = 0;       ///< added to the threshold of every pair of this object
-  std::uint32_t kind = 0;  ///< 0 to 255, see Scene::set_rule
+  /// A distance that is added to the threshold of every pair of this object. It is finite, and 0 or more.
+  double margin = 0;
+  /// The kind of the object, 0 to 255. Scene::set_rule() gives thresholds to pairs of kinds.
+  std::uint32_t kind = 0;
+  /// Any number of the caller's. Reports give it back in PairReport::user_data_a and PairReport::user_data_b.
   std::uint64_t user_data = 0;
 };
 
-/// Thresholds for a kind of pair, in place of the scene's own.
+/// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the
+/// scene. This is how experiment 2 of the paper uses its equation 6.
 struct PairRule {
+  /// Replaces SceneSettings::contact_distance. It is finite, and 0 or more.
   double contact_distance = 0;
+  /// Replaces SceneSettings::range. It is 0 or more, and may be infinite.
   double range = 0;
-  std::vector<double> epsilon = {};  ///< in place of Accuracy::paper's numbers; empty: the scene's own
+  /// Replaces the numbers of Accuracy::paper(). If it is empty, the scene's own numbers count.
+  std::vector<double> epsilon = {};
 };
 
-/// The most threads that a scene uses: 8 for each processor that this process may run on. More would only
-/// wait for each other, and each of them holds memory.
+/// Returns the largest number of threads that a scene uses: 8 for each processor that this process may run
+/// on. More threads would only wait for each other, and each of them holds memory.
 [[nodiscard]] GRAZE_API unsigned max_threads();
 
-/// Settings of a scene, fixed when it is made. Distances are in the caller's units.
+/// The settings of a scene. They are fixed when the scene is made. Distances are in the caller's units.
 struct SceneSettings {
-  double contact_distance = 0;  ///< strictly closer than this, plus both margins, is a contact
-  double range = 0;             ///< pairs closer than this are listed with their distance
+  /// Features that are strictly closer than the threshold are in contact. The threshold of a pair is this
+  /// distance plus the margins of both objects. It is finite, and 0 or more.
+  double contact_distance = 0;
+  /// The report lists pairs that are strictly closer than this, with their distance. It is 0 or more, and may
+  /// be infinite. Pairs below their threshold are listed anyway.
+  double range = 0;
+  /// Selects what a report lists for each pair in contact.
   ContactDetail detail = ContactDetail::features;
+  /// How exact the answers are.
   Accuracy accuracy = Accuracy::exact();
-  /// How many threads a step uses. 0: one for each processor. 1: all is done on the thread that calls `step`.
-  /// More than `max_threads()` count as so many. Answers do not depend on it.
+  /// How many threads a step uses. 0 means one for each processor. 1 means that the thread that calls
+  /// Scene::step() does all the work. Numbers above max_threads() count as max_threads(). Answers do not
+  /// depend on it.
   unsigned threads = 0;
+  /// In which arena of oneTBB a step runs its tasks.
   ArenaPolicy arena = ArenaPolicy::own;
-  /// A step's deadline for pairs; positions are always read and bounds refreshed first.
+  /// The time that a step may take until it stops looking at pairs, 0 or more. Positions are always read and
+  /// bounds refreshed first. Then pairs come in order of urgency: pairs in contact, then the smallest lower
+  /// bound. Pairs without an answer have PairReport::complete false. No value means no limit.
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;
-  /// The same in region pairs, reproducibly.
+  /// The number of region pairs that a step may test. It limits the work as #time_budget does, but the
+  /// answers are the same in every run. No value means no limit.
   std::optional<std::uint64_t> work_budget = std::nullopt;
-  /// At most so many contacts a report has, of all pairs together: the nearest, by (distance as reported,
-  /// order of the pairs, kind and features). A pair that has more than are kept of it is reported with these,
-  /// `complete == false` and `contacts_cut`; its phase, distance and witness are those of all its contacts.
-  /// Memory follows what is kept. At least 1.
+  /// The most contacts that a report lists, of all pairs together. It is at least 1. No value means no limit.
+  ///
+  /// The report keeps the nearest contacts: by reported distance, then by the order of the pairs, then by
+  /// kind and features. A pair that loses contacts has PairReport::contacts_cut true and PairReport::complete
+  /// false. Its phase, distance and witness are those of all its contacts. Memory follows the number of
+  /// contacts kept.
   std::optional<std::size_t> max_contacts = std::nullopt;
-  /// The same of each pair: its nearest, by (distance as reported, kind and features).
+  /// The most contacts that a report lists for each pair. It is at least 1. No value means no limit. The
+  /// report keeps the nearest contacts of the pair: by reported distance, then by kind and features.
   std::optional<std::size_t> max_contacts_per_pair = std::nullopt;
-  /// How many distances of regions (the paper's cd and its red, green and blue lines) reports list, of all
-  /// pairs together; 0: none are looked for. Each pair looked at has an equal share of it, filled level by
-  /// level; what has no place is counted in StepStatistics::region_distances_left_out.
+  /// The most region distances that a report lists, of all pairs together. They are the paper's cd: the red,
+  /// green and blue lines of its figure 7. 0 means that none are looked for.
+  ///
+  /// Each pair that is looked at has an equal share, which is filled level by level. The step counts what
+  /// finds no room in StepStatistics::region_distances_left_out. The distances of each pair cost a walk of
+  /// their own.
   std::size_t region_distances = 0;
 };
 
-/// How much a scene makes room for ahead of time; see Scene::reserve.
+/// Says how much room Scene::reserve() makes ahead of time.
 struct SceneCapacity {
+  /// The number of objects.
   std::size_t objects = 0;
-  std::size_t calls_per_step = 0;  ///< made between two steps; each object of a batch is one
-  /// Pairs near enough that StepStatistics::pairs_close counts them, or that the last report listed. Each has
-  /// its job, its answer, its memory between steps with room for 64 pairs of leaves and for four pairs of
-  /// features for each contact that is its part of `contacts`, and its row in a report.
-  /// Where this is not 0 objects, those that come later too, have room for the bounds of their regions, and
-  /// each thread for a pair of 1,024 contacts, leaf pairs, and contacts at the least distance.
+  /// The number of calls that are made between two steps. Each object of a call for many objects counts as
+  /// one.
+  std::size_t calls_per_step = 0;
+  /// The number of pairs that StepStatistics::pairs_close counts, or that the last report listed.
+  ///
+  /// Each of these pairs gets room for its search, its answer, and its row in a report. It also gets memory
+  /// from step to step: for 64 pairs of leaves, and for four pairs of features for each of its share of
+  /// #contacts.
+  ///
+  /// If the number is not 0, each object also gets room for the bounds of its regions, even if it is added
+  /// later. Each thread gets room for a pair of 1,024 contacts, 1,024 leaf pairs, and 1,024 contacts at the
+  /// least distance.
   std::size_t near_pairs = 0;
-  /// Of all pairs together: in the answers of a step, and in a report.
+  /// The number of contacts of all pairs together, in the answers of a step and in a report.
   std::size_t contacts = 0;
-  /// Held by handles at once, beside the latest. Each has room for `near_pairs` rows and `contacts`, or as
-  /// much as any report has needed.
+  /// The number of reports that handles hold at the same time, in addition to the latest one. Each gets room
+  /// for #near_pairs rows and #contacts contacts, or as much as any report has needed.
   std::size_t reports = 0;
 };
+
+/// @}
 
 }  // namespace graze

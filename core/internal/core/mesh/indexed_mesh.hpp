@@ -149,9 +149,9 @@ class GRAZE_API IndexedMesh {
   MadeOnce<RestReach> rest_reach_;
 };
 
-/// The data that a mesh holds.
+/// Returns what a mesh holds.
 inline const IndexedMesh& indexed(const Mesh& mesh) {
-  return *mesh.data_;
+  return *mesh.indexed_;
 }
 
 }  // namespace graze

@@ -5,12 +5,20 @@
 
 namespace graze::io {
 
-/// Thrown for input that cannot be used: one line that names the file, the place in it and what to do, such
-/// as "liver.obj: line 12: a face names vertex 99 of 8; remove the face or add the vertex".
+/// @addtogroup errors
+/// @{
+
+/// Thrown for a file that cannot be used. Its message is one line that names the file, where in it the
+/// problem is, and what to do.
+///
+/// An example is "liver.obj: line 12: a face names vertex 99 of 8; remove the face or add the vertex".
 class GRAZE_API InputError : public graze::Error {
  public:
-  /// Ends of lines in `message`, which names of the file may bring in, become blanks.
+  /// Makes an error with a message. Ends of lines in `message` become blanks. Names in a file may bring them
+  /// in.
   explicit InputError(const std::string& message);
 };
+
+/// @}
 
 }  // namespace graze::io

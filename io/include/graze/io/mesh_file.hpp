@@ -13,55 +13,73 @@
 
 namespace graze::io {
 
+/// @addtogroup io_meshes
+/// @{
+
 /// One object of a mesh file.
 struct LoadedObject {
-  std::string name;  ///< unique within its file
+  /// A name that no other object of the file has.
+  std::string name;
+  /// The faces and the rest positions of the object.
   std::shared_ptr<const Mesh> mesh;
-  bool animated =
-      false;  ///< an animation of the file moves it: by its skeleton, its morph targets or its node
+  /// True if an animation of the file moves the object: by its skeleton, its morph targets or its node.
+  bool animated = false;
 };
 
-/// The axes and the unit that a file says its coordinates have. graze takes coordinates as they stand in
-/// every format; the keys `up` and `unit` of a scene file convert them.
+/// The axes and the unit that a file says its coordinates have. graze takes the coordinates of every format
+/// as they stand. The keys `up` and `unit` of a scene file convert them.
 struct FileFrame {
-  std::optional<double> metres_per_unit;  ///< the length of 1 in the file; none: the file does not say
-  std::optional<std::string> up;  ///< the axis that points up: `x`, `y`, `z`, or `-x`, …; none: not said
-  /// Takes the file's axes to those in which x points right and z up. The identity where nothing is said.
+  /// The length of 1 in the file, in metres. No value means that the file does not say.
+  std::optional<double> metres_per_unit;
+  /// The axis that points up: `x`, `y` or `z`, with a minus sign for the opposite direction. No value means
+  /// that the file does not say.
+  std::optional<std::string> up;
+  /// The rotation from the file's axes to axes in which x points right and z points up. It is the identity if
+  /// the file does not say.
   Eigen::Matrix3d to_z_up = Eigen::Matrix3d::Identity();
 };
 
-/// The objects and animations of a mesh file. A copy shares the data. Every const member may be called from
-/// any number of threads at once.
+/// The objects and animations of a mesh file. A copy shares the data. Any number of threads may call const
+/// members at the same time. docs/formats.md has a table of all formats.
 ///
-/// OBJ, PLY and OFF keep the file's own vertex numbers, unused vertices included, in double precision. An OBJ
-/// group is one object with the whole file's vertices. graze reads glTF 2 and STL itself;
-/// assimp reads every other format, in single precision. In these formats each node with faces is an object.
-/// Its vertices are where the node and the skeleton put them while nothing plays. Vertices repeated for seams
-/// are one again, in order of first appearance, where position, skin weights and morph offsets are equal. A
-/// mirrored node or joint turns the faces, so that the front stays outside. Triangles and quads stay as they
-/// are; a face of more corners is cut into triangles. Coordinates are those of the file: no unit or axis is
-/// converted.
+/// @par OBJ, PLY and OFF
+/// They keep the file's own vertex numbers, unused vertices included, in double precision. A group of an OBJ
+/// file is one object with the vertices of the whole file.
+///
+/// @par Other formats
+/// graze reads glTF 2 and STL itself. assimp reads every other format, in single precision. In glTF 2 and in
+/// what assimp reads, each node with faces is an object. Its vertices are where the node and the skeleton put
+/// them while nothing plays. In all these formats, vertices that are repeated for seams become one. They keep
+/// the order of first appearance. Two vertices become one if position, skin weights and morph offsets are
+/// equal. A mirrored node or joint turns the faces, so that the front stays outside.
+///
+/// @par All formats
+/// Triangles and quads stay as they are. A face of more corners is cut into triangles. Coordinates are those
+/// of the file: no unit or axis is converted.
 class GRAZE_API MeshFile {
  public:
-  /// Reads the file. Throws InputError when it is missing, damaged, in a format that is not read, has no
-  /// face, or a face uses a vertex that does not exist or is not finite.
+  /// Reads a file. Throws InputError if it is missing or damaged, if its format is not read, or if it has no
+  /// face. Also throws InputError if a face uses a vertex that does not exist or is not finite.
   static MeshFile read(const std::filesystem::path& path);
 
-  /// At least one.
+  /// Returns the objects of the file, of which there is at least one.
   [[nodiscard]] std::span<const LoadedObject> objects() const;
-  /// The animations' names in file order; a name may be empty.
+  /// Returns the names of the animations, in the order of the file. A name may be empty.
   [[nodiscard]] std::span<const std::string> animations() const;
-  /// A line for each thing that was left out or changed.
+  /// Returns a line for each thing that reading left out or changed.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
-  /// The axes and the unit that the file says its coordinates have.
+  /// Returns the axes and the unit that the file says its coordinates have.
   [[nodiscard]] const FileFrame& frame() const;
 
-  /// How long an animation lasts. Throws Error when `animation` is out of range.
+  /// Returns how long an animation lasts, in seconds. Throws Error if `animation` is out of range.
   [[nodiscard]] double animation_seconds(std::size_t animation) const;
-  /// Gives the positions of an object's vertices at `seconds` of an animation, clamped to its length. Node
-  /// and bone keys are interpolated linearly (rotations along the shorter arc); glTF steps and cubic splines
-  /// are kept. `positions` becomes vertex_count long. Throws Error when a number is out of range.
+  /// Computes the positions of an object's vertices at a time of an animation. `positions` gets one for each
+  /// vertex of the mesh. An object that the animation does not move stays at rest.
+  ///
+  /// `seconds` is clamped to the length of the animation. Keys of nodes and bones are interpolated linearly,
+  /// and rotations along the shorter arc. Steps and cubic splines of glTF are kept. Throws Error if an index
+  /// is out of range.
   void animate(std::size_t object, std::size_t animation, double seconds,
                std::vector<Eigen::Vector3d>& positions) const;
 
@@ -71,5 +89,7 @@ class GRAZE_API MeshFile {
 
   std::shared_ptr<const Content> content_;
 };
+
+/// @}
 
 }  // namespace graze::io

@@ -12,37 +12,53 @@
 
 namespace graze::io {
 
-/// Positions of one mesh, frame by frame. One thread at a time.
+/// @addtogroup io_motion
+/// @{
+
+/// Gives the positions of one mesh, frame by frame. One thread at a time may use it. Programs may derive
+/// sources of their own.
 class GRAZE_API PositionSource {
  public:
+  /// Makes a source.
   PositionSource() = default;
+  /// Sources are not copied.
   PositionSource(const PositionSource&) = delete;
+  /// Sources are not copied.
   PositionSource& operator=(const PositionSource&) = delete;
+  /// Frees the source.
   virtual ~PositionSource();
 
-  /// At least 1.
+  /// Returns the number of frames, which is at least 1.
   [[nodiscard]] virtual std::uint32_t frame_count() const = 0;
-  /// Positions of every vertex at `frame`; past the end the last frame holds. They are as the file has them,
-  /// NaN included. Throws InputError when the file cannot be read or has another number of vertices than the
-  /// mesh.
+  /// Reads the positions of every vertex at `frame`, counted from 0. Past the end the last frame holds.
+  /// Positions are as the file has them, and may be NaN.
+  ///
+  /// Throws InputError if the file cannot be read, or has another number of vertices than the mesh.
   virtual void read(std::uint32_t frame, std::vector<Eigen::Vector3d>& positions) = 0;
 };
 
-/// A numbered sequence of mesh files such as "liver_####.ply": the run of # in the file name stands for a
-/// number of at least as many digits. Frame k is the k-th file by number, and of it the object
-/// `object_index`. Throws InputError when nothing matches, when two files have one number, or when a count
-/// differs.
+/// Opens a numbered sequence of mesh files, such as "liver_####.ply". The run of `#` in the file name stands
+/// for a number of at least as many digits. Frame k is the k-th file in the order of the numbers.
+///
+/// Positions are those of object `object_index` of each file. Throws InputError if no file matches, if two
+/// files have the same number, or if a file has another number of vertices than `mesh`.
 GRAZE_API std::unique_ptr<PositionSource> open_sequence(const std::filesystem::path& pattern,
                                                         const Mesh& mesh, std::size_t object_index);
 
-/// A PC2 or MDD vertex cache; frame k is its k-th sample, whatever its start time and rate. Throws InputError
-/// when the file is neither, is shorter than its header says, or is for another number of vertices.
+/// Opens a vertex cache in the format PC2 or MDD. Frame k is its k-th sample. Start time and rate in its
+/// header play no part.
+///
+/// Throws InputError if the file is neither format, is shorter than its header says, or has another number of
+/// vertices than `mesh`.
 GRAZE_API std::unique_ptr<PositionSource> open_vertex_cache(const std::filesystem::path& path,
                                                             const Mesh& mesh);
 
-/// An object of a mesh file under one of its animations; frame k is at k / frames_per_second. Throws Error
-/// when a number is out of range or the rate is not a positive number.
+/// Plays one of the animations of a mesh file for one of its objects. Frame k is at the time k /
+/// frames_per_second, in seconds. Throws Error if an index is out of range, or if the rate is not a positive
+/// number.
 GRAZE_API std::unique_ptr<PositionSource> open_animation(const MeshFile& file, std::size_t object,
                                                          std::size_t animation, double frames_per_second);
+
+/// @}
 
 }  // namespace graze::io

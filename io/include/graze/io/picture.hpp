@@ -11,28 +11,45 @@
 
 namespace graze::io {
 
-/// What one picture shows.
+/// @addtogroup io_pictures
+/// @{
+
+/// Says what a picture shows.
 struct PictureScene {
+  /// A surface in a picture.
   struct Object {
+    /// The faces of the surface.
     std::shared_ptr<const Mesh> mesh;
-    std::vector<Eigen::Vector3d> positions;  ///< one a vertex; faces at one that is not finite are left out
+    /// A position for each vertex of the mesh. Faces with a vertex that is not finite are left out.
+    std::vector<Eigen::Vector3d> positions;
   };
+  /// The surfaces to draw.
   std::vector<Object> objects{};
-  std::vector<Contact> contacts{};                          ///< a dot each, with a line along the normal
-  std::vector<std::array<Eigen::Vector3d, 2>> distances{};  ///< a line between the two points
+  /// Contacts. Each is a dot, with a line along its normal.
+  std::vector<Contact> contacts{};
+  /// Pairs of points. Each is a line between the two points.
+  std::vector<std::array<Eigen::Vector3d, 2>> distances{};
 };
 
+/// Says how a picture is drawn.
 struct PictureSettings {
+  /// The width in pixels.
   int width = 1280;
+  /// The height in pixels.
   int height = 800;
-  int supersampling = 3;                           ///< samples along each side of a pixel
-  Eigen::Vector3d to_camera = {0.62, -1.0, 0.52};  ///< from the scene towards the eye; +z is up
+  /// The number of samples along each side of a pixel. More of them make smoother edges.
+  int supersampling = 3;
+  /// The direction from the scene to the eye. Its length plays no part. Up is +z.
+  Eigen::Vector3d to_camera = {0.62, -1.0, 0.52};
 };
 
-/// Draws the scene into a PNG: shaded surfaces in distinct colours with their edges, on a floor that takes
-/// their shadows; the camera frames all objects. Contacts behind a surface shine through. Throws InputError
-/// for a file that cannot be written and a scene without a finite face.
+/// Draws a scene into a PNG file. Surfaces are shaded, with their edges, on a floor that takes their shadows.
+/// The camera frames all objects. Contacts behind a surface shine through.
+///
+/// Throws InputError if the file cannot be written, or if the scene has no face with finite corners.
 GRAZE_API void write_picture(const std::filesystem::path& path, const PictureScene& scene,
                              const PictureSettings& settings = {});
+
+/// @}
 
 }  // namespace graze::io

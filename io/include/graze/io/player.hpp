@@ -13,7 +13,10 @@
 
 namespace graze::io {
 
-/// A described scene with its meshes and motions loaded, ready to be stepped:
+/// @addtogroup io_scenes
+/// @{
+
+/// Plays a described scene: it loads the meshes and motions, and gives the scene the positions of each frame.
 ///
 ///     Player player(read_scene_file("scene.json"));
 ///     for (std::uint32_t frame = 0; frame < player.frame_count(); ++frame) {
@@ -21,35 +24,48 @@ namespace graze::io {
 ///       ReportHandle report = player.scene().step();
 ///     }
 ///
-/// For one thread at a time.
+/// One thread at a time may use a player.
 class GRAZE_API Player {
  public:
-  /// Loads every file. Throws InputError for a file that cannot be read or does not fit its mesh, a node,
-  /// animation or name that is not there, and settings that Scene refuses.
+  /// Loads every file and makes the scene. Throws InputError if a file cannot be read or does not fit its
+  /// mesh. Also throws InputError if a node, an animation or a name is not there, or if Scene refuses the
+  /// settings.
   explicit Player(const SceneDescription& description);
+  /// Frees the scene and all that was loaded.
   ~Player();
+  /// Takes everything of the other player, which may then only be destroyed or assigned to.
   Player(Player&&) noexcept;
+  /// Frees this player and takes everything of the other one, which may then only be destroyed or assigned
+  /// to.
   Player& operator=(Player&&) noexcept;
 
+  /// Returns the scene, for the caller to step.
   [[nodiscard]] Scene& scene();
-  /// The scene's objects in the order in which they were added.
+  /// Returns the objects of the scene, in the order in which they were added.
   [[nodiscard]] std::span<const SceneObject> objects() const;
-  /// The description's, or that of the longest motion; at least 1.
+  /// Returns the number of frames of the description, or of the longest motion if the description has none.
+  /// It is at least 1.
   [[nodiscard]] std::uint32_t frame_count() const;
-  /// What importers and loaders noticed, a line each.
+  /// Returns a line for each thing that loading left out or changed.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
-  /// Gives the scene the positions and poses of frame `frame`; past the end of a motion its last holds.
-  /// Throws InputError, naming object and frame, when a file of the motion cannot be read. Positions that are
-  /// not finite are no error: the scene answers them with a diagnostic.
+  /// Gives the scene the positions and poses of a frame, counted from 0. Past the end of a motion its last
+  /// frame holds. The player reads positions into memory that the scene is bound to, so no step may run
+  /// meanwhile.
+  ///
+  /// Throws InputError, with object and frame, if a file of the motion cannot be read. Positions that are not
+  /// finite are no error here: the next report has a Diagnostic.
   void advance(std::uint32_t frame);
 
-  /// Where the vertices of object `index` stand after the last `advance`.
+  /// Gives the positions of the vertices of object `index` after the last advance(). `index` is one into
+  /// objects(), and is not checked.
   void read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// @}
 
 }  // namespace graze::io

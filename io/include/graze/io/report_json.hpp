@@ -15,27 +15,40 @@
 
 namespace graze::io {
 
-/// Writes reports as JSON Lines (docs/formats.md): a header, then a line a frame. Every double is written so
-/// that reading it back gives the same bits; the locale plays no part. For one thread at a time.
+/// @addtogroup io_reports
+/// @{
+
+/// Writes reports as JSON Lines: a header, then a line for each frame. docs/formats.md describes the format.
+/// Every double is written so that reading it back gives the same bits. The locale plays no part. One thread
+/// at a time may use a writer.
 class GRAZE_API ReportWriter {
  public:
+  /// Says what a writer leaves out.
   struct Options {
-    bool include_times = true;  ///< false: no timings, so that equal answers are equal files
+    /// False leaves out all timings, and StepStatistics::thread_bytes. Equal answers are then equal files.
+    bool include_times = true;
   };
 
-  /// Opens the file and writes the header. Throws InputError when it cannot be written.
+  /// Opens the file and writes the header. `objects` are all objects of the scene, in the order in which they
+  /// were added. A file of that name is written over. Throws InputError if the file cannot be written.
   ReportWriter(const std::filesystem::path& path, std::span<const SceneObject> objects,
                const SceneSettings& settings, Options options);
+  /// Opens the file and writes the header, with default options.
   ReportWriter(const std::filesystem::path& path, std::span<const SceneObject> objects,
                const SceneSettings& settings)
       : ReportWriter(path, objects, settings, Options{}) {}
+  /// Ends the file without saying whether all of it arrived. Call close() to know.
   ~ReportWriter();
+  /// Takes the file of the other writer, which may then only be destroyed or assigned to.
   ReportWriter(ReportWriter&&) noexcept;
+  /// Ends the file of this writer and takes that of the other one, which may then only be destroyed or
+  /// assigned to.
   ReportWriter& operator=(ReportWriter&&) noexcept;
 
-  /// Appends one frame under the scene's number for it. Throws InputError when the disk takes no more.
+  /// Appends a report under the number `frame`, which is the caller's. Throws InputError if the disk takes no
+  /// more, or if the report has an object that the header has not.
   void write(std::uint64_t frame, const FrameReport& report);
-  /// Ends the file; throws InputError when it did not all arrive. The destructor ends it too, silently.
+  /// Ends the file. Throws InputError if not all of it arrived on the disk.
   void close();
 
  private:
@@ -43,68 +56,109 @@ class GRAZE_API ReportWriter {
   std::unique_ptr<State> state_;
 };
 
-/// An edge's two vertices, the lower first; zeros beside a vertex or a face.
+/// The two vertices of an edge, the lower one first. Both are 0 if the feature is a vertex or a face.
 using EdgeVertices = std::array<std::uint32_t, 2>;
 
+/// An object in the header of a report file.
 struct ReportedObject {
+  /// The index of the object in the header. Pairs and diagnostics name objects by it.
   std::uint32_t id = 0;
+  /// The name of the object.
   std::string name;
+  /// The number of vertices of its mesh.
   std::uint32_t vertices = 0;
+  /// The number of faces of its mesh.
   std::uint32_t faces = 0;
 };
 
+/// A contact in a report file.
 struct ReportedContact {
+  /// The contact. An index of an edge is that of the mesh that the writer had.
   Contact contact;
+  /// The vertices of feature a, if it is an edge.
   EdgeVertices edge_a{};
+  /// The vertices of feature b, if it is an edge.
   EdgeVertices edge_b{};
 };
 
+/// A row in a report file. Its members mean what those of PairReport mean.
 struct ReportedPair {
-  std::uint32_t a = 0;  ///< an object's id in the header
+  /// The object that was added first, by its ReportedObject::id.
+  std::uint32_t a = 0;
+  /// The object that was added last, by its ReportedObject::id.
   std::uint32_t b = 0;
+  /// Whether the pair is in contact, and whether it was in the report before.
   PairPhase phase = PairPhase::near;
+  /// False if a budget ran out, or if #contacts_cut is true.
   bool complete = true;
+  /// True if a limit left contacts out.
   bool contacts_cut = false;
+  /// True if the positions or the pose of one of the objects were not taken.
   bool stale = false;
+  /// The bounds of the distance.
   DistanceBounds distance;
+  /// The two points that are DistanceBounds::upper apart.
   Witness witness;
+  /// The vertices of feature a of the witness, if it is an edge.
   EdgeVertices witness_edge_a{};
+  /// The vertices of feature b of the witness, if it is an edge.
   EdgeVertices witness_edge_b{};
+  /// The contacts of the pair, sorted by kind, feature a, feature b.
   std::vector<ReportedContact> contacts;
 };
 
+/// A diagnostic in a report file.
 struct ReportedDiagnostic {
-  std::optional<std::uint32_t> object;  ///< none for an id that names no object of the header
+  /// The object, by its ReportedObject::id. There is no value if the diagnostic names no object of the
+  /// header.
+  std::optional<std::uint32_t> object;
+  /// The kind of bad input.
   DiagnosticKind kind = DiagnosticKind::stale_id;
+  /// One sentence that says what was wrong and where.
   std::string message;
 };
 
+/// A frame of a report file.
 struct ReportedFrame {
+  /// The number under which the writer wrote the frame.
   std::uint64_t frame = 0;
+  /// True if no budget cut a pair short, and no limit left contacts out.
   bool complete = true;
+  /// The rows, sorted by the order in which a, then b, were added.
   std::vector<ReportedPair> pairs;
+  /// The diagnostics of the step.
   std::vector<ReportedDiagnostic> diagnostics;
-  StepStatistics statistics;  ///< timings that were left out are 0
+  /// The counters and times of the step. Numbers that the file leaves out are 0.
+  StepStatistics statistics;
 };
 
-/// Reads such a file back, one frame at a time. For one thread at a time.
+/// Reads a file of a ReportWriter back, one frame at a time. One thread at a time may use a reader.
 class GRAZE_API ReportReader {
  public:
-  /// Opens the file and reads the header. Throws InputError for a file that cannot be read or is no report.
+  /// Opens the file and reads the header. Throws InputError if the file cannot be read or is no report.
   explicit ReportReader(const std::filesystem::path& path);
+  /// Closes the file.
   ~ReportReader();
+  /// Takes the file of the other reader, which may then only be destroyed or assigned to.
   ReportReader(ReportReader&&) noexcept;
+  /// Closes the file of this reader and takes that of the other one, which may then only be destroyed or
+  /// assigned to.
   ReportReader& operator=(ReportReader&&) noexcept;
 
+  /// Returns the objects of the header.
   [[nodiscard]] std::span<const ReportedObject> objects() const;
-  /// Those that a report keeps: distances, detail, accuracy, budgets.
+  /// Returns the settings of the header: distances, detail, accuracy, budgets and limits. Other settings are
+  /// defaults.
   [[nodiscard]] const SceneSettings& settings() const;
-  /// The next frame, or nothing at the end. Throws InputError, naming the line, for one that is no frame.
+  /// Returns the next frame, or no value at the end of the file. Throws InputError, with the line number, if
+  /// the line is no frame.
   std::optional<ReportedFrame> next();
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// @}
 
 }  // namespace graze::io

@@ -14,75 +14,122 @@
 
 namespace graze::io {
 
-/// A part of a file by its number or by its name.
+/// @addtogroup io_scenes
+/// @{
+
+/// Names a part of a mesh file, either by its number from 0 or by its name.
 using NumberOrName = std::variant<std::uint32_t, std::string>;
 
-/// An axis that points up. With z up, x points right and y away from the viewer. With y up, x points right
-/// and z towards the viewer. With x up, y points left and z towards the viewer.
-enum class UpAxis : std::uint8_t { x, y, z };
-
-/// One entry of a scene's `objects`: what to load, how it moves, what it may touch. An entry without `node`
-/// whose file holds several objects stands for all of them.
-struct ObjectDescription {
-  std::string name;            ///< empty: the file's own name for the object
-  std::filesystem::path mesh;  ///< as it can be opened: already relative to the scene file
-  std::optional<NumberOrName> node;
-  Motion motion = Motion::rigid;
-  std::filesystem::path positions;        ///< a numbered sequence or a vertex cache; empty: none
-  std::optional<NumberOrName> animation;  ///< an animation of the mesh file itself
-  bool animate_where_possible = false;    ///< the first animation for each object that the file animates
-  std::optional<UpAxis> up;               ///< which axis of the file points up; none: axes are left alone
-  bool up_is_the_files = false;           ///< `up` is what the file says
-  std::optional<double> metres_per_unit;  ///< the length of 1 in the file; none: lengths are left alone
-  bool unit_is_the_files = false;         ///< `metres_per_unit` is what the file says
-  Placement transform;
-  std::vector<KeyPose> poses;  ///< ascending by frame
-  std::uint32_t layer = 1;
-  std::uint32_t collides_with = ~std::uint32_t{0};
-  std::uint32_t group = 0;
-  double margin = 0;
-  std::uint32_t kind = 0;
-  std::string place;  ///< where this entry stands, for errors: `scene.json: objects[2]`
+/// Says which axis points up.
+enum class UpAxis : std::uint8_t {
+  x,  ///< x points up, y points left, and z points towards the viewer.
+  y,  ///< y points up, x points right, and z points towards the viewer.
+  z,  ///< z points up, x points right, and y points away from the viewer.
 };
 
-/// Thresholds for a kind of pair; what it leaves out is the scene's.
+/// One entry of a scene's `objects`: what to load, how it moves, and what it may touch. An entry without
+/// #node whose file holds several objects stands for all of them.
+struct ObjectDescription {
+  /// The name of the object. If it is empty, the file's own name for the object counts.
+  std::string name;
+  /// The mesh file, as a path that can be opened. A path in a scene file is relative to the scene file.
+  std::filesystem::path mesh;
+  /// The object of the file. No value means all of them.
+  std::optional<NumberOrName> node;
+  /// How the object may move.
+  Motion motion = Motion::rigid;
+  /// A numbered sequence or a vertex cache with the positions of a deformable object. Empty means none.
+  std::filesystem::path positions;
+  /// An animation of the mesh file that moves a deformable object. No value means none.
+  std::optional<NumberOrName> animation;
+  /// True plays the first animation of the file for each object that an animation moves.
+  bool animate_where_possible = false;
+  /// The axis of the file that points up. No value means that axes are left alone.
+  std::optional<UpAxis> up;
+  /// True means that #up is the axis that the file says.
+  bool up_is_the_files = false;
+  /// The length of 1 in the file, in metres. No value means that lengths are left alone.
+  std::optional<double> metres_per_unit;
+  /// True means that #metres_per_unit is the unit that the file says.
+  bool unit_is_the_files = false;
+  /// The place, the rotation and the scale of the object.
+  Placement transform;
+  /// The poses of a rigid object, ascending by frame. If there are none, it stands at #transform.
+  std::vector<KeyPose> poses;
+  /// The layers of the object, see ObjectSettings::layer.
+  std::uint32_t layer = 1;
+  /// The layers that the object is looked at with, see ObjectSettings::collides_with.
+  std::uint32_t collides_with = ~std::uint32_t{0};
+  /// The group of the object, see ObjectSettings::group.
+  std::uint32_t group = 0;
+  /// The margin of the object, see ObjectSettings::margin.
+  double margin = 0;
+  /// The kind of the object, see ObjectSettings::kind.
+  std::uint32_t kind = 0;
+  /// How errors name this entry, such as `scene.json: objects[2]`.
+  std::string place;
+};
+
+/// Thresholds for a kind of pair, see PairRule.
 struct RuleDescription {
+  /// The two kinds of objects, each 0 to 255, in either order.
   std::array<std::uint32_t, 2> kinds{};
+  /// The contact distance. No value means that of the scene.
   std::optional<double> contact_distance;
+  /// The range. No value means that of the scene.
   std::optional<double> range;
+  /// The numbers of Accuracy::paper(). If it is empty, the scene's own numbers count.
   std::vector<double> epsilon;
 };
 
-/// Objects that are not looked at together, each by an entry's name or by an object's own.
+/// Two sets of objects that are not looked at together.
 struct IgnoreDescription {
+  /// Two names. The name of an entry stands for all of its objects. Other names are those of single objects.
   std::array<std::string, 2> names;
-  std::string place;  ///< for errors
+  /// How errors name this entry.
+  std::string place;
 };
 
-/// A scene as its file says it: nothing loaded yet.
+/// A scene as its file describes it. No mesh is loaded yet: Player does that.
 struct SceneDescription {
-  std::string file;  ///< what errors call the scene
+  /// How errors name the scene.
+  std::string file;
+  /// The settings of the scene.
   SceneSettings settings;
-  std::optional<std::uint32_t> frames;  ///< none: as long as the longest motion
+  /// The number of frames. No value means as many as the longest motion has.
+  std::optional<std::uint32_t> frames;
+  /// The rate at which animations of mesh files are sampled.
   double frames_per_second = 30;
-  UpAxis up = UpAxis::z;       ///< which axis of the scene points up
-  double metres_per_unit = 1;  ///< the length of 1 in the scene
+  /// The axis of the scene that points up. It matters only to objects that have ObjectDescription::up.
+  UpAxis up = UpAxis::z;
+  /// The length of 1 in the scene, in metres. It matters only to objects that have
+  /// ObjectDescription::metres_per_unit.
+  double metres_per_unit = 1;
+  /// The entries of the scene's objects, at least one.
   std::vector<ObjectDescription> objects;
+  /// Thresholds for kinds of pairs.
   std::vector<RuleDescription> rules;
+  /// Pairs that are not looked at.
   std::vector<IgnoreDescription> ignore;
 };
 
-/// Reads the scene file described in docs/formats.md. Throws InputError for a file that cannot be read, JSON
-/// that does not parse (with line and column), unknown, repeated or missing keys, wrong types and values out
-/// of range, each named by its place.
+/// Reads a scene file. docs/formats.md describes the format.
+///
+/// Throws InputError if the file cannot be read, or if its JSON does not parse, with line and column. Also
+/// throws InputError for a key that is unknown, repeated or missing, and for a value of a wrong type or out
+/// of range. The message says where in the file it stands.
 GRAZE_API SceneDescription read_scene_file(const std::filesystem::path& path);
 
-/// The scene of all objects of some mesh files, each at rest, or playing its file's first animation where it
-/// has one.
+/// Describes a scene of all objects of some mesh files. An object that an animation of its file moves plays
+/// the first animation. Every other object is at rest.
 GRAZE_API SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files);
 
-/// `none`, `closest`, `regions`, `vertices` or `features`; nothing for another word.
+/// Returns the detail that a word names: `none`, `closest`, `regions`, `vertices` or `features`. Returns no
+/// value for another word.
 GRAZE_API std::optional<ContactDetail> contact_detail_from(std::string_view word);
+/// Returns the enumerator's own name, such as "features".
 GRAZE_API std::string_view to_string(ContactDetail detail);
+
+/// @}
 
 }  // namespace graze::io
