@@ -100,12 +100,12 @@ TEST_CASE(
   for (const Meeting& meeting : all)
     for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features})
       for (const double threshold : {0.0, 0.02})
-        for (const auto& [reach, slack, look_slack] :
+        for (const auto& [reach, slack, leaf_test_slack] :
              {std::array{infinity, 0.25, 0.0}, {0.3, 0.25, 0.1}, {infinity, 1e-3, 0.01}}) {
           PairQuery query = query_of(detail, threshold);
           query.reach = reach;
           query.slack = slack;
-          query.look_slack = look_slack;
+          query.leaf_test_slack = leaf_test_slack;
           const Tally tally = compare_steps(meeting, query);
           if (detail != ContactDetail::none) continue;
           sum.touched += tally.touched;
@@ -160,7 +160,7 @@ TEST_CASE("touching: surfaces on a grid that part by less than leaves are looked
     const Eigen::Vector3d by = random.vector(-0.01, 0.01);
     PairQuery query = query_of(ContactDetail::none, given.threshold);
     query.slack = 0.01;
-    query.look_slack = 0.1;
+    query.leaf_test_slack = 0.1;
     LeafFront front;
     PairAnswer answer;
     PairCounters counters;

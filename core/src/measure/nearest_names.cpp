@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/bytes_of.hpp"
-#include "core/base/room_to_spare.hpp"
+#include "core/base/growth_policy.hpp"
 
 namespace graze {
 namespace {

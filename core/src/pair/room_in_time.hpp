@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/base/room_to_spare.hpp"
+#include "core/base/growth_policy.hpp"
 #include "pair/time_limit.hpp"
 
 namespace graze {
@@ -20,7 +20,7 @@ template <typename Element>
 void make_room_in_time(std::vector<Element>& elements, std::size_t count, TimeLimit* time) {
   if (time == nullptr) return resize_to_overwrite(elements, count);
   constexpr std::size_t at_once = 16384 / sizeof(Element);
-  if (count > elements.capacity()) reserve_to_overwrite(elements, with_room_to_spare(count));
+  if (count > elements.capacity()) reserve_to_overwrite(elements, with_growth_room(count));
   if (elements.size() > count) elements.resize(count, Element{});
   while (elements.size() < count) {
     time->check_for({});

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/cut_by_work.hpp"
-#include "core/base/room_to_spare.hpp"
+#include "core/base/growth_policy.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/search/pair_detector.hpp"
 #include "leaves/closest_vertices.hpp"

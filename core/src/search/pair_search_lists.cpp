@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "core/base/room_to_spare.hpp"
+#include "core/base/growth_policy.hpp"
 #include "leaves/feature_pairs.hpp"
 #include "search/pair_search.hpp"
 #include "search/pair_search_worker.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/base/cut_by_work.hpp"
-#include "core/base/room_to_spare.hpp"
+#include "core/base/growth_policy.hpp"
 #include "leaves/feature_pairs.hpp"
 #include "measure/measure.hpp"
 #include "measure/measure_batch.hpp"

@@ -35,7 +35,7 @@ class ClosestRange {
         query_(query),
         found_(found),
         set_(pair, ties, found.closest),
-        look_slack_(query.mode == AccuracyMode::exact ? query.look_slack : 0),
+        leaf_test_slack_(query.mode == AccuracyMode::exact ? query.leaf_test_slack : 0),
         may_pierce_(may_pierce) {}
 
   /// Whether something this near could still matter, now or before the surfaces have moved by `slack`; what
@@ -54,7 +54,7 @@ class ClosestRange {
 
   /// What is certainly further than this does not matter now; in units of the scene.
   [[nodiscard]] double limit() const {
-    const double reached = std::min(set_.upper(), query_.reach) + look_slack_;
+    const double reached = std::min(set_.upper(), query_.reach) + leaf_test_slack_;
     if (query_.mode != AccuracyMode::within) return reached;
     return std::min(reached, std::max(query_.threshold, set_.upper() - query_.tolerance));
   }
@@ -117,7 +117,7 @@ class ClosestRange {
   const PairQuery& query_;
   ClosestFound& found_;
   ClosestSet set_;
-  double look_slack_;
+  double leaf_test_slack_;
   bool may_pierce_;
   double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a look into two leaves began
 };

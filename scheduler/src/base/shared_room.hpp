@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/base/room_to_spare.hpp"
+#include "core/base/growth_policy.hpp"
 
 namespace graze {
 
@@ -41,7 +41,7 @@ class SharedRoom {
     const std::size_t used = used_.exchange(0, std::memory_order_relaxed);
     if (used <= size_) return;
     for (auto& lists : beyond_) lists = {};
-    reserve(with_room_to_spare(used));
+    reserve(with_growth_room(used));
   }
   void reserve(std::size_t count) {
     if (size_ >= count) return;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/bytes_of.hpp"
-#include "objects/look_slack.hpp"
+#include "objects/leaf_test_slack.hpp"
 
 namespace graze {
 namespace {
@@ -100,7 +100,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   const double motion = motion_of(job);
   const double leaf = smaller_leaf_of(job);
   query.slack = slack_of(motion, leaf);
-  query.look_slack = look_slack.of(motion, leaf);
+  query.leaf_test_slack = leaf_test_slack.of(motion, leaf);
   query.list_slack =
       (is_about_vertices(query.detail) ? list_slack_of_vertices : list_slack_of_features).of(motion, leaf);
   query.front_limit = front_pairs_of_all / pair_count_;

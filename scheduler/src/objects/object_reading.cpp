@@ -1,3 +1,5 @@
+#include "objects/object_reading.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -6,8 +8,7 @@
 
 #include "base/object_name.hpp"
 #include "core/base/number_text.hpp"
-#include "objects/look_slack.hpp"
-#include "objects/object_reading.hpp"
+#include "objects/leaf_test_slack.hpp"
 
 namespace graze {
 namespace {

@@ -4,7 +4,7 @@
 #include <graze/report.hpp>
 
 #include "core/base/bytes_of.hpp"
-#include "core/base/room_to_spare.hpp"
+#include "core/base/growth_policy.hpp"
 
 namespace graze {
 
@@ -83,8 +83,7 @@ class ReportBuilder {
     auto& rows = report_.rows_.contacts;
     rows.swap(list);
     const auto end = static_cast<std::ptrdiff_t>(rows.size());
-    if (rows.capacity() < contact_count_of_pairs())
-      rows.reserve(with_room_to_spare(contact_count_of_pairs()));
+    if (rows.capacity() < contact_count_of_pairs()) rows.reserve(with_growth_room(contact_count_of_pairs()));
     rows.resize(contact_count_of_pairs(), Contact{});
     if (first > 0)
       std::move_backward(rows.begin(), rows.begin() + end,
@@ -95,7 +94,7 @@ class ReportBuilder {
   bool make_room_while(std::size_t contacts, const GoesOn& goes_on) {
     constexpr std::size_t at_once = 128;
     auto& rows = report_.rows_.contacts;
-    if (rows.capacity() < contacts) reserve_to_overwrite(rows, with_room_to_spare(contacts));
+    if (rows.capacity() < contacts) reserve_to_overwrite(rows, with_growth_room(contacts));
     while (rows.size() < contacts && goes_on())
       rows.resize(std::min(contacts, rows.size() + at_once), Contact{});
     return rows.size() >= contacts;

@@ -23,7 +23,7 @@ struct PairQuery {
   double slack = 0;
   /// Where the closest points are looked for, leaves are looked into for what is this much further than need
   /// be, so that it is known for some steps which of them have nothing as near as that.
-  double look_slack = 0;
+  double leaf_test_slack = 0;
   /// Where all contacts are looked for, features that are this much further than the threshold are listed, so
   /// that for some steps no others need be asked; 0: none are.
   double list_slack = 0;

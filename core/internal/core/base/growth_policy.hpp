@@ -9,7 +9,7 @@ namespace graze {
 /// How many elements to take memory for where `count` have none: half as many again, so that a number that
 /// rises a little from step to step takes memory a few times only. What is to spare costs addresses; memory
 /// that nobody has written to is not there yet.
-constexpr std::size_t with_room_to_spare(std::size_t count) {
+constexpr std::size_t with_growth_room(std::size_t count) {
   return count + count / 2;
 }
 
@@ -28,14 +28,14 @@ template <typename Element>
 void reserve_for_one_of_many(std::vector<Element>& elements, std::size_t count, std::size_t most) {
   constexpr std::size_t least = 64;
   if (elements.capacity() < count)
-    reserve_to_overwrite(elements, std::min(std::max(with_room_to_spare(count), least), most));
+    reserve_to_overwrite(elements, std::min(std::max(with_growth_room(count), least), most));
 }
 
 /// Makes them so many, all to be written over: those that there were stay what they are, so that in most
 /// steps none is made.
 template <typename Element>
 void resize_to_overwrite(std::vector<Element>& elements, std::size_t count) {
-  if (count > elements.capacity()) reserve_to_overwrite(elements, with_room_to_spare(count));
+  if (count > elements.capacity()) reserve_to_overwrite(elements, with_growth_room(count));
   // Made in place each would be zeroed first, by a slow string store.
   elements.resize(count, Element{});
 }

@@ -19,7 +19,7 @@ struct SlackOfMotion {
 };
 
 /// For the closest points, for lists of features, and for those of vertices.
-inline constexpr SlackOfMotion look_slack{64, 1.0 / 64};
+inline constexpr SlackOfMotion leaf_test_slack{64, 1.0 / 64};
 inline constexpr SlackOfMotion list_slack_of_features{16, 1.0 / 64};
 inline constexpr SlackOfMotion list_slack_of_vertices{16, 1.0 / 32};
 

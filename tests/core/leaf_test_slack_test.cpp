@@ -46,7 +46,7 @@ Looks tremble(const DriftingPair& rest, const PairQuery& query, double tremor) {
   Asking patient{query, {}, {}, {}};
   Asking hasty{query, {}, {}, {}};
   patient.query.slack = hasty.query.slack = 0.1;
-  patient.query.look_slack = 16 * (2 * tremor + std::abs(rest.drift));
+  patient.query.leaf_test_slack = 16 * (2 * tremor + std::abs(rest.drift));
   Looks looks;
   for (int step = 0; step < 24; ++step) {
     const auto seed = static_cast<std::uint64_t>(step);
