@@ -1,11 +1,12 @@
 // How far apart boxes are: never more than they are, hardly less, and nothing where they meet.
 
+#include "core/base/box.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "core/base/box.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"

@@ -2,6 +2,8 @@
 // kernels that ask the same of several features at once, is compared with rational arithmetic, on features
 // that are parallel, degenerate, at right angles, far away, minute and huge.
 
+#include "arithmetic/certain.hpp"
+
 #include <array>
 #include <cmath>
 #include <graze/instruction_set.hpp>
@@ -9,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "arithmetic/certain.hpp"
 #include "core/nearest_places.hpp"
 #include "kernels/places.hpp"
 #include "support/catch.hpp"

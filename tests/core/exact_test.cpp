@@ -1,15 +1,17 @@
 // The exact numbers against GMP's rationals, that balls and wide numbers hold the true value, and that what
 // wide numbers are rounded to is what exact ones are, on doubles of wild exponents.
 
+#include "arithmetic/exact.hpp"
+
+#include <gmpxx.h>
+
 #include <array>
 #include <cmath>
-#include <gmpxx.h>
 #include <iostream>
 #include <limits>
 #include <vector>
 
 #include "arithmetic/arithmetic.hpp"
-#include "arithmetic/exact.hpp"
 #include "arithmetic/wide.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"

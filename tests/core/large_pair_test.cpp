@@ -1,5 +1,7 @@
 // A pair that is cut into slices has the answer of one that is not, whoever runs the slices.
 
+#include "core/search/large_pair.hpp"
+
 #include <array>
 #include <iostream>
 #include <limits>
@@ -13,7 +15,6 @@
 #include "core/pair/pair_answer.hpp"
 #include "core/pair/pair_counters.hpp"
 #include "core/pair/pair_query.hpp"
-#include "core/search/large_pair.hpp"
 #include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"

@@ -1,6 +1,8 @@
 // What is remembered of the nearest points: never nearer than the surfaces are, and not to be seen in any
 // answer.
 
+#include "walk/last_witness.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +21,6 @@
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"
-#include "walk/last_witness.hpp"
 
 namespace graze::tests {
 namespace {

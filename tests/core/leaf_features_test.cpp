@@ -1,6 +1,8 @@
 // A leaf's features are laid out from its vertices, each brought into the frame once; here every corner is
 // brought there by itself.
 
+#include "leaves/leaf_features.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -10,7 +12,6 @@
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
-#include "leaves/leaf_features.hpp"
 #include "names/naming.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"

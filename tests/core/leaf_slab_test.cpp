@@ -1,5 +1,7 @@
 // Slabs of leaves, in long double: what they are to hold, and that leaves which they say to be apart are.
 
+#include "surface/leaf_slab.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,7 +12,6 @@
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"
-#include "surface/leaf_slab.hpp"
 #include "surface/made_of_leaves.hpp"
 
 namespace graze::tests {

@@ -1,6 +1,8 @@
 // Listed vertices are brought into a frame as one by one: bit for bit, for every instruction set, from floats
 // and from doubles.
 
+#include "leaves/listed_vertices.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,7 +12,6 @@
 
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
-#include "leaves/listed_vertices.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
 #include "support/random_scenes.hpp"

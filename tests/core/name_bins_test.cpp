@@ -1,5 +1,7 @@
 // Bins ascend as names do, and putting names into bins loses none.
 
+#include "names/name_bins.hpp"
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -7,7 +9,6 @@
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
-#include "names/name_bins.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 

@@ -1,9 +1,10 @@
 // NameOrder sorts as comparing does.
 
+#include "names/name_order.hpp"
+
 #include <algorithm>
 #include <vector>
 
-#include "names/name_order.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 

@@ -1,10 +1,11 @@
 // NameSet holds what a std::set would.
 
+#include "names/name_set.hpp"
+
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "names/name_set.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 

@@ -1,6 +1,8 @@
 // Pairs of vertices, and the closest ones, of surfaces that meet in one place, of those that lie along each
 // other, small and large, far away and of any scale, beside going through all pairs.
 
+#include "vertices/near_vertices.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <graze/instruction_set.hpp>
@@ -20,7 +22,6 @@
 #include "support/catch.hpp"
 #include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
-#include "vertices/near_vertices.hpp"
 
 namespace graze::tests {
 namespace {

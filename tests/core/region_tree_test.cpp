@@ -1,6 +1,8 @@
 // The octree of regions, its middle vertices (eq. 1), radii (eq. 2) and level radii (eq. 3), and the boxes,
 // against the oracle's tree and plain recomputation.
 
+#include "core/mesh/region_tree.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -10,7 +12,6 @@
 #include "core/base/box.hpp"
 #include "core/comparison.hpp"
 #include "core/mesh/indexed_mesh.hpp"
-#include "core/mesh/region_tree.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
@@ -231,7 +232,8 @@ TEST_CASE("regions: middle vertices decide ties exactly, for the lowest number")
     check_tree(points(pair));
   }
   CHECK(indexed(*mesh_of(points({{1, 0, 0}, {-1, 0, 0}}))).regions().region(0).middle == 0);
-  CHECK(indexed(*mesh_of(points({{3, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}))).regions().region(0).middle == 1);
+  CHECK(indexed(*mesh_of(points({{3, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}))).regions().region(0).middle ==
+        1);
 }
 
 TEST_CASE("regions: a moved mesh has the same tree") {

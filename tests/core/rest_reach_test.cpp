@@ -1,11 +1,12 @@
 // The box of a posed mesh and the bound of its motion, against its vertices one by one.
 
+#include "core/mesh/rest_reach.hpp"
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <graze/mesh.hpp>
 
 #include "core/mesh/indexed_mesh.hpp"
-#include "core/mesh/rest_reach.hpp"
 #include "models/models.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
@@ -27,7 +28,8 @@ Eigen::Vector3d placed(const Rows& rows, const Eigen::Vector3d& p) {
 
 Box box_of(const Mesh& mesh, const Rows& rows) {
   Box box;
-  for (const std::uint32_t vertex : indexed(mesh).regions().vertices()) box.add(placed(rows, mesh.rest()[vertex]));
+  for (const std::uint32_t vertex : indexed(mesh).regions().vertices())
+    box.add(placed(rows, mesh.rest()[vertex]));
   return box;
 }
 

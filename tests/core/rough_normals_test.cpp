@@ -1,6 +1,8 @@
 // Beside the same sums in long double, with every instruction set. The sides of whole contacts are in
 // normals_test.cpp.
 
+#include "measure/rough_normals.hpp"
+
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -11,7 +13,6 @@
 #include "core/comparison.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
-#include "measure/rough_normals.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"

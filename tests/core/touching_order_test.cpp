@@ -1,5 +1,7 @@
 // The order in which pairs of leaves are asked whether they touch, against its own definition.
 
+#include "walk/touching_order.hpp"
+
 #include <algorithm>
 #include <set>
 
@@ -7,7 +9,6 @@
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
-#include "walk/touching_order.hpp"
 
 namespace graze::tests {
 namespace {

@@ -128,7 +128,8 @@ TEST_CASE("vertex blocks: each used vertex is in one block, whose vertices are n
     std::vector<std::uint32_t> used;
     for (std::uint32_t vertex = 0; vertex < mesh->vertex_count(); ++vertex)
       if (mesh->is_used(vertex)) used.push_back(vertex);
-    std::vector<std::uint32_t> order(indexed(*mesh).block_order().begin(), indexed(*mesh).block_order().end());
+    std::vector<std::uint32_t> order(indexed(*mesh).block_order().begin(),
+                                     indexed(*mesh).block_order().end());
     std::sort(order.begin(), order.end());
     CHECK(order == used);
   }
@@ -140,7 +141,8 @@ TEST_CASE("vertex blocks: each used vertex is in one block, whose vertices are n
     shuffled[i] = i;
     std::swap(shuffled[i], shuffled[random.below(i + 1)]);
   }
-  const std::vector<std::uint32_t> order(indexed(*sphere).block_order().begin(), indexed(*sphere).block_order().end());
+  const std::vector<std::uint32_t> order(indexed(*sphere).block_order().begin(),
+                                         indexed(*sphere).block_order().end());
   CHECK(sides_of(*sphere, order) < 0.25 * sides_of(*sphere, shuffled));
 }
 

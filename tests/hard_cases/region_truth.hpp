@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gmpxx.h>
+
 #include <vector>
 
 #include "core/surface/surface.hpp"

@@ -1,6 +1,7 @@
 // What the fuzzers of tests/fuzz found, and what was found while they were written.
 
 #include <assimp/scene.h>
+
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
 #include <graze/io/scene_file.hpp>

@@ -1,10 +1,11 @@
 // Declared access: a task may do what it declared and nothing else.
 
+#include "base/access.hpp"
+
 #include <graze/graze.hpp>
 #include <iostream>
 #include <stdexcept>
 
-#include "base/access.hpp"
 #include "base/task_pool.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"

@@ -1,11 +1,12 @@
 // The contacts of a report, written in stretches that know nothing of pairs, against a map of the last ones.
 
+#include "report/contact_rows.hpp"
+
 #include <iostream>
 #include <map>
 #include <set>
 #include <tuple>
 
-#include "report/contact_rows.hpp"
 #include "scenes/random.hpp"
 #include "support/catch.hpp"
 

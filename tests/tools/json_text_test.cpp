@@ -1,3 +1,5 @@
+#include "text/json_text.hpp"
+
 #include <bit>
 #include <clocale>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "support/catch.hpp"
-#include "text/json_text.hpp"
 
 namespace {
 

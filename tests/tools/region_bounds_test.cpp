@@ -2,10 +2,11 @@
 // above the true distance, by exact arithmetic; known distances are met; no near pair is lost on the way
 // down.
 
+#include <gmpxx.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <gmpxx.h>
 #include <graze/mesh.hpp>
 #include <limits>
 #include <numbers>

@@ -1,3 +1,5 @@
+#include "figure_plot.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "core/mesh/indexed_mesh.hpp"
-#include "figure_plot.hpp"
 #include "gnuplot.hpp"
 #include "text_format.hpp"
 

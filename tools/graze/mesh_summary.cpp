@@ -1,3 +1,5 @@
+#include "mesh_summary.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <span>
@@ -5,7 +7,6 @@
 #include <vector>
 
 #include "core/mesh/indexed_mesh.hpp"
-#include "mesh_summary.hpp"
 #include "text_format.hpp"
 
 namespace graze::tools {
@@ -84,11 +85,12 @@ std::string summarise_mesh(const Mesh& mesh, const std::string& indent) {
   lines += indent + "counts     " + counts_line(mesh) + "\n";
   lines += indent + "bounds     " + bounds_text(mesh.rest()) + "\n";
   lines += indent + "surface    " + oddities_line(mesh) + "\n";
-  lines += indent + "regions    " + levels_line(indexed(mesh).regions()) + leaves_line(indexed(mesh).regions()) + "\n";
+  lines += indent + "regions    " + levels_line(indexed(mesh).regions()) +
+           leaves_line(indexed(mesh).regions()) + "\n";
   lines += indent + "epsilon    " + epsilon_line(mesh) + "\n";
   lines += indent + "memory     " +
-           format("%zu bytes, %zu of them regions, %.0f a vertex", bytes, indexed(mesh).regions().byte_count(),
-                  static_cast<double>(bytes) / mesh.vertex_count()) +
+           format("%zu bytes, %zu of them regions, %.0f a vertex", bytes,
+                  indexed(mesh).regions().byte_count(), static_cast<double>(bytes) / mesh.vertex_count()) +
            "\n";
   return lines;
 }

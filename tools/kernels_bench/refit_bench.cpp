@@ -1,8 +1,9 @@
 // What is done for each vertex of an object that moved, and tests of boxes; the rates are of vertices and of
 // boxes.
 
-#include <Eigen/Core>
 #include <benchmark/benchmark.h>
+
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 

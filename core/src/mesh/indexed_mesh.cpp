@@ -57,7 +57,7 @@ std::vector<Eigen::Vector3d> copy_of(const PositionView& view) {
 }  // namespace
 
 IndexedMesh::IndexedMesh(PositionView rest, std::span<const std::uint32_t> corners,
-                   std::span<const std::uint32_t> corner_counts) {
+                         std::span<const std::uint32_t> corner_counts) {
   const FloatingPointScope scope;
   rest_ = copy_of(rest);
   take_faces(corners, corner_counts);
@@ -68,7 +68,8 @@ IndexedMesh::IndexedMesh(PositionView rest, std::span<const std::uint32_t> corne
   regions_ = RegionTree(*this);
 }
 
-void IndexedMesh::take_faces(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> corner_counts) {
+void IndexedMesh::take_faces(std::span<const std::uint32_t> corners,
+                             std::span<const std::uint32_t> corner_counts) {
   std::uint64_t corner = 0;
   bool is_even = true;
   for (std::size_t face = 0; face < corner_counts.size(); ++face) {
@@ -255,8 +256,8 @@ std::size_t IndexedMesh::byte_count() const {
   const auto bytes_made = [](const auto&... lists) {
     return ((lists.if_made() != nullptr ? lists.if_made()->byte_count() : 0) + ...);
   };
-  return sizeof(IndexedMesh) + bytes_of(rest_) + bytes_of(corners_) + bytes_of(face_begin_) + bytes_of(face_edges_) +
-         bytes_of(edges_) + bytes_of(used_) + regions_.byte_count() +
+  return sizeof(IndexedMesh) + bytes_of(rest_) + bytes_of(corners_) + bytes_of(face_begin_) +
+         bytes_of(face_edges_) + bytes_of(edges_) + bytes_of(used_) + regions_.byte_count() +
          bytes_made(neighbours_, vertex_faces_, edge_faces_, fans_, blocks_, rest_reach_);
 }
 

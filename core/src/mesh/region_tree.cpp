@@ -1,3 +1,5 @@
+#include "core/mesh/region_tree.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,7 +10,6 @@
 #include "core/base/box.hpp"
 #include "core/base/bytes_of.hpp"
 #include "core/mesh/indexed_mesh.hpp"
-#include "core/mesh/region_tree.hpp"
 #include "mesh/middle_vertex.hpp"
 #include "mesh/validate_tree.hpp"
 

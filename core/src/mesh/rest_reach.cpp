@@ -1,9 +1,10 @@
+#include "core/mesh/rest_reach.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "core/mesh/indexed_mesh.hpp"
-#include "core/mesh/rest_reach.hpp"
 
 namespace graze {
 namespace {

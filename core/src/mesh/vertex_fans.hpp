@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// IndexedMesh::vertex_fans of all vertices, one after the other, and where each begins. From the mesh's faces and
-/// the faces of its vertices.
+/// IndexedMesh::vertex_fans of all vertices, one after the other, and where each begins. From the mesh's
+/// faces and the faces of its vertices.
 void list_fans(const IndexedMesh& mesh, std::vector<std::uint32_t>& fans, std::vector<std::uint32_t>& begin);
 
 }  // namespace graze

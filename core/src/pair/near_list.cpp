@@ -1,7 +1,8 @@
+#include "core/pair/near_list.hpp"
+
 #include <algorithm>
 
 #include "arithmetic/certain.hpp"
-#include "core/pair/near_list.hpp"
 
 namespace graze {
 

@@ -1,3 +1,5 @@
+#include "core/surface/surface.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -10,7 +12,6 @@
 
 #include "base/limits.hpp"
 #include "core/base/bytes_of.hpp"
-#include "core/surface/surface.hpp"
 #include "kernels/point_registers.hpp"
 #include "surface/passes_for.hpp"
 #include "surface/validate_surface.hpp"

@@ -1,9 +1,10 @@
+#include "core/surface/vertex_blocks.hpp"
+
 #include <algorithm>
 #include <limits>
 
 #include "base/middle_of_three.hpp"
 #include "core/base/bytes_of.hpp"
-#include "core/surface/vertex_blocks.hpp"
 #include "surface/passes_for.hpp"
 
 namespace graze {

@@ -1,10 +1,11 @@
+#include "core/surface/vertex_stretches.hpp"
+
 #include <array>
 #include <limits>
 
 #include "base/middle_of_three.hpp"
 #include "core/base/bytes_of.hpp"
 #include "core/surface/vertex_blocks.hpp"
-#include "core/surface/vertex_stretches.hpp"
 #include "surface/passes_for.hpp"
 
 namespace graze {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <assimp/matrix4x4.h>
 #include <assimp/quaternion.h>
 #include <assimp/vector3.h>
+
+#include <Eigen/Geometry>
 
 namespace graze::io {
 

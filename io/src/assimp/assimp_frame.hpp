@@ -1,6 +1,7 @@
 #pragma once
 
 #include <assimp/scene.h>
+
 #include <graze/io/mesh_file.hpp>
 #include <string>
 #include <string_view>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <assimp/scene.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <assimp/scene.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>

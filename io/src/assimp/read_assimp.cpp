@@ -1,8 +1,9 @@
 #include "assimp/read_assimp.hpp"
 
-#include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
 #include <exception>
 #include <memory>
 #include <utility>

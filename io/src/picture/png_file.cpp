@@ -1,7 +1,8 @@
 #include "picture/png_file.hpp"
 
-#include <graze/io/error.hpp>
 #include <png.h>
+
+#include <graze/io/error.hpp>
 
 namespace graze::io {
 

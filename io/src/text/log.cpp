@@ -1,7 +1,8 @@
-#include <graze/io/log.hpp>
-#include <memory>
 #include <spdlog/logger.h>
 #include <spdlog/sinks/stdout_sinks.h>
+
+#include <graze/io/log.hpp>
+#include <memory>
 
 namespace graze::io {
 namespace {

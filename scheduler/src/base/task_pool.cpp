@@ -1,12 +1,13 @@
 #include "base/task_pool.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
 #include <utility>
 
 #include "base/access.hpp"

@@ -52,8 +52,8 @@ bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& nam
 constexpr std::uint32_t vertices_each = 1024;
 
 /// Copies the positions that faces use from `begin` to `end`.
-void copy_some(const IndexedMesh& mesh, const PositionView& view, CopiedPositions& positions, std::uint32_t begin,
-               std::uint32_t end) {
+void copy_some(const IndexedMesh& mesh, const PositionView& view, CopiedPositions& positions,
+               std::uint32_t begin, std::uint32_t end) {
   const std::size_t each = positions.view().stride_bytes();
   const auto* const from = static_cast<const std::byte*>(view.data());
   std::byte* const to = positions.data();

@@ -26,7 +26,8 @@ void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneS
   if (wants_blocks(detail, scene.accuracy.mode())) mesh.prepare_for(IndexedMesh::Use::blocks);
   if (scene.accuracy.mode() == AccuracyMode::paper) mesh.prepare_for(IndexedMesh::Use::neighbours);
   if (detail != ContactDetail::none)
-    mesh.prepare_for(is_about_vertices(detail) ? IndexedMesh::Use::normals_of_points : IndexedMesh::Use::normals);
+    mesh.prepare_for(is_about_vertices(detail) ? IndexedMesh::Use::normals_of_points
+                                               : IndexedMesh::Use::normals);
   if (object.motion != Motion::deformable) mesh.prepare_for(IndexedMesh::Use::poses);
 }
 

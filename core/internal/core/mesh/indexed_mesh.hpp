@@ -24,7 +24,7 @@ class GRAZE_API IndexedMesh {
   /// From the faces' corners one after the other, and how many each face has. Throws Error as
   /// Mesh::from_polygons says.
   IndexedMesh(PositionView rest, std::span<const std::uint32_t> corners,
-           std::span<const std::uint32_t> corner_counts);
+              std::span<const std::uint32_t> corner_counts);
 
   [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_.size()); }
   [[nodiscard]] std::uint32_t face_count() const { return face_count_; }

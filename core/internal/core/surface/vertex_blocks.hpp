@@ -13,13 +13,14 @@
 
 namespace graze {
 
-/// A surface's used vertices, or those of a part of it, eight at a time in the order of IndexedMesh::block_order,
-/// and a box of each such block; of sixteen boxes one again, and so on. Made anew wherever the surface moved:
-/// for vertices that costs less than what a hierarchy that is kept from step to step would save.
+/// A surface's used vertices, or those of a part of it, eight at a time in the order of
+/// IndexedMesh::block_order, and a box of each such block; of sixteen boxes one again, and so on. Made anew
+/// wherever the surface moved: for vertices that costs less than what a hierarchy that is kept from step to
+/// step would save.
 class VertexBlocks {
  public:
-  static constexpr std::uint32_t block_size = vertices_per_block;   ///< vertices
-  static constexpr std::uint32_t group_size = boxes_per_group;  ///< boxes
+  static constexpr std::uint32_t block_size = vertices_per_block;  ///< vertices
+  static constexpr std::uint32_t group_size = boxes_per_group;     ///< boxes
   static constexpr std::uint32_t group_vertices = vertices_per_group;
   /// So many boxes with those behind the last, so that they are whole groups.
   static constexpr std::size_t in_whole_groups(std::size_t count) {
@@ -33,8 +34,8 @@ class VertexBlocks {
     std::size_t count = 0;
   };
 
-  /// Of positions that lie one beside the other, those in `order`: all of IndexedMesh::block_order, or whole groups
-  /// of it. It is kept as a view.
+  /// Of positions that lie one beside the other, those in `order`: all of IndexedMesh::block_order, or whole
+  /// groups of it. It is kept as a view.
   void make(std::span<const std::uint32_t> order, const PositionView& positions);
   /// Makes room for so many vertices.
   void reserve(std::size_t vertices);

@@ -1,9 +1,10 @@
+#include "experiment/paper/region_escapes.hpp"
+
 #include <map>
 #include <utility>
 
 #include "core/mesh/indexed_mesh.hpp"
 #include "experiment/paper/paper_walk.hpp"
-#include "experiment/paper/region_escapes.hpp"
 
 namespace graze::tools {
 namespace {

@@ -1,3 +1,5 @@
+#include "experiment/regions/partitions.hpp"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <utility>
@@ -7,7 +9,6 @@
 #include "core/mesh/region_tree.hpp"
 #include "experiment/regions/binary_tree.hpp"
 #include "experiment/regions/edge_collapse.hpp"
-#include "experiment/regions/partitions.hpp"
 #include "experiment/regions/surface_halves.hpp"
 
 namespace graze::tools {
