@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/comparison.hpp"
+#include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
@@ -15,7 +16,7 @@
 namespace graze::tests {
 namespace {
 
-FeaturePiece random_piece(oracle::Random& random, const Mesh& mesh) {
+FeaturePiece random_piece(oracle::Random& random, const IndexedMesh& mesh) {
   const auto kind = static_cast<FeatureKind>(random.below(3));
   const std::uint32_t count = kind == FeatureKind::vertex ? mesh.vertex_count()
                               : kind == FeatureKind::edge ? mesh.edge_count()
@@ -24,7 +25,7 @@ FeaturePiece random_piece(oracle::Random& random, const Mesh& mesh) {
   return {{kind, random.chance(0.1) ? count - 1 : random.below(count)}, static_cast<Piece>(random.below(3))};
 }
 
-std::vector<ContactName> random_names(oracle::Random& random, const Mesh& mesh, std::uint32_t count) {
+std::vector<ContactName> random_names(oracle::Random& random, const IndexedMesh& mesh, std::uint32_t count) {
   std::vector<ContactName> names;
   for (std::uint32_t i = 0; i < count; ++i) {
     const FeaturePiece a = random_piece(random, mesh);

@@ -51,8 +51,8 @@ std::vector<Listed> listed(const RegionTree& tree) {
 }
 
 /// What is wrong with how regions lie in the tree's arrays.
-void check_structure(const Mesh& mesh) {
-  const RegionTree& tree = indexed(mesh).regions();
+void check_structure(const IndexedMesh& mesh) {
+  const RegionTree& tree = mesh.regions();
   REQUIRE(tree.level_begin(0) == 0);
   REQUIRE(tree.level_begin(tree.level_count()) == tree.regions().size());
   std::vector<int> leaves_of_vertex(mesh.vertex_count(), 0);

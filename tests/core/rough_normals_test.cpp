@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/comparison.hpp"
+#include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
@@ -95,7 +96,7 @@ struct Asked {
 };
 
 /// Vertex 0, and then the edges from it.
-Asked about_vertex(const Shape& shape, const Mesh& mesh) {
+Asked about_vertex(const Shape& shape, const IndexedMesh& mesh) {
   Asked asked{{vertex_piece(0)}, {expected(shape, 0)}};
   for (std::uint32_t edge = 0; edge < mesh.edge_count(); ++edge)
     if (const auto ends = mesh.edge(edge); ends[0] == 0) {
