@@ -13,13 +13,47 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
-# From the bottom up: a folder may include those before it.
+# From the bottom up: a folder may include those before it. What each is about stands in the drawing.
 ORDER = {
-    "core": ["base", "arithmetic", "kernels", "mesh", "surface", "pair", "names", "measure", "leaves", "walk",
-             "vertices", "paper", "search"],
-    "scheduler": ["base", "calls", "objects", "broad_phase", "pairs", "report", "jobs", "step"],
-    "io": ["text", "mesh", "formats", "assimp", "gltf", "files", "motion", "scene", "report", "picture"],
+    "core": {
+        "base": "limits, small containers",
+        "arithmetic": "signs: double, then exact",
+        "kernels": "loops for each instruction set",
+        "mesh": "indices, regions, vertex order",
+        "surface": "positions, bounds, motion",
+        "pair": "query, answer, front, near list",
+        "names": "closest features of a pair",
+        "measure": "points, normals, sides",
+        "leaves": "features of two leaves, filters",
+        "walk": "DMV, leaf pairs, witness",
+        "vertices": "near vertices, by blocks",
+        "paper": "paper mode, region distances",
+        "search": "one query, in stages",
+    },
+    "scheduler": {
+        "base": "task pool, access rights",
+        "calls": "calls of all threads, ids",
+        "objects": "objects and how they are read",
+        "broad_phase": "objects whose boxes are near",
+        "pairs": "filters, memory, list of jobs",
+        "report": "reports, handles, contact rows",
+        "jobs": "refit, searches on all threads",
+        "step": "one step, and the scene",
+    },
+    "io": {
+        "text": "numbers, JSON, errors, log",
+        "mesh": "raw faces, welding, axes, rigs",
+        "formats": "OBJ, PLY, OFF, STL",
+        "assimp": "what assimp reads",
+        "gltf": "glTF 2",
+        "files": "a reader for each ending",
+        "motion": "clips, key frames, caches",
+        "scene": "scene files, players",
+        "report": "reports as JSON",
+        "picture": "pictures as PNG",
+    },
 }
 LOWER_LAYERS = {"core": [], "scheduler": ["core"], "io": ["core", "scheduler"]}
 # Libraries that a layer may include, by the beginning of the header's name. The standard library's have no slash.
@@ -29,18 +63,18 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]', re.MULTILINE)
 PUBLIC = "include"  # the folder of a layer's public headers, below all others
 
 
-class Place:
+class Location:
     """Where a file stands: its layer, its folder, and whether it is a header of core/internal."""
 
     def __init__(self, layer, folder, internal=False):
         self.layer, self.folder, self.internal = layer, folder, internal
 
     def rank(self):
-        return -1 if self.folder == PUBLIC else ORDER[self.layer].index(self.folder)
+        return -1 if self.folder == PUBLIC else list(ORDER[self.layer]).index(self.folder)
 
 
 def files_of(root):
-    """Every source file of the layers, with its place."""
+    """Every source file of the layers, with where it stands."""
     for layer, folders in ORDER.items():
         for base, internal in ((root / layer / "src", False), (root / layer / "internal" / layer, True)):
             for path in sorted(base.rglob("*")) if base.is_dir() else []:
@@ -49,21 +83,21 @@ def files_of(root):
                 parts = path.relative_to(base).parts
                 if len(parts) != 2 or parts[0] not in folders:
                     raise SystemExit(f"{path.relative_to(root)}: stands in no folder of the order")
-                yield path, Place(layer, parts[0], internal)
+                yield path, Location(layer, parts[0], internal)
         for path in sorted((root / layer / "include").rglob("*.hpp")):
-            yield path, Place(layer, PUBLIC)
+            yield path, Location(layer, PUBLIC)
 
 
-def place_of_include(root, name, layer):
-    """The place of an included header of the project; None for a library's."""
+def location_of_include(root, name, layer):
+    """Where an included header of the project stands; None for a library's."""
     for other in ORDER:
         if (root / other / "include" / name).is_file():
-            return Place(other, PUBLIC)
+            return Location(other, PUBLIC)
     first, _, rest = name.partition("/")
     if first in ORDER and (root / first / "internal" / name).is_file():
-        return Place(first, rest.partition("/")[0], True)
+        return Location(first, rest.partition("/")[0], True)
     if (root / layer / "src" / name).is_file():
-        return Place(layer, first)
+        return Location(layer, first)
     return None
 
 
@@ -97,7 +131,7 @@ def read(root):
         text = path.read_text(encoding="utf-8")
         for match in INCLUDE.finditer(text):
             name = match.group(2)
-            target = place_of_include(root, name, source.layer)
+            target = location_of_include(root, name, source.layer)
             reason = objection(source, name, target, match.group(1) == '"')
             if reason:
                 line = text.count("\n", 0, match.start()) + 1
@@ -129,15 +163,20 @@ def reduced(edges):
 
 def drawing(edges):
     """The includes in Graphviz's language: a box for each layer, arrows from who includes to what is included."""
-    colours = {"core": "#dbe9f6", "scheduler": "#e2f0d9", "io": "#fbe5d6"}
-    lines = ["digraph includes {", "  rankdir=TB; nodesep=0.25; ranksep=0.35; bgcolor=white;",
-             '  node [shape=box, style="filled,rounded", fontname="Helvetica", fontsize=12, margin="0.12,0.05"];',
-             '  edge [color="#707070", arrowsize=0.6];']
+    colours = {"core": ("#eef5fb", "#cfe2f3"), "scheduler": ("#f1f8ec", "#d5e8c8"), "io": ("#fdf3ea", "#f8dcc4")}
+    lines = ["digraph includes {", '  rankdir=TB; nodesep=0.12; ranksep=0.25; bgcolor=white; fontname="Helvetica";',
+             '  node [shape=box, style="filled,rounded", fontname="Helvetica", color="#606060", margin="0.11,0.05"];',
+             '  edge [color="#505050", arrowsize=0.7];']
     for layer, folders in ORDER.items():
-        lines += [f"  subgraph cluster_{layer} {{", f'    label="{layer}"; fontname="Helvetica"; color="#b0b0b0";']
-        for folder in folders + [PUBLIC]:
-            label = "public headers" if folder == PUBLIC else folder
-            lines.append(f'    "{layer}/{folder}" [label="{label}", fillcolor="{colours[layer]}"];')
+        light, dark = colours[layer]
+        lines += [f"  subgraph cluster_{layer} {{", f'    label=<<b>{layer}</b>>; fontsize=18; style=filled;'
+                  f' color="{light}"; margin=8;']
+        for folder, about in [*folders.items(), (PUBLIC, "installed")]:
+            name = "public headers" if folder == PUBLIC else folder
+            lines_of_about = "<br/>".join(textwrap.wrap(about, 17))
+            label = f'<b>{name}</b><br/><font point-size="12">{lines_of_about}</font>'
+            colour = "white" if folder == PUBLIC else dark
+            lines.append(f'    "{layer}/{folder}" [label=<{label}>, fontsize=14, fillcolor="{colour}"];')
         lines.append("  }")
     for upper, lower in reduced(edges):
         lines.append(f'  "{"/".join(upper)}" -> "{"/".join(lower)}";')
