@@ -31,7 +31,7 @@ using oracle::Shape;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-FeaturePiece random_piece(const Mesh& mesh, Random& random) {
+FeaturePiece random_piece(const IndexedMesh& mesh, Random& random) {
   const auto index = [&](std::uint32_t count) { return static_cast<std::uint32_t>(random.below(count)); };
   switch (random.below(4)) {
     case 0:
