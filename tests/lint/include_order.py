@@ -16,7 +16,7 @@ import sys
 
 # From the bottom up: a folder may include those before it.
 ORDER = {
-    "core": ["base", "arithmetic", "kernels", "mesh", "surface", "pair", "names", "measure", "leaves", "walk",
+    "core": ["base", "arithmetic", "kernels", "mesh", "surface", "pair", "closest_features", "measure", "leaves", "walk",
              "vertices", "paper", "search"],
     "scheduler": ["base", "calls", "objects", "broad_phase", "pairs", "report", "jobs", "step"],
     "io": ["text", "mesh", "formats", "assimp", "gltf", "files", "motion", "scene", "report", "picture"],

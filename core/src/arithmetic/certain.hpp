@@ -31,19 +31,28 @@ inline SquaredRange squared_range(const Eigen::Vector3d& a, const Eigen::Vector3
 bool certainly_not_parallel(const Eigen::Vector3d& u, const Eigen::Vector3d& v);
 
 /// Where in a triangle (0, 1, 2) a closest point lies.
-enum class Place : std::uint8_t { vertex0, vertex1, vertex2, edge01, edge12, edge20, inside, no_area };
+enum class VoronoiRegion : std::uint8_t {
+  vertex0,
+  vertex1,
+  vertex2,
+  edge01,
+  edge12,
+  edge20,
+  inside,
+  no_area
+};
 
 /// Where the point of the triangle nearest to `point` lies; false where that is not certain.
-bool certain_place(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner, Place& place,
-                   SquaredRange& squared);
+bool certain_voronoi(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner,
+                     VoronoiRegion& region, SquaredRange& squared);
 
 /// Where on a segment a closest point lies.
 enum class Along : std::uint8_t { first, second, inside };
 
 /// Where the closest points of two segments lie, which are then one pair of points and inside neither a
 /// common stretch; false where that is not certain.
-bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
-                    std::array<Along, 2>& places, SquaredRange& squared);
+bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
+                   std::array<Along, 2>& along, SquaredRange& squared);
 
 /// Whether a segment passes through the inside of a triangle, from one side of its plane to the other.
 enum class Passing : std::uint8_t { unsure, no, yes };

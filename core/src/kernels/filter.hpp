@@ -117,10 +117,10 @@ struct FeaturePairs {
   Point b[lanes][CornersB];
   // What the kernel fills in.
   float bound[lanes];  ///< of the distance, from below; minus infinity where a size is not to be trusted
-  std::int32_t place[lanes];  ///< where the closest points certainly are, or `unsure_place`
+  std::int32_t voronoi[lanes];  ///< where the closest points certainly are, or `unsure_place`
 };
 /// A place is a number of `Place`, or of two segments four times one of `Along` and another; or this.
-inline constexpr std::int32_t unsure_place = -1;
+inline constexpr std::int32_t unsure_voronoi = -1;
 /// That of a segment through a triangle.
 inline constexpr std::int32_t passes_through = 0;
 using SegmentPairs = FeaturePairs<2, 2>;

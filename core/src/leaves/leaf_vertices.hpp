@@ -19,25 +19,27 @@ class CornerList {
  public:
   void begin(std::size_t most) {
     count_ = 0;
-    if (places_.size() < most + padding) places_.resize(most + padding);
+    if (local_indices_.size() < most + padding) local_indices_.resize(most + padding);
   }
-  void add(std::uint32_t place) { places_[count_++] = place; }
+  void add(std::uint32_t local_index) { local_indices_[count_++] = local_index; }
   /// Goes on for the features that the kernels look at beyond the last.
   [[nodiscard]] const std::uint32_t* padded() {
-    std::fill_n(places_.begin() + static_cast<std::ptrdiff_t>(count_), padding, 0U);
-    return places_.data();
+    std::fill_n(local_indices_.begin() + static_cast<std::ptrdiff_t>(count_), padding, 0U);
+    return local_indices_.data();
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.places_);
+    return std::tie(self.local_indices_);
   }
-  void reserve_as(const CornerList& other) { begin(std::max(other.places_.size(), padding) - padding); }
+  void reserve_as(const CornerList& other) {
+    begin(std::max(other.local_indices_.size(), padding) - padding);
+  }
   void reserve(std::size_t most) { begin(most); }
 
  private:
   static constexpr std::size_t padding = 9;  ///< three triangles
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> local_indices_;
   std::size_t count_ = 0;
 };
 
@@ -46,9 +48,9 @@ class CornerList {
 class LeafVertices {
  public:
   /// Takes up those of a leaf, its own vertices first.
-  void take(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  void load(const Surface& surface, const Region& leaf, const FilterFrame& frame);
   /// Its own vertices alone.
-  void take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  void load_own(const Surface& surface, const Region& leaf, const FilterFrame& frame);
 
   [[nodiscard]] const kernels::Point* data() const { return local_.data(); }
 

@@ -3,8 +3,8 @@
 #include <graze/contact.hpp>
 #include <optional>
 
+#include "closest_features/closest_features.hpp"
 #include "core/surface/surface.hpp"
-#include "names/naming.hpp"
 
 namespace graze {
 

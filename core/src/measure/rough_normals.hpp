@@ -6,9 +6,9 @@
 #include <span>
 #include <tuple>
 
+#include "closest_features/closest_features.hpp"
 #include "core/surface/surface.hpp"
 #include "kernels/measure.hpp"
-#include "names/naming.hpp"
 
 namespace graze {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/surface/surface.hpp"
 #include "measure/rough_normals.hpp"
-#include "names/contact_name.hpp"
 
 namespace graze {
 
@@ -70,7 +70,7 @@ class Sides {
   /// For another pair; forgets what was not finished.
   void begin();
   /// Fills in the contact's sides, at the latest by finish(), until when it stays where it is.
-  void add(const SurfacePair& pair, const ContactName& name, Contact& contact);
+  void add(const SurfacePair& pair, const FeaturePairKey& key, Contact& contact);
   void finish(const SurfacePair& pair);
 
   /// The normal at a vertex, as from the next `finish_normals` until the next `begin_normals`, between which

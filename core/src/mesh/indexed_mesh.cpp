@@ -62,7 +62,7 @@ IndexedMesh::IndexedMesh(PositionView rest, std::span<const std::uint32_t> corne
   rest_ = copy_of(rest);
   take_faces(corners, corner_counts);
   check_faces();
-  look_for_unused();
+  find_unused();
   check_rest();
   number_edges();
   regions_ = RegionTree(*this);
@@ -111,7 +111,7 @@ void IndexedMesh::check_rest() const {
                   " is not finite or has a coordinate beyond 2^120");
 }
 
-void IndexedMesh::look_for_unused() {
+void IndexedMesh::find_unused() {
   used_.assign(vertex_count(), 0);
   for (const std::uint32_t corner : corners_) used_[corner] = 1;
   if (std::find(used_.begin(), used_.end(), 0) == used_.end()) std::vector<std::uint8_t>().swap(used_);

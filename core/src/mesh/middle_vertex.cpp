@@ -180,10 +180,10 @@ std::vector<std::uint32_t> candidates_of(std::span<const Eigen::Vector3d> positi
 
 std::uint32_t middle_vertex(std::span<const Eigen::Vector3d> positions,
                             std::span<const std::uint32_t> vertices) {
-  constexpr std::size_t few = 8;
+  constexpr std::size_t most_candidates = 8;
   std::vector<std::uint32_t> candidates = candidates_of(positions, vertices);
   if (candidates.size() == 1) return candidates.front();
-  if (candidates.size() > few) return nearest_of_all(positions, vertices);
+  if (candidates.size() > most_candidates) return nearest_of_all(positions, vertices);
   std::sort(candidates.begin(), candidates.end());
   std::array<LosslessSum, 3> sum;
   for (const std::uint32_t vertex : vertices)

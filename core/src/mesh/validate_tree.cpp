@@ -25,8 +25,8 @@ void require_each_once(std::span<const std::uint32_t> values, std::size_t count,
 void validate_places(const RegionTree& tree, const Region& leaf, const IndexedMesh& mesh) {
   const auto members = tree.vertices(leaf);
   const auto border = tree.border(leaf);
-  const auto vertex_at = [&](std::uint32_t place) {
-    return place < members.size() ? members[place] : border[place - members.size()];
+  const auto vertex_at = [&](std::uint32_t local_index) {
+    return local_index < members.size() ? members[local_index] : border[local_index - members.size()];
   };
   const std::uint32_t* end = tree.edge_ends(leaf).data();
   for (const std::uint32_t edge : tree.edges(leaf))

@@ -25,9 +25,9 @@ class TimeLimit {
   /// To be called before so many pieces of work of some hundred nanoseconds each. Throws TimeIsUp.
   void check(std::uint32_t pieces = 1) {
     // A question that double could not decide may take as long as many pieces.
-    constexpr std::uint32_t pieces_a_look = 32;
+    constexpr std::uint32_t pieces_a_check = 32;
     pieces_ += pieces;
-    if (pieces_ < pieces_a_look && count_.exact == exact_seen_) return;
+    if (pieces_ < pieces_a_check && count_.exact == exact_seen_) return;
     pieces_ = 0;
     exact_seen_ = count_.exact;
     check_for({});

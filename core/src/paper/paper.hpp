@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "closest_features/closest_set.hpp"
 #include "core/pair/pair_query.hpp"
-#include "leaves/leaf_names.hpp"
-#include "names/closest_set.hpp"
+#include "leaves/leaf_feature_pairs.hpp"
 #include "walk/dmv.hpp"
 
 namespace graze {
@@ -33,11 +33,11 @@ struct PaperFound {
 /// own level.
 bool passes_as_in_paper(const SurfacePair& pair, const PairQuery& query, const Region& a, const Region& b);
 
-/// The paper's method (sections 3.2 and 3.3): DMV with eq. 4's test, and at two leaves DV. Appends the names
+/// The paper's method (sections 3.2 and 3.3): DMV with eq. 4's test, and at two leaves DV. Appends the keys
 /// of its answer, sorted, each once: with `regions` where DV's walk ended below the threshold, with
 /// `vertices` all pairs of the leaves reached below it. `scratch.closest` holds the nearest pair of vertices
 /// that was met. Both surfaces are refitted by vertices.
 PaperFound find_as_in_paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch,
-                            WorkMeter& meter, std::vector<ContactName>& names);
+                            WorkMeter& meter, std::vector<FeaturePairKey>& keys);
 
 }  // namespace graze

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "core/base/cut_by_work.hpp"
 #include "core/mesh/pair_room.hpp"
-#include "names/contact_name.hpp"
 #include "pair/bounds.hpp"
 #include "paper/paper.hpp"
 
@@ -111,8 +111,8 @@ void RegionDistances::run_slice(std::size_t index) {
   const Test test(*this);
   Slice& slice = slices_[index];
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
-    constexpr std::size_t looks_at_clock_every = 16;
-    if ((i - slice.begin) % looks_at_clock_every == 0 && is_late()) {
+    constexpr std::size_t clock_check_interval = 16;
+    if ((i - slice.begin) % clock_check_interval == 0 && is_late()) {
       slice.left_out += slice.end - i;
       return;
     }

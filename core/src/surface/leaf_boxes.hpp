@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/surface/surface.hpp"
-#include "surface/made_of_leaves.hpp"
+#include "surface/per_leaf_cache.hpp"
 
 namespace graze {
 
@@ -41,7 +41,7 @@ class LeafBoxes {
   const Surface* surface_ = nullptr;
   RefitOf what_ = RefitOf::faces;
   std::span<const Box> fitted_;
-  MadeOfLeaves<Box> made_;
+  PerLeafCache<Box> made_;
 };
 
 }  // namespace graze

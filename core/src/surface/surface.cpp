@@ -78,7 +78,7 @@ void Surface::PartSeen::add(const PartSeen& later) {
 }
 
 template <typename PositionOf>
-Surface::PartSeen Surface::look(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const {
+Surface::PartSeen Surface::scan(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const {
   PartSeen part;
   Box box;  // these three stay in registers, which `part` does not
   double furthest_squared = 0;
@@ -134,7 +134,7 @@ void Surface::count_read(const ReadResult& result, const Box& now) {
     count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, now));
 }
 
-Surface::ReadResult Surface::take(const PartSeen& all) {
+Surface::ReadResult Surface::accept(const PartSeen& all) {
   const ReadResult result = result_of(all);
   if (result.changed) own_positions(all.in_double);
   if (result.taken()) count_read(result, all.box);
@@ -210,7 +210,7 @@ double Surface::leaf_size() const {
 }
 
 Surface::ReadResult Surface::set_positions(const PositionView& view) {
-  ReadResult result = take(look_at_positions(view, 0, mesh_->vertex_count()));
+  ReadResult result = accept(scan_positions(view, 0, mesh_->vertex_count()));
   if (result.changed) write_positions(view, 0, mesh_->vertex_count());
   return result;
 }
@@ -322,8 +322,8 @@ bool Surface::can_view(const PositionView& view) const {
   return is_packed(*mesh_, view);
 }
 
-Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
-                                             Displacement displacement) const {
+Surface::PartSeen Surface::scan_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
+                                          Displacement displacement) const {
   std::optional<PartSeen> part;
   const void* const before = positions().data();
   if (begin < end && is_laid_out_like(view))
@@ -331,7 +331,7 @@ Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint
                             : seen_in_passes<float>(view.data(), before, begin, end, displacement);
   else if (begin < end && displacement == Displacement::bound && is_packed(*mesh_, view))
     part = seen_as_jump(view, begin, end);
-  if (!part) part = look(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
+  if (!part) part = scan(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
   part->in_double = view.is_double();
   return *part;
 }
@@ -344,15 +344,16 @@ Surface::PartSeen Surface::survey(const IndexedMesh& mesh, const PositionView& v
   return *part;
 }
 
-Surface::PartSeen Surface::look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
-                                        std::uint32_t end) const {
-  return look(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
+Surface::PartSeen Surface::scan_pose(const std::array<double, 12>& rows, std::uint32_t begin,
+                                     std::uint32_t end) const {
+  return scan(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
 }
 
 namespace {
 
 /// The same as `posed` of each point, x and y at once.
-void place(const std::array<double, 12>& rows, std::span<const Eigen::Vector3d> rest, Eigen::Vector3d* now) {
+void pose_vertices(const std::array<double, 12>& rows, std::span<const Eigen::Vector3d> rest,
+                   Eigen::Vector3d* now) {
   using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
   const auto column = [&](std::size_t number) { return Two{rows[number], rows[4 + number]}; };
   const Two first = column(0), second = column(1), third = column(2), by = column(3);
@@ -378,7 +379,7 @@ Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
   const Box box = mesh_->rest_reach().box_at(rows);
   const bool is_good = graze::is_within_limits(box.min) && graze::is_within_limits(box.max);
   if (pose_ && is_good && mesh_->uses_all_vertices()) return take_pose(rows);
-  ReadResult result = take(look_at_pose(rows, 0, mesh_->vertex_count()));
+  ReadResult result = accept(scan_pose(rows, 0, mesh_->vertex_count()));
   if (result.changed) write_pose(rows, 0, mesh_->vertex_count());
   if (result.taken()) pose_ = rows;
   return result;
@@ -400,7 +401,7 @@ Surface::ReadResult Surface::take_pose(const std::array<double, 12>& rows) {
   const std::uint32_t count = mesh_->vertex_count();
   for (std::uint32_t begin = 0; begin < count; begin += each) {
     const std::uint32_t end = std::min(begin + each, count);
-    place(rows, mesh_->rest().subspan(begin, end - begin), in_double_.data() + begin);
+    pose_vertices(rows, mesh_->rest().subspan(begin, end - begin), in_double_.data() + begin);
     all.add(survey(*mesh_, in_double_, begin, end));
   }
   count_read(result, all.box);

@@ -96,7 +96,7 @@ kernels::Block rows_of(const VertexBlocks::Level& level);
 kernels::Block rows_of(const BoxRows& boxes);
 kernels::Block rows_of(const VertexStretches& stretches);
 /// Boxes put side by side, those of some places.
-void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> places, BoxRows& boxes);
+void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> indices, BoxRows& boxes);
 /// The blocks whose boxes meet another one, ascending: level by level, from the last down. There is room for
 /// all in both lists, whatever is found, so that the same surfaces never take more.
 void find_meeting(const VertexBlocks& blocks, const kernels::BoxInFrame& box, IndexList& groups,

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "core/surface/surface.hpp"
-#include "names/contact_name.hpp"
 #include "pair/near_listing.hpp"
 #include "vertices/block_boxes.hpp"
 #include "vertices/near_part.hpp"
@@ -26,7 +26,7 @@ struct NearBlocks {
   IndexList b;
   /// Whether those of b are so few that they are looked at one after the other, by their places in the list.
   /// Of more all levels are, and they have their places among all blocks of b.
-  bool few = false;
+  bool is_linear_scan = false;
   BoxRows boxes;  ///< of the few
   // The points of each block of b in its place, in one of the two.
   std::vector<float> floats;
@@ -71,15 +71,15 @@ class NearVertices {
   /// Appends those pairs of some of the listed blocks of a that are nearer than a threshold, in their order,
   /// by the points of a and then of b, and lists all that are not certainly further than the limit; false
   /// when the budget ran out. Reads the lists of blocks alone, so that several threads may at once.
-  bool name(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
-            std::vector<ContactName>& names, const NearListing& listing);
+  bool key(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
+           std::vector<FeaturePairKey>& keys, const NearListing& listing);
   /// Offers the nearest pairs of all listed blocks, and what comes before them; false when the budget ran
   /// out. What is of no use any more beside the nearest so far is not looked for.
   bool offer(WorkMeter& meter, ClosestRange& nearest);
 
  private:
   [[nodiscard]] bool make_parts();
-  void look_within(double limit);
+  void set_limit(double limit);
   void tighten();
   void lay_out_blocks_of_b();
   void order_near_first();
@@ -93,7 +93,7 @@ class NearVertices {
   template <typename Number>
   std::size_t compare(std::uint32_t block_of_a, std::span<const std::uint32_t> beside,
                       const std::vector<Number>& blocks_of_b);
-  /// Calls `visit(name)` for all pairs of a block of a and those found beside it that are not certainly too
+  /// Calls `visit(key)` for all pairs of a block of a and those found beside it that are not certainly too
   /// far.
   template <typename Visit>
   void for_each_near(std::uint32_t block_of_a, const Visit& visit);

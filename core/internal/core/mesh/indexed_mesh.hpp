@@ -126,7 +126,7 @@ class GRAZE_API IndexedMesh {
   }
   void take_faces(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> corner_counts);
   void check_faces() const;
-  void look_for_unused();
+  void find_unused();
   void check_rest() const;
   void number_edges();
   [[nodiscard]] const Rows& neighbours() const;

@@ -85,11 +85,12 @@ class GRAZE_API RegionTree {
   /// order of `edges(leaf)` and `faces(leaf)`, each as a place in the list of `vertices(leaf)` and then
   /// `border(leaf)`. What follows in memory up to a multiple of 4 edges or triangles is a place there, too.
   [[nodiscard]] std::span<const std::uint32_t> edge_ends(const Region& leaf) const {
-    return std::span(places_).subspan(place_begin_[number(leaf)].ends, 2 * std::size_t{leaf.edge_count});
+    return std::span(local_indices_)
+        .subspan(local_begin_[number(leaf)].ends, 2 * std::size_t{leaf.edge_count});
   }
   [[nodiscard]] std::span<const std::uint32_t> triangle_corners(const Region& leaf) const {
-    const PlaceBegin& begin = place_begin_[number(leaf)];
-    return std::span(places_).subspan(begin.corners, begin.corner_count);
+    const LocalBegin& begin = local_begin_[number(leaf)];
+    return std::span(local_indices_).subspan(begin.corners, begin.corner_count);
   }
 
   /// Three corners of a leaf's features that are far apart at rest: about its plane, where it is nearly flat.
@@ -101,8 +102,8 @@ class GRAZE_API RegionTree {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// Where a leaf's lists begin in `places_`.
-  struct PlaceBegin {
+  /// Where a leaf's lists begin in `local_indices_`.
+  struct LocalBegin {
     std::uint32_t ends = 0;
     std::uint32_t corners = 0;
     std::uint32_t corner_count = 0;
@@ -119,8 +120,8 @@ class GRAZE_API RegionTree {
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> edges_;
   std::vector<std::uint32_t> border_;
-  std::vector<std::uint32_t> places_;
-  std::vector<PlaceBegin> place_begin_;               ///< by region; of leaves
+  std::vector<std::uint32_t> local_indices_;
+  std::vector<LocalBegin> local_begin_;               ///< by region; of leaves
   std::vector<std::array<std::uint32_t, 3>> spread_;  ///< by region; of leaves
 };
 

@@ -25,7 +25,7 @@ struct RegionPair {
 struct ListedLeaves {
   RegionPair pair;
   float lower = 0;
-  float looked = 0;
+  float feature_lower_bound = 0;
 };
 
 /// A point of a surface that moves with it: of a vertex, an edge, a fold or a triangle, by its corners.
@@ -51,7 +51,7 @@ struct LeafFront {
   std::vector<ListedLeaves> leaves;  ///< in the order in which they are asked, where `touched`
   /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
   /// nothing is known.
-  double beyond = -1;
+  double unlisted_lower_bound = -1;
   Travel travel_a;
   Travel travel_b;
   /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
@@ -81,7 +81,7 @@ struct LeafFront {
   void forget_leaves() {
     leaves.clear();
     reached_bits = 0;
-    beyond = -1;
+    unlisted_lower_bound = -1;
     apart = 0;
     witness = {};
     touched = false;
@@ -94,10 +94,10 @@ struct LeafFront {
     return bytes_of(leaves) + (near == nullptr ? 0 : sizeof(NearList) + bytes_of(near->pairs));
   }
   /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
-  [[nodiscard]] double beyond_now(const Surface& a, const Surface& b) const {
-    if (!(beyond > 0)) return -1;
-    if (beyond == std::numeric_limits<double>::infinity()) return beyond;
-    return (beyond - motion_now(a, b)) * round_down;
+  [[nodiscard]] double unlisted_lower_bound_now(const Surface& a, const Surface& b) const {
+    if (!(unlisted_lower_bound > 0)) return -1;
+    if (unlisted_lower_bound == std::numeric_limits<double>::infinity()) return unlisted_lower_bound;
+    return (unlisted_lower_bound - motion_now(a, b)) * round_down;
   }
   /// Pairs of leaves are at most this much nearer to each other than they were at the two marks.
   [[nodiscard]] double motion_now(const Surface& a, const Surface& b) const {

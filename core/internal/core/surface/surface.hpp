@@ -100,11 +100,11 @@ class GRAZE_API Surface {
   /// The same in parts. First look at the vertices from `begin` to `end`, then `take` what all parts found
   /// together, then, where it says that something changed, write them; before that the surface's positions
   /// are not to be asked for. Several threads may look or write at once, at parts that do not overlap.
-  [[nodiscard]] PartSeen look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
-                                           Displacement displacement = Displacement::exact) const;
-  [[nodiscard]] PartSeen look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
-                                      std::uint32_t end) const;
-  ReadResult take(const PartSeen& all);
+  [[nodiscard]] PartSeen scan_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
+                                        Displacement displacement = Displacement::exact) const;
+  [[nodiscard]] PartSeen scan_pose(const std::array<double, 12>& rows, std::uint32_t begin,
+                                   std::uint32_t end) const;
+  ReadResult accept(const PartSeen& all);
   /// Takes positions where they lie, which are this surface's until it is given others; none is to be
   /// written.
   ReadResult take_in_place(const PartSeen& all, const PositionView& view);
@@ -195,7 +195,7 @@ class GRAZE_API Surface {
   };
 
   template <typename PositionOf>
-  [[nodiscard]] PartSeen look(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const;
+  [[nodiscard]] PartSeen scan(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const;
   template <typename PositionOf>
   void write(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
   ReadResult take_pose(const std::array<double, 12>& rows);

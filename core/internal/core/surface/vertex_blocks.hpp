@@ -68,7 +68,7 @@ class VertexBlocks {
 
   /// Of 2^32 vertices.
   static constexpr std::size_t most_levels = 8;
-  struct Place {
+  struct LevelLayout {
     std::size_t first = 0;  ///< in `boxes_`
     std::size_t stride = 0;
     std::size_t count = 0;
@@ -77,7 +77,7 @@ class VertexBlocks {
   std::span<const std::uint32_t> order_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<float> boxes_;
-  std::array<Place, most_levels> places_;
+  std::array<LevelLayout, most_levels> levels_;
   std::size_t level_count_ = 0;
 };
 
