@@ -21,20 +21,20 @@ bool is_in_range(double square) {
   return square >= least_square && square <= largest_square;
 }
 
-/// Of two points `x` apart.
+/// The range of the squared distance of two points `x` apart.
 SquaredRange range_of_points(double xx) {
   return {xx * (1 - 8 * unit), xx * (1 + 8 * unit)};
 }
 
-/// Of a point `x` from a point of a line along `direction`.
+/// The range of the squared distance of a point `x` from a point of a line along `direction`.
 SquaredRange range_to_line(const Plain& direction, double length_squared, const Plain& x, double xx) {
   const Plain area = cross(direction, x);
   const double squared = dot(area, area) / length_squared;
   return {std::max(squared - 32 * unit * xx, 0.0), squared + 32 * unit * xx};
 }
 
-/// Of a point `x` from a plane, or of two lines through points `x` apart: along `normal`, the product of two
-/// vectors of the squared lengths given.
+/// The range of the squared distance of a point `x` from a plane, or of two lines through points `x` apart.
+/// It is measured along `normal`, the product of two vectors of the squared lengths given.
 SquaredRange range_along(const Plain& normal, double normal_squared, double uu, double vv, const Plain& x,
                          double xx) {
   const double height = dot(normal, x);
@@ -148,8 +148,8 @@ Segment segment_of(const std::array<Eigen::Vector3d, 2>& end) {
   return {end, along, dot(along, along)};
 }
 
-/// Whether the closest points are certainly end `place` of a segment and a point inside the other: the foot
-/// of the end is inside, and the way to the segment's other end leads away from it.
+/// Whether the closest points are certainly end `along` of a segment and a point inside the other. The foot
+/// of the end has to be inside, and the way to the segment's other end has to lead away from it.
 bool is_end_over_inside(const Segment& segment, Along along, const Segment& other, SquaredRange& squared) {
   const std::size_t end = along == Along::first ? 0 : 1;
   const Plain x = difference<double>(segment.end[end], other.end[0]);

@@ -6,13 +6,13 @@
 
 namespace graze {
 
-/// A short list in place: at most `capacity` elements, and no memory of its own.
+/// A vector without memory of its own on the heap: at most `capacity` elements, held in place.
 template <typename Element, std::size_t capacity>
 class InplaceVector {
  public:
   InplaceVector() = default;
   InplaceVector(const InplaceVector& other) { *this = other; }
-  // What lies beyond the size was never written and is not copied.
+  // Elements behind the size were never written and are not copied.
   InplaceVector& operator=(const InplaceVector& other) {
     if (this != &other) std::copy(other.begin(), other.end(), begin());
     size_ = other.size_;

@@ -51,8 +51,8 @@ Ratio<Number> distance_squared(const Eigen::Vector3d& point, const Surface& surf
   return hull_distance_squared<Number>(single, simplex_of(surface, piece));
 }
 
-/// Of two pieces that hold the closest points of two parts of a face, that of the nearer part; where they are
-/// equally near, the lower key, then `first`.
+/// Chooses between two pieces that hold the closest points of two parts of a face. Returns the piece of the
+/// nearer part; where they are equally near, the lower feature, then `first`.
 FeaturePiece nearer(const Eigen::Vector3d& point, const Surface& surface, const FeaturePiece& first,
                     const FeaturePiece& second, DecisionCount& count) {
   if (first == second) return first;
@@ -169,7 +169,7 @@ bool is_point(const Simplex& segment) {
   return segment.point[0] == segment.point[1];
 }
 
-/// Of two segments that are no points.
+/// Whether two segments are parallel. Neither is a point.
 bool are_parallel(const Simplex& a, const Simplex& b, DecisionCount& count) {
   const bool are_same = a.point[0] == b.point[0] && a.point[1] == b.point[1];
   const bool are_reversed = a.point[0] == b.point[1] && a.point[1] == b.point[0];

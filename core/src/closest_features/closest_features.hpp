@@ -60,20 +60,20 @@ inline std::uint32_t triangle_count(const IndexedMesh& mesh, std::uint32_t face)
   return static_cast<std::uint32_t>(mesh.face(face).size()) - 2;
 }
 
-/// What joins a quad's first and third corner: its fold, or the edge of the same face that joins the two.
+/// The feature that joins a quad's first and third corner: its fold, or an edge of the same face.
 FeaturePiece diagonal_of(const IndexedMesh& mesh, std::uint32_t face);
 
-/// The piece of segment or face in whose relative interior the point closest to `point` lies; a point that
-/// several share is named by the lowest dimension, then the lowest index. `segment` is an edge or a fold.
-/// `squared` is narrowed where more is known of the distance.
+/// The piece of a segment or face in whose relative interior the point closest to `point` lies. A point that
+/// several pieces share goes to the lowest dimension, then to the lowest index. `segment` is an edge or a
+/// fold. `squared` is narrowed where more is known of the distance.
 FeaturePiece nearest_piece_of_segment(const Eigen::Vector3d& point, const Surface& surface,
                                       const FeaturePiece& segment, DecisionCount& count);
 FeaturePiece nearest_piece_of_face(const Eigen::Vector3d& point, const Surface& surface, std::uint32_t face,
                                    DecisionCount& count, SquaredRange& squared);
 
-/// The keys of the closest points of two segments (edges or folds): one pair of pieces where the points are
-/// unique or lie in both interiors; for parallel segments the pair at each end of the common stretch.
-/// `squared` is narrowed as above.
+/// The pieces with the closest points of two segments (edges or folds). There is one pair of pieces where the
+/// points are unique or lie in both interiors. Parallel segments have a pair at each end of the common
+/// stretch. `squared` is narrowed where more is known of the distance.
 struct ClosestPiecesOfSegments {
   std::uint32_t size = 0;
   std::array<std::array<FeaturePiece, 2>, 4> pieces;
@@ -82,8 +82,9 @@ ClosestPiecesOfSegments nearest_pieces_of_segments(const Surface& surface_a, con
                                                    const Surface& surface_b, const FeaturePiece& segment_b,
                                                    DecisionCount& count, SquaredRange& squared);
 
-/// Whether a quad's diagonal is a fold: its corners do not lie in one plane, or do with both triangles on one
-/// side of the diagonal, so that they lie on each other and the diagonal is a border.
+/// Whether a quad's diagonal is a fold. It is one where the corners do not lie in one plane. It is one as
+/// well where they do, but with both triangles on one side of the diagonal: they lie on each other, and the
+/// diagonal is a border.
 bool is_folded(const Surface& surface, std::uint32_t face, DecisionCount& count);
 
 }  // namespace graze

@@ -74,7 +74,7 @@ class ClosestSet {
  private:
   void replace(const FeaturePairKey& key) {
     const double upper = upper_distance(pair_, key);
-    // What is looked for at 0 alone is not found in what a look that went further met.
+    // A search at distance 0 alone must not take up something further that it met on the way.
     if (closest_.upper == 0 && upper > 0) return;
     keys_.assign(key);
     at_most(upper);

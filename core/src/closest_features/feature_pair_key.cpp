@@ -33,7 +33,8 @@ double approximate_root(const Ratio<Exact>& square) {
   return std::ldexp(std::sqrt(fraction), exponent / 2);
 }
 
-/// The same, or not a number, of which nothing is sure, where double is too narrow for that.
+/// The square root of a quotient. Where double is too narrow for it, not a number, so that nothing is
+/// certain.
 double approximate_root(const Ratio<Wide>& square) {
   const double quotient = square.numerator.high / square.denominator.high;
   return quotient > 0x1p-900 && quotient < 0x1p900 ? std::sqrt(quotient) : not_a_number;

@@ -41,8 +41,9 @@ enum class Meeting : std::uint8_t {
 /// How often about a contact is found: once for each of the features about it.
 inline constexpr std::size_t keys_of_contact = 8;
 
-/// What a contact is called, and which pieces of its features realise it, as two numbers that order keys as
-/// contacts are: by (kind, feature a, feature b), the key of a contact, and pieces after that.
+/// Identifies a contact and the pieces of its features that realise it. Two numbers hold it and order keys as
+/// contacts are ordered: by kind, feature a and feature b, which identify the contact, and by pieces after
+/// that.
 class FeaturePairKey {
  public:
   FeaturePairKey() = default;
@@ -81,8 +82,8 @@ class FeaturePairKey {
     [[nodiscard]] int all() const { return 5 + index_a + index_b + 6; }
   };
   [[nodiscard]] std::uint64_t packed(const Widths& widths) const {
-    // Of which kind the feature of b is, the contact's kind says. The last six bits are the meeting and the
-    // pieces, two each.
+    // The contact's kind and the kind of feature a determine the kind of feature b. The last six bits are the
+    // meeting and the pieces, two each.
     std::uint64_t key = (high_ >> 40U) << 2U | (high_ >> 32U & 3U);
     key = key << widths.index_a | static_cast<std::uint32_t>(high_);
     key = key << widths.index_b | static_cast<std::uint32_t>(low_ >> 24U);
@@ -105,7 +106,7 @@ class FeaturePairKey {
 
  private:
   FeaturePairKey(std::uint64_t high, std::uint64_t low) : high_(high), low_(low) {}
-  /// Of the two features of a contact the kind of one, by that of the other: VV VE VF EE EF FF.
+  /// The kind of one of a contact's two features, by that of the other: VV VE VF EE EF FF.
   static std::uint64_t kind_of_other(std::uint64_t kind, std::uint64_t of_one) {
     constexpr std::array<std::uint8_t, 6> sum{0, 1, 2, 2, 3, 4};
     return sum[kind] - of_one;
@@ -135,7 +136,8 @@ int compare_distances(const SurfacePair& pair, const FeaturePairKey& left, const
 
 /// Whether the distance is strictly below `limit`, by whatever arithmetic it takes.
 bool decide_closer_than(const SurfacePair& pair, const FeaturePairKey& key, double limit);
-/// The same, from plain double where that is certain of two vertices.
+/// Whether the distance is strictly below `limit`. Decides it in plain double where that is certain of two
+/// vertices.
 inline bool is_closer_than(const SurfacePair& pair, const FeaturePairKey& key, double limit) {
   if (key.kind() == ContactKind::VV) {
     const SquaredRange squared =

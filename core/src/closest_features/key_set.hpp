@@ -12,8 +12,9 @@
 
 namespace graze {
 
-/// Names, each once. They are kept in sorted runs, each less than half as long as the one before, so that
-/// adding one of n costs log n moves: two flat grids that lie on each other have as many ties as features.
+/// A set of keys. It keeps them in sorted runs, each less than half as long as the one before, so that adding
+/// one of n keys costs log n moves. That matters because two flat grids that lie on each other have as many
+/// ties as features.
 class KeySet {
  public:
   void clear() {
@@ -25,9 +26,9 @@ class KeySet {
     begins_.assign(1, 0);
   }
   [[nodiscard]] bool empty() const { return keys_.empty(); }
-  /// One of them; the lowest after `merge_runs`.
+  /// One of the keys; the lowest after `merge_runs`.
   [[nodiscard]] const FeaturePairKey& front() const { return keys_.front(); }
-  /// All of them; ascending after `merge_runs`.
+  /// All keys; ascending after `merge_runs`.
   [[nodiscard]] const std::vector<FeaturePairKey>& keys() const { return keys_; }
 
   [[nodiscard]] bool contains(const FeaturePairKey& key) const {

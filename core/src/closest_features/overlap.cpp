@@ -110,8 +110,7 @@ bool triangles_overlap(const Simplex& a, const Simplex& b, DecisionCount& count)
   return are_parallel && !a_side_separates(a, b, 3, count) && !a_side_separates(b, a, 3, count);
 }
 
-/// What is left of a convex polygon or segment inside the half space through `origin` with the normal
-/// `inward`.
+/// Clips a convex polygon or segment by the half space through `origin` with the normal `inward`.
 Outline clip(const Outline& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
   Outline kept;
   const std::size_t sides = points.size() == 2 ? 1 : points.size();
@@ -137,8 +136,8 @@ bool lie_along(const Outline& points, const Eigen::Vector3d& origin, const Eigen
   });
 }
 
-/// What is left of points of which something is known to be: where rounding loses it, the point nearest to
-/// it.
+/// Clips points of which some are known to be inside. Where rounding loses these, keeps the point nearest to
+/// the half space.
 Outline clip_some(const Outline& points, const Eigen::Vector3d& origin, const Eigen::Vector3d& inward) {
   if (lie_along(points, origin, inward)) return points;
   Outline kept = clip(points, origin, inward);
@@ -287,8 +286,8 @@ bool do_overlap(const Simplex& a, std::size_t fold_side_a, const Simplex& b, std
 }
 
 Overlap overlap_of(const Simplex& a, const Simplex& b, const LocalFrame& frame, DecisionCount& count) {
-  // What is clipped is the lower one, so that the middle lies on it to rounding; straight across is on the
-  // other.
+  // The lower piece is clipped, so that the middle lies on it to rounding. The point straight across is on
+  // the other one.
   const bool a_is_low = a.size <= b.size;
   const Simplex low = frame.to_local(a_is_low ? a : b);
   const Simplex high = frame.to_local(a_is_low ? b : a);

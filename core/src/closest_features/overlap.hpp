@@ -23,13 +23,13 @@ class LocalFrame {
   double scale_;  ///< a power of two
 };
 
-/// The corners of a convex area in order, or the ends of a stretch. What two triangles have in common has at
-/// most six, and a clip adds at most one; where rounding would make more than there is room for, they lie
-/// within rounding of others and are left out.
+/// The corners of a convex area in order, or the ends of a stretch. The common area of two triangles has at
+/// most six corners, and a clip adds at most one. Where rounding would make more than fit, they lie within
+/// rounding of others and are left out.
 using Outline = InplaceVector<Eigen::Vector3d, 24>;
 
-/// What parallel pieces have in common when each is seen along the gap between them, in local coordinates: a
-/// stretch or a convex area.
+/// The common part of two parallel pieces, seen along the gap between them, in local coordinates: a stretch
+/// or a convex area.
 struct Overlap {
   Eigen::Vector3d middle_a;  ///< of the common stretch, or the centroid of the common area, on a
   Eigen::Vector3d middle_b;  ///< the same on b
@@ -43,10 +43,10 @@ struct Overlap {
 bool do_overlap(const Simplex& a, std::size_t fold_side_a, const Simplex& b, std::size_t fold_side_b,
                 DecisionCount& count);
 
-/// What two pieces that overlap have in common; rounded.
+/// Returns the common part of two pieces that overlap; rounded.
 Overlap overlap_of(const Simplex& a, const Simplex& b, const LocalFrame& frame, DecisionCount& count);
 
-/// Of two features' pieces, of which each has at most two.
+/// The overlaps of two features' pieces. Each feature has at most two pieces.
 using Overlaps = InplaceVector<Overlap, 4>;
 
 /// The largest connected part of the overlaps of two features' pieces (at least one), with its middle.

@@ -5,7 +5,7 @@
 namespace graze {
 namespace {
 
-/// Where a segment crosses a triangle.
+/// How a segment crosses a triangle.
 enum class Crossing : std::uint8_t { none, inside, on_side };
 
 /// A segment that ends at a corner of a triangle has that end in its plane.

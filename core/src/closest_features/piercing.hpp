@@ -7,10 +7,10 @@
 
 namespace graze {
 
-/// The piece of a face that a segment (an edge or fold of the other surface) passes through: the segment's
-/// ends lie strictly on opposite sides of a triangle's plane and the crossing is inside the face, a quad's
-/// fold included. Nothing where there is none; where a bent quad is pierced twice, the crossing nearer the
-/// segment's first vertex.
+/// The piece of a face that a segment (an edge or fold of the other surface) passes through; nothing where
+/// there is none. The segment's ends lie strictly on opposite sides of a triangle's plane, and the crossing
+/// is inside the face, a quad's fold included. Where a bent quad is pierced twice, the crossing nearer the
+/// segment's first vertex counts.
 std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeaturePiece& segment,
                                           const Surface& other, std::uint32_t face, DecisionCount& count);
 

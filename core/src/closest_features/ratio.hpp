@@ -5,9 +5,9 @@
 
 namespace graze {
 
-/// The squared distance of the closest points of two pieces that lie in both relative interiors, which is
-/// that of their affine hulls: of two points, a point and a line, a point and a plane, or two lines that are
-/// not parallel.
+/// The squared distance of two pieces whose closest points lie in both relative interiors, which is that of
+/// their affine hulls. The hulls are two points, a point and a line, a point and a plane, or two lines that
+/// are not parallel.
 template <typename Number>
 Ratio<Number> hull_distance_squared(const Simplex& a, const Simplex& b) {
   const Simplex& low = a.size <= b.size ? a : b;

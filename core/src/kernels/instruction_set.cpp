@@ -11,7 +11,7 @@
 namespace graze {
 namespace kernels {
 
-// Each is defined by filter_<set>.cpp, measure_<set>.cpp and local_indices_<set>.cpp.
+// Each table is defined by filter_<set>.cpp, measure_<set>.cpp and voronoi_<set>.cpp.
 namespace scalar {
 extern const Filter table;
 extern const Measure measure_table;
@@ -109,7 +109,8 @@ InstructionSet best() {
   return available().sets[available().count - 1];
 }
 
-// What runs before these are initialised finds zero, and with it plain code: the same answers.
+// Code that runs before these are initialised finds zero, and with it the plain kernels, which give the same
+// answers.
 std::atomic<InstructionSet> set_in_use{best()};
 std::atomic<const Tables*> tables_in_use{&tables_of(best())};
 

@@ -8,7 +8,7 @@
 /// unit might share with them.
 namespace graze::kernels {
 
-/// What is known of each pair. Where it is not certain the rest means nothing.
+/// The result for each pair. Where it is not certain, the other numbers mean nothing.
 struct VoronoiFound {
   double certain[contact_lanes];  ///< 1 or 0
   double low[contact_lanes];      ///< the square of the distance is between these
@@ -19,7 +19,7 @@ struct VoronoiFound {
 struct SegmentPairBatch {
   Points a[2];
   Points b[2];
-  // What the kernel fills in.
+  // Filled in by the kernel.
   double along_a[contact_lanes];  ///< a number of `Along`
   double along_b[contact_lanes];
   VoronoiFound found;
@@ -29,8 +29,8 @@ struct SegmentPairBatch {
 struct PointTriangleBatch {
   Points point;
   Points corner[3];
-  // What the kernel fills in.
-  double voronoi[contact_lanes];  ///< a number of `Place`
+  // Filled in by the kernel.
+  double voronoi[contact_lanes];  ///< a number of `VoronoiRegion`
   VoronoiFound found;
 };
 

@@ -9,7 +9,8 @@
 
 namespace graze {
 
-// Pieces by their place, in the order of `Along` and `Place`: which it is nothing foretells.
+// Pieces by number, in the order of `Along` and `VoronoiRegion`. They are looked up, since no branch could
+// foretell which it is.
 inline FeaturePiece piece_of_edge(const IndexedMesh& mesh, std::uint32_t edge, std::size_t index) {
   const auto [first, second] = mesh.edge(edge);
   const std::array<FeaturePiece, 3> pieces{vertex_piece(first), vertex_piece(second), edge_piece(edge)};

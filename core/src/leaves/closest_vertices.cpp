@@ -9,7 +9,7 @@ FeaturePairKey vertex_pair(std::uint32_t a, std::uint32_t b) {
   return FeaturePairKey::of(vertex_piece(a), vertex_piece(b));
 }
 
-/// What is at most as far as the nearest so far.
+/// A range that holds pairs at most as far as the nearest so far.
 struct AsNear {
   const ClosestSet& closest;
 

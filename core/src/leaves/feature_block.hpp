@@ -40,8 +40,8 @@ class FeatureBlock {
   void add(std::span<const std::uint32_t> owners) {
     owners_.insert(owners_.end(), owners.begin(), owners.end());
   }
-  /// Lays out all that were added; `corners` are the places among `vertices` of each one's corners, up to a
-  /// multiple of 4 features.
+  /// Lays out all features that were added. `corners` has the index of each feature's corners among
+  /// `vertices`, up to a multiple of 4 features.
   void lay_out(const kernels::Point* vertices, const std::uint32_t* corners) {
     const kernels::Filter& filter = kernels::filter();
     const auto kernel = Corners == 1   ? filter.lay_out_points
@@ -58,7 +58,7 @@ class FeatureBlock {
     make_room(other.points_.size() / Corners);
     graze::reserve_as(owners_, other.owners_);
   }
-  /// What it holds stays.
+  /// Makes room; the block keeps its content.
   void reserve(std::size_t most) {
     make_room(most);
     owners_.reserve(most);

@@ -3,8 +3,8 @@
 namespace graze {
 namespace {
 
-/// What a query for contacts wants: what is below the threshold, and piercing at every threshold; and to be
-/// listed what comes to be so within a slack.
+/// The range of a query for contacts: pairs below the threshold, and piercing at every threshold. Pairs that
+/// come to be so within the slack are listed.
 struct BelowThreshold {
   double threshold;
   const NearListing& listing;

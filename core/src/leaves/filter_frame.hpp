@@ -12,8 +12,8 @@
 
 namespace graze {
 
-/// The coordinates that the float kernels see: about a corner of the smaller of two leaves and scaled by a
-/// power of two to its size, so that neither where a scene is nor how large it is makes a difference.
+/// The coordinates that the float kernels see. They are relative to a corner of the smaller of two leaves and
+/// scaled by a power of two to its size. So neither the position nor the size of a scene makes a difference.
 class FilterFrame {
  public:
   /// That of nothing.
@@ -44,7 +44,7 @@ class FilterFrame {
   [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
     return (point - origin_) * scale_;
   }
-  /// The same for what brings many points.
+  /// The frame as the passes over many points take it.
   [[nodiscard]] kernels::PointFrame for_points() const {
     return {{origin_.x(), origin_.y(), origin_.z(), 0}, scale_};
   }
@@ -89,7 +89,7 @@ class FilterFrame {
                ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
                : rounded;
   }
-  /// The same rounded down.
+  /// Converts a distance to the frame, rounded down.
   [[nodiscard]] float to_local_below(double distance) const {
     return static_cast<float>(std::min(distance * scale_, 0x1p100) * (1 - 0x1p-23));
   }

@@ -46,7 +46,7 @@ struct FloatFilterScratch {
     if (bound.size() < columns_in_row) bound.resize(columns_in_row);
     return {column.data(), bound.data()};
   }
-  /// So many components of all that was taken of a block, from `first` on.
+  /// Gathers so many components, from `first` on, of the features selected from a block.
   template <std::size_t Corners>
   kernels::Block gather(const SelectedFeatures<Corners>& taken, std::size_t first, std::size_t components) {
     const std::size_t stride = FeatureBlock<Corners>::stride_of(taken.count());
@@ -69,7 +69,7 @@ struct FloatFilterScratch {
   }
 };
 
-/// What float knows of a pair of features that it has left.
+/// The knowledge of float about a pair of features that it has not discarded.
 struct KnownInFloat {
   bool is_bounded = false;  ///< that it may be near; otherwise it has not been looked at
   std::int32_t voronoi = kernels::unsure_voronoi;

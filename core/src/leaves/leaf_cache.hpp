@@ -11,7 +11,7 @@ namespace graze {
 /// The features of the leaves that a query looked into last. A leaf is met beside several others.
 class LeafCache {
  public:
-  /// What follows is about this surface where it is now, in this frame.
+  /// Begins with this surface where it is now, in this frame.
   void begin(const Surface& surface, const FilterFrame& frame, bool vertices_only) {
     const bool same = surface_ == surface.serial() && version_ == surface.version() && frame_ == frame &&
                       vertices_only_ == vertices_only;

@@ -11,18 +11,19 @@
 
 namespace graze {
 
-/// Gives a sink the keys of what features of two surfaces have to do with each other: the closest points of
-/// every vertex-face and edge-edge pair between the features that are taken, every edge that pierces a face,
-/// and every fold's contacts with edges, folds and faces, leaving out what is certainly too far for a range
-/// (a piercing never is). A key may be met several times. What is near goes from boxes to float and from
-/// there to double several at once, so keys may come later than the features; all are there after `finish`.
+/// Finds the feature pairs of two leaves, or of a list, and gives their keys to a sink. These are the closest
+/// points of every vertex-face and edge-edge pair between the selected features, and every edge that pierces
+/// a face. They are also every fold's contacts with edges, folds and faces. Pairs certainly too far for the
+/// range are left out, but never a piercing. A key may come several times. Pairs go from boxes to float and
+/// from there to double, several at once. So keys may come later than the features; all have come after
+/// `finish`.
 ///
-/// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile. Of pairs
-/// nearer than `range.keys_only_below()` only the keys are wanted. Whether edges pierce faces is asked where
-/// `range.may_pierce()`, of those that are not further than `range.touching()`.
-/// `range.found(part of a, part of b)` is told of each pair that is not further than these, at times twice.
-/// `range.left_out(limit)` is told when something further than that was discarded, and `range.keep(lower)` is
-/// asked, with a bound from double, about features that are too large for float.
+/// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile. For pairs
+/// nearer than `range.keys_only_below()` only the keys are wanted. Edges are tested for piercing faces where
+/// `range.may_pierce()`, if they are not further than `range.touching()`. `range.found(a, b)` is called for
+/// each pair that is not further than these, at times twice. `range.left_out(limit)` is called when something
+/// further than that was discarded. `range.keep(lower)` is asked about features that are too large for float,
+/// with a bound from double.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
  public:
@@ -151,7 +152,7 @@ class LeafFeaturePairs {
     pair_.count.discarded_in_float += discarded;
     return discarded > 0;
   }
-  /// The same of those that are not certainly further than the range's limit.
+  /// Visits the pairs whose boxes are not certainly further than the range's limit.
   template <std::size_t RowCorners, std::size_t Corners, typename Use>
   void near_boxes(const SelectedFeatures<RowCorners>& rows, const SelectedFeatures<Corners>& columns,
                   const kernels::Block& boxes, const Use& use) {
@@ -218,7 +219,7 @@ class LeafFeaturePairs {
     if (range_.is_listing()) list_near_planes(batch);
     pair_.count.discarded_in_float += batch.empty(kernels::filter().passing, handle);
   }
-  /// What passes by now may come to pierce.
+  /// Lists the segments that pass by their triangles now, but near: they may come to pierce them.
   void list_near_planes(FloatBatch<2, 3>& batch) {
     const float touching = batches_.frame.to_local_limit(range_.touching());
     const bool is_through_a = &batch == &batches_.through_a;
@@ -308,7 +309,7 @@ class LeafFeaturePairs {
   static FeaturePiece piece_in(const Surface& surface, const FeatureRef& face, const KnownInFloat& known) {
     return piece_of_triangle(surface.mesh(), face.index, static_cast<std::size_t>(known.voronoi));
   }
-  /// What is certainly nearer than what is asked for, however near.
+  /// Accepts a pair that is certainly nearer than the distance asked for. How near it is does not matter.
   void accept_in_float(const FeaturePiece& a, const FeaturePiece& b) {
     ++pair_.count.named_in_float;
     sink_(FeaturePairKey::of(a, b), SquaredRange{0, 0});
@@ -335,7 +336,7 @@ class LeafFeaturePairs {
     }
     return local_limit_;
   }
-  /// What is nearer than this in the frame is so in truth, where keys are all that is wanted.
+  /// A distance in the frame below which a pair is certainly nearer than `keys_only_below`.
   [[nodiscard]] float local_below() const { return batches_.frame.to_local_below(range_.keys_only_below()); }
 
   // ---- Exactly

@@ -59,7 +59,7 @@ class LeafFeatures {
   void lay_out_folds(const IndexedMesh& mesh, const Region& leaf, LeafVertices& from);
 };
 
-/// Those features of a leaf that are near another.
+/// The features of a leaf that are near the other leaf.
 class SelectedLeaf {
  public:
   SelectedFeatures<1> vertices;

@@ -14,9 +14,9 @@
 
 namespace graze {
 
-/// Where in a list some of its keys are: most that were added a moment ago need not be added again, so that
-/// what is left to sort is a fraction, since a contact is found from each of the features about it. Any place
-/// will do to look at, whatever was there before.
+/// Indices of recent keys in a list. Most keys that were added a moment ago need not be added again, since a
+/// contact is found from each of the features about it. That leaves a fraction to sort. Any index is safe to
+/// test, whatever was there before.
 class RecentKeys {
  public:
   [[nodiscard]] std::uint32_t& slot(const FeaturePairKey& key) { return slots_[key.hash() >> 52U]; }
@@ -25,7 +25,7 @@ class RecentKeys {
   std::array<std::uint32_t, 4096> slots_{};
 };
 
-/// What is known of the leaves of a pair of surfaces, and those of two leaves' features that are near.
+/// Working memory for the leaves of a pair of surfaces, and for those features of two leaves that are near.
 struct LeafScratch {
   LeafCache all_a;
   LeafCache all_b;
@@ -95,8 +95,8 @@ struct LeafScratch {
       if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
     }
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
-    // What of b is near where a can be near b's leaf, and what of a is near that. Two features can only touch
-    // where both sides' boxes are.
+    // Selects from b what is near where a can be near b's leaf, and from a what is near that. Two features
+    // can only touch where both sides' boxes are.
     const kernels::BoxInFrame near_a = frame.to_local_beside(leaf_a.box, leaf_b.box, limit);
     if (is_empty(near_a)) return nothing_near();
     all_a.begin(pair.a, frame, vertices_only);

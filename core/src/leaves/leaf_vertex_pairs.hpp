@@ -6,8 +6,8 @@
 
 namespace graze {
 
-/// Calls `visit(vertex of a, vertex of b)` for all pairs of the leaves' vertices but what is certainly too
-/// far for `range`, of which it asks and which it tells what LeafFeaturePairs does.
+/// Calls `visit(vertex of a, vertex of b)` for the pairs of the leaves' vertices, without those certainly too
+/// far for `range`. LeafFeaturePairs says what a range is asked and told.
 template <typename Range, typename Visit>
 void for_each_vertex_pair(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
                           LeafScratch& scratch, Range& range, const Visit& visit) {

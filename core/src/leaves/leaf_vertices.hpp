@@ -14,7 +14,7 @@
 
 namespace graze {
 
-/// Where the corners of features are among vertices, one feature after the other.
+/// The corners of features as indices of vertices, one feature after the other.
 class CornerList {
  public:
   void begin(std::size_t most) {

@@ -126,8 +126,9 @@ class PointRounder {
   double error_;
 };
 
-/// Of distances and points, by the size of the features and their gap: what the contract allows distances.
-/// Stricter bounds send many more contacts of well-shaped meshes to exact arithmetic (docs/tried.md).
+/// The error allowed for distances and points, relative to the size of the features and their gap: the
+/// contract's bound for distances. Stricter bounds send many more contacts of well-shaped meshes to exact
+/// arithmetic (docs/tried.md).
 constexpr double allowed_error = 0x1p-48;
 
 template <typename Number>

@@ -8,7 +8,7 @@ namespace graze {
 
 /// The contact of a key that meets in one point pair: points, distance, normal and sides.
 Contact measure(const SurfacePair& pair, const FeaturePairKey& key);
-/// The same but for the sides, which contacts at distance 0 have none of.
+/// As `measure`, but without the sides, which contacts at distance 0 have none of.
 Contact measure_without_sides(const SurfacePair& pair, const FeaturePairKey& key);
 
 /// The contact of parallel features, at given points of their closest set.

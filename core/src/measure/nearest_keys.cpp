@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-/// So many more than are kept are gathered at least before the nearest of them are chosen.
+/// The least number of contacts gathered beyond those to keep, before the nearest are chosen.
 constexpr std::size_t least_to_spare = 1024;
 
 /// More than the rounding of reported distances of two surfaces.

@@ -25,13 +25,13 @@ struct NearestKeysScratch {
   void reserve(const PairRoom& /*room*/) {}  // where there is a limit, memory is taken when it is met
 };
 
-/// The nearest of the contacts of a pair of surfaces, which are met in any order and several times, so many
-/// at most: by their distance as it is reported, and of those that are as near by their keys. What is kept
-/// does not depend on the order in which contacts are met, nor by which thread.
+/// Keeps the nearest contacts of a pair of surfaces, so many at most. They may come in any order and several
+/// times. They are compared by the distance as it is reported, and at equal distance by their keys. The
+/// result depends neither on the order nor on the thread that a contact comes from.
 ///
-/// Of the keys of one pair of features the nearest stands for all, as in `keep_nearest_of_each`. One that is
-/// further than as many others as are kept stays out whatever comes later, and so do all that are further
-/// than it: dropping it at once loses nothing.
+/// The nearest key of a pair of features stands for all its keys, as in `keep_nearest_of_each`. A key that is
+/// further than as many others as are kept stays out whatever comes later. So do all that are further than
+/// it, and dropping it at once loses nothing.
 class NearestKeys {
  public:
   /// Forgets all; of the next pair at most so many are kept, at least one.
@@ -39,16 +39,16 @@ class NearestKeys {
   /// Takes sorted keys, each once, of each pair of features the nearest. Any number of threads at once.
   void add(const SurfacePair& pair, std::span<const FeaturePairKey> keys, MeasureScratch& measure,
            NearestKeysScratch& scratch);
-  /// What is not nearer than this is not kept: a little more than the furthest that is, by what reported
-  /// distances are rounded. Any thread; it shrinks meanwhile.
+  /// The distance from which on contacts are not kept. It is a little more than that of the furthest one
+  /// kept, by as much as reported distances are rounded. Any thread may ask; it shrinks meanwhile.
   [[nodiscard]] double limit(const SurfacePair& pair);
 
   // When all have been added:
 
   /// Whether there were more, after `finish`.
   [[nodiscard]] bool is_cut() const { return is_cut_; }
-  /// Puts those that are kept, sorted, into `keys`; and the lowest of those at the very least distance, if
-  /// there is one, into `nearest`: it need not be among the first of those that are reported to be as near.
+  /// Puts the kept keys, sorted, into `keys`. Puts the lowest key at the very least distance, if there is
+  /// one, into `nearest`. It need not be among the first of those that are reported to be as near.
   void finish(const SurfacePair& pair, std::vector<FeaturePairKey>& keys, Closest& nearest);
 
   void reserve_as(const NearestKeys& other);

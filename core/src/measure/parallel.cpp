@@ -38,19 +38,19 @@ Holder face_holder(const Surface& surface, std::uint32_t face) {
   return holder;
 }
 
-/// What plain double is off by is below 2^-49 of the sizes, and by no more than these are edges or faces
-/// certainly not parallel. What underflows decides nothing.
+/// The error of plain double is below 2^-49 of the sizes. Edges or faces that are further from parallel than
+/// this are certainly not parallel. Products that underflow decide nothing.
 constexpr double least_angle_squared = 0x1p-80;
 constexpr double least_product = 0x1p-900;
 
 bool are_certainly_across(double squared, double sizes) {
   return sizes > least_product && squared > least_angle_squared * sizes;
 }
-/// Of two edges or two faces.
+/// Whether two edges or two faces are certainly not parallel.
 bool are_not_parallel(const Holder::Direction& a, const Holder::Direction& b) {
   return are_certainly_across(a.vector.cross(b.vector).squaredNorm(), a.largest_square * b.largest_square);
 }
-/// Of an edge and a face.
+/// Whether an edge and a face are certainly not parallel.
 bool are_not_square(const Holder::Direction& a, const Holder::Direction& b) {
   const double along = a.vector.dot(b.vector);
   return are_certainly_across(along * along, a.largest_square * b.largest_square);
@@ -177,7 +177,7 @@ class ParallelContacts {
         if (is_parallel({{FeatureKind::face, of_a}, {FeatureKind::face, of_b}})) return true;
     return false;
   }
-  /// Of an edge, or a face itself, which stays where it is.
+  /// The faces of an edge, or a face itself. The span refers to the mesh or to `feature`.
   static std::span<const std::uint32_t> faces_of(const IndexedMesh& mesh, const Feature& feature) {
     if (feature.kind == FeatureKind::face) return {&feature.index, 1};
     return mesh.edge_faces(feature.index);

@@ -66,10 +66,10 @@ struct ParallelScratch {
 
 /// `ContactDetail::closest` of two surfaces from all keys at their least distance (sorted, at least one).
 ///
-/// Features that are parallel to each other have a stretch or an area of closest points; where one holds a
-/// key's features it stands for that key, since those points are only its border: the area between a box
-/// and the table under it (FF) and not one corner of it (VF). Of what then is left the lowest (kind, feature
-/// a, feature b) is the contact, with the middle of its closest set.
+/// Features that are parallel to each other have a stretch or an area of closest points. Where one of these
+/// holds a key's features it stands for that key, since those points are only its border. An example is the
+/// area between a box and the table under it (FF), and not one corner of it (VF). The lowest (kind, feature
+/// a, feature b) of the rest is the contact, with the middle of its closest set.
 Contact closest_contact(const SurfacePair& pair, const std::vector<FeaturePairKey>& keys,
                         ParallelScratch& scratch);
 

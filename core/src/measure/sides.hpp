@@ -18,7 +18,7 @@ namespace graze {
 /// asked about last are kept.
 class NormalCache {
  public:
-  /// Of so many features that are asked about in a row all are kept, until the next.
+  /// How many features asked about in a row are certainly kept, until the next.
   static constexpr std::size_t at_once = 128;
 
   /// Forgets all, for another surface.

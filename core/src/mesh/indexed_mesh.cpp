@@ -119,8 +119,8 @@ void IndexedMesh::find_unused() {
 
 namespace {
 
-/// Where an edge is first met: of corners that begin edges with the same two vertices, all have the first of
-/// them in place of `ends`, which holds the lower end's corners with their higher ends.
+/// Finds the corner where each edge is first met. All corners that begin edges with the same two vertices get
+/// the first of them. `ends` holds the lower end's corners with their higher ends.
 void join_equal(std::span<std::uint64_t> ends, std::vector<std::uint32_t>& first_met) {
   // Higher end, then corner: equal ones follow one another, the first met before the others.
   std::sort(ends.begin(), ends.end());

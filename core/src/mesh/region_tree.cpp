@@ -97,8 +97,8 @@ class Builder {
   std::vector<std::uint32_t>& vertices_;
   std::vector<std::uint32_t> sorted_;
   Eigen::Vector3d size_;  ///< of the root box
-  /// Of each used vertex from the minimum of the box of its region: from 0 to the box's size, so that halving
-  /// the size and taking half of it away do not round, and cuts are exact at every depth.
+  /// The offset of each used vertex from the minimum of its region's box: from 0 to the box's size. So
+  /// halving the size and taking half of it away do not round, and cuts are exact at every depth.
   std::vector<Eigen::Vector3d> offsets_;
 };
 

@@ -123,8 +123,9 @@ RestReach::Both RestReach::reach_in(const Eigen::Vector3d& direction) const {
 }
 
 double RestReach::slack_of(const double* row) const {
-  // What is listed, the weights, the sums here and the vertices themselves are off by fewer than a hundred
-  // roundings of numbers as large as this sum, and by less than the smallest normal number at a time.
+  // The listed reaches, the weights, the sums here and the vertices each have rounding errors. Together these
+  // are fewer than a hundred roundings of numbers as large as this sum, and each loses less than the smallest
+  // normal number.
   constexpr double roundings = 0x1p-46;
   constexpr double lost = 0x1p-1000;
   const Eigen::Vector3d direction = Eigen::Vector3d(row[0], row[1], row[2]).cwiseAbs();

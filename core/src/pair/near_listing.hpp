@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// Where pairs of features that may be in contact before the surfaces have moved by a slack are listed.
+/// A list for pairs of features that may be in contact before the surfaces have moved by a slack.
 struct NearListing {
   std::vector<FeaturePair>* pairs = nullptr;  ///< nowhere
   double slack = 0;

@@ -20,7 +20,7 @@ double epsilon_of(const SurfacePair& pair, const PairQuery& query, const Region&
   return query.epsilon[std::min(level, last) - 1];
 }
 
-/// What is nearer than the threshold, for a look at pairs of vertices.
+/// The range of a search for pairs of vertices nearer than the threshold.
 struct BelowThreshold {
   double threshold;
 

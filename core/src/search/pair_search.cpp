@@ -44,15 +44,16 @@ float rounded_down(double lower) {
   return lower < least ? 0 : static_cast<float>(std::min(lower, most) * (1 - 0x1p-23));
 }
 
-/// Takes up what looks into two leaves say of them now, after a motion since they were listed.
+/// Updates the bound of two listed leaves by the result of testing them now, after a motion since they were
+/// listed.
 void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
   listed.feature_lower_bound =
       std::max(listed.feature_lower_bound,
                rounded_down((static_cast<double>(now.feature_lower_bound) + motion) * round_down));
 }
 
-/// Of sorted keys at distance 0 the first of an edge that pierces a face. At threshold 0 that alone is
-/// contact: what touches there is not below the threshold.
+/// Returns the first of some sorted keys at distance 0 whose edge pierces a face. At threshold 0 only that is
+/// contact, since touching is not below the threshold.
 const FeaturePairKey& lowest_piercing(const std::vector<FeaturePairKey>& keys) {
   return *std::find_if(keys.begin(), keys.end(), is_edge_through_face);
 }
@@ -108,7 +109,7 @@ void PairSearch::go_on(Worker& worker) {
 void PairSearch::run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters) {
   Worker worker(*this, scratch, counters);
   bool& complete = stage_ == Stage::ordered ? stretches_[index].complete : slices_[index].complete;
-  // Of those that come too late none need be begun, and none throws.
+  // A slice that comes too late is not begun, so that it does not throw either.
   complete = !worker.time.is_set() || worker.time.left() > std::chrono::nanoseconds(0);
   if (!complete) return;
   try {
@@ -183,7 +184,7 @@ void PairSearch::run(Slice& slice, Worker& worker) {
   }
 }
 
-/// What is swapped with each other has the same room, so that it does not matter how often.
+/// Lists that are swapped with each other get the same room, so that it does not matter how often they are.
 void PairSearch::reserve_as(const PairSearch& other) {
   if (other.slices_.empty()) return;
   if (slices_.empty()) slices_.emplace_back();
@@ -261,7 +262,7 @@ void PairSearch::slice_front() {
   add_slices_of(0, front_->leaves.size(), front_pairs_each);
 }
 
-/// What a slice of the front has that is not further than a distance.
+/// Selects from a slice of the front the pairs that are not further than a distance.
 void PairSearch::take_front(Slice& slice, double distance, Worker& worker) const {
   worker.leaf_pairs.select_from(*front_, slice.begin, slice.end, distance, certainly_apart_, slice.found);
 }
@@ -340,7 +341,7 @@ bool PairSearch::may_touch(double lower) const {
   return lower < wanted_ || (query_.detail == ContactDetail::features && lower == 0);
 }
 
-/// The same of what comes nearer by the slack that a walk asks about.
+/// As `may_touch`, for pairs that may come nearer by the slack that a walk asks about.
 auto PairSearch::may_touch_within_slack() const {
   return [this](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); };
 }

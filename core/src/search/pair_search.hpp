@@ -50,7 +50,8 @@ struct SearchScratch {
 /// depends on the surfaces and the query only, so the answer does not depend on who ran what.
 class PairSearch {
  public:
-  /// What is pointed to stays until the query is answered. `sliced`: a stage may be of many slices.
+  /// Begins a query. The arguments that are pointed to have to stay until it is answered. `sliced`: a stage
+  /// may be cut into many slices.
   void begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front, PairAnswer& answer,
              bool sliced);
 
@@ -62,13 +63,13 @@ class PairSearch {
   }
   void run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters);
 
-  /// Of searches that are not cut.
+  /// Reserves as much as another search has. Neither is cut into slices.
   void reserve_as(const PairSearch& other);
   void reserve(const PairRoom& room);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// What the slices that were made last are for.
+  /// The purpose of the slices that were made last.
   enum class Stage : std::uint8_t {
     start,
     listed,    ///< the keys of all contacts among features that an earlier query listed

@@ -24,8 +24,8 @@ constexpr std::size_t contacts_each = 128;
 /// Names that a slice finds before it hands them over, where contacts are limited.
 constexpr std::size_t handed_over_at_once = 8192;
 
-// What a key and a contact take at least from here on. Where a deadline leaves less than that for all of
-// them, what is left is for other pairs.
+// The least time that a key and a contact take from here on. Where a deadline leaves less than that for all
+// of them, the rest of the time is for other pairs.
 constexpr std::chrono::nanoseconds to_sort_one{20};
 constexpr std::chrono::nanoseconds to_measure_one{40};
 
@@ -46,7 +46,7 @@ void PairSearch::finish_contacts(Worker& worker) {
   begin_measuring(worker);
 }
 
-/// Where contacts are limited: what the slices have handed over.
+/// Takes the contacts that the slices have handed over, where contacts are limited.
 void PairSearch::finish_nearest(Worker& worker) {
   nearest_keys_.finish(worker.pair, keys_, worker.scratch.lowest);
   answer_->cut = nearest_keys_.is_cut();
@@ -60,7 +60,7 @@ double PairSearch::threshold_now(Worker& worker) {
   return is_limited() ? std::min(query_.threshold, nearest_keys_.limit(worker.pair)) : query_.threshold;
 }
 
-/// What a slice has found goes to those of all, so that it need not keep it.
+/// Gives a slice's keys to the list of all slices, so that it need not keep them.
 void PairSearch::hand_over(Slice& slice, Worker& worker) {
   if (slice.keys.empty()) return;
   const std::size_t count = sort_keys(slice.keys, worker);
@@ -77,7 +77,7 @@ void PairSearch::hand_over_if_many(Slice& slice, Worker& worker) {
   slice.near_is_too_long = true;
 }
 
-/// Of one of many slices, for those that sort.
+/// Puts the keys of one of many slices into bins, for the stage that sorts.
 void PairSearch::bin_keys(Slice& slice, Worker& worker) {
   if (is_limited()) return hand_over(slice, worker);
   if (slice_count_ <= 1) return;

@@ -13,9 +13,9 @@ namespace graze {
 namespace {
 
 constexpr std::size_t listed_each = 1024;
-/// Of what is listed so many are one unit of the budget, as a look into two leaves is.
+/// How many listed pairs cost one unit of the budget. Testing two leaves costs one as well.
 constexpr std::size_t listed_in_one = 64;
-/// So many are put into a pair's list between looks at the clock.
+/// How many pairs are put into a pair's list between two checks of the clock.
 constexpr std::size_t kept_at_once = 1024;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The part of a pair's search that looks for a place where surfaces that touched still do.
+// This part of a pair's search finds a point where surfaces that touched still do.
 
 #include <algorithm>
 
@@ -26,7 +26,7 @@ TouchingOrder PairSearch::touching_order() const {
   return {a_->mesh().regions(), b_->mesh().regions()};
 }
 
-/// Puts the front in the order in which it is looked for a place that touches.
+/// Sorts the front by the order in which leaf pairs are tested for touching.
 void PairSearch::sort_front() {
   std::sort(front_->leaves.begin(), front_->leaves.end(), touching_order());
 }
@@ -61,9 +61,10 @@ void PairSearch::test_front(Worker& worker) {
   finish_closest(worker);
 }
 
-/// Without a front: one leaf of a surface after the other, each with those of the other surface whose boxes
-/// overlap its own. Where many places touch it is soon at one, and no front is made for it; the order is the
-/// same as in a front, so it is the same one. Otherwise a front is worth its walk.
+/// Finds touching leaves without a front: takes one leaf of a surface after the other, each with the leaves
+/// of the other surface whose boxes overlap its own. Where the surfaces touch in many points this soon meets
+/// one, and no front is made. The order is that of a front, so it finds the same point. If it meets none, a
+/// front is worth its walk.
 void PairSearch::walk_touching(Worker& worker) {
   const TouchingOrder order = touching_order();
   const RegionTree& scattered = (order.scatters_a() ? a_ : b_)->mesh().regions();

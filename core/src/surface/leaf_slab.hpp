@@ -9,8 +9,8 @@
 
 namespace graze {
 
-/// What holds a leaf of a surface tightly where that is nearly flat: a cylinder between two planes, about the
-/// leaf's middle vertex. In float, since a query keeps many.
+/// A tight bound of a leaf that is nearly flat: a cylinder between two planes, about the leaf's middle
+/// vertex. It is in float, since a query keeps many.
 struct LeafSlab {
   static constexpr float beyond = std::numeric_limits<float>::infinity();
 

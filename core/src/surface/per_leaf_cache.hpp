@@ -10,12 +10,12 @@
 
 namespace graze {
 
-/// A value of each leaf of one surface where it is now, made when asked for: a query reads few leaves of a
-/// large surface.
+/// A cache of one value for each leaf of one surface where it is now. Values are made when asked for, since a
+/// query reads few leaves of a large surface.
 template <typename Value>
 class PerLeafCache {
  public:
-  /// What was made of the same positions is kept.
+  /// Begins a query. Values that were made from the same positions are kept.
   void begin(const Surface& surface) {
     if (serial_ == surface.serial() && version_ == surface.version()) return;
     serial_ = surface.serial();
@@ -34,7 +34,8 @@ class PerLeafCache {
       query_ = 1;
     }
   }
-  /// That of a leaf, by its number; stays until another surface or other positions.
+  /// Returns the value of a leaf by its number, and makes it if need be. The reference stays valid until
+  /// another surface or other positions.
   template <typename Make>
   const Value& of(std::size_t leaf, const Make& make) {
     if (made_in_[leaf] != query_) {

@@ -125,7 +125,7 @@ Surface::ReadResult Surface::result_of(const PartSeen& all) const {
   return result;
 }
 
-/// Of good positions.
+/// Counts a read of good positions.
 void Surface::count_read(const ReadResult& result, const Box& now) {
   is_behind_ = false;
   displacement_ = result.displacement;
@@ -234,7 +234,7 @@ Box box_of(const kernels::PositionsSeen<Number>& seen) {
   return box;
 }
 
-/// What fast passes see of packed positions; nothing where one of them is bad.
+/// Surveys packed positions by fast passes; nothing where one of them is bad.
 template <typename Number>
 std::optional<Surface::PartSeen> seen_in_survey(const void* now, std::uint32_t begin, std::uint32_t end) {
   kernels::PositionsSeen<Number> seen{};
@@ -252,7 +252,8 @@ std::optional<Surface::PartSeen> seen_in_survey(const PositionView& view, std::u
                           : seen_in_survey<float>(view.data(), begin, end);
 }
 
-/// The same of what comes in another precision than before, as at first: that it may be anywhere else.
+/// Surveys positions that come in another precision than before, or first of all. They count as moved by any
+/// distance.
 std::optional<Surface::PartSeen> seen_as_jump(const PositionView& view, std::uint32_t begin,
                                               std::uint32_t end) {
   auto part = seen_in_survey(view, begin, end);
@@ -262,7 +263,7 @@ std::optional<Surface::PartSeen> seen_as_jump(const PositionView& view, std::uin
   return part;
 }
 
-/// What is seen in a survey of any positions, one by one.
+/// Surveys any positions, one by one.
 Surface::PartSeen seen_one_by_one(const IndexedMesh& mesh, const PositionView& view, std::uint32_t begin,
                                   std::uint32_t end) {
   Surface::PartSeen part;
@@ -279,8 +280,8 @@ Surface::PartSeen seen_one_by_one(const IndexedMesh& mesh, const PositionView& v
   return part;
 }
 
-/// What fast passes see of positions that lie as the ones before do, compared with them; nothing where one of
-/// them is bad.
+/// Compares positions by fast passes with those before, which lie in the same way; nothing where one of them
+/// is bad.
 template <typename Number>
 std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* before, std::uint32_t begin,
                                                 std::uint32_t end, Surface::Displacement displacement) {
@@ -351,7 +352,7 @@ Surface::PartSeen Surface::scan_pose(const std::array<double, 12>& rows, std::ui
 
 namespace {
 
-/// The same as `posed` of each point, x and y at once.
+/// Computes `posed` of each point, x and y at once.
 void pose_vertices(const std::array<double, 12>& rows, std::span<const Eigen::Vector3d> rest,
                    Eigen::Vector3d* now) {
   using Two [[gnu::vector_size(2 * sizeof(double))]] = double;

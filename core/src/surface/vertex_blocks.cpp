@@ -12,7 +12,7 @@ namespace {
 
 static_assert(VertexBlocks::block_size == kernels::block_size);
 
-/// So many groups are gone through as quickly as another level would be.
+/// A level of so many groups is tested as quickly as another level would be made.
 constexpr std::size_t few_groups = 8;
 
 }  // namespace

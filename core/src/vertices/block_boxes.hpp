@@ -52,19 +52,18 @@ struct BoxRows {
   void reserve(std::size_t most) { rows.resize(std::max(rows.size(), 6 * most)); }
 };
 
-/// How much nearer boxes of blocks may seem in float, relative to the numbers that say where they are: half
-/// of a unit of 2^-23 each for two coordinates about their origins, for where these are to each other, for
-/// what is looked for, and for three sums of them. A coordinate that is far from those it is compared with
-/// may lose more, and is as far on.
+/// How much nearer boxes of blocks may seem in float, relative to their coordinates. The bound is half a unit
+/// of 2^-23 for each of these: two coordinates about their origins, their offset, the reach, and three sums
+/// of them. A coordinate that is far from those it is compared with may lose more, and is as far on.
 inline constexpr float box_margin = 0x1p-20F;
-/// What small numbers lose in float.
+/// The loss of small numbers in float.
 inline constexpr float box_lost = 0x1p-140F;
 
 inline kernels::BoxInFrame in_frame(const std::array<float, 6>& box) {
   return {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
 }
 
-/// What boxes are compared with in place of a box that is elsewhere: it is `by` from there, and grown.
+/// Moves a box by `by` and grows it, so that boxes elsewhere can be compared with it.
 inline kernels::BoxInFrame moved(const kernels::BoxInFrame& box, const Eigen::Vector3f& by, float grown) {
   kernels::BoxInFrame moved{};
   for (int axis = 0; axis < 3; ++axis) {

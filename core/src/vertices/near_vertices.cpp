@@ -17,15 +17,16 @@ namespace {
 constexpr std::size_t block_size = VertexBlocks::block_size;
 constexpr std::size_t group_size = VertexBlocks::group_size;
 
-/// So many blocks of b are looked at one after the other, beside each block of a; of more by their levels.
+/// Up to so many blocks of b are tested in a line beside each block of a; more are tested by their levels.
 constexpr std::size_t most_blocks_to_scan = 8 * group_size;
-/// So many boxes of b are gone through for a block of a as quickly as they are sorted out for several before.
+/// Up to so many boxes of b are tested for a block of a as quickly as they are sorted out for several blocks
+/// before.
 constexpr std::size_t most_boxes_at_once = 4 * group_size;
-/// So many blocks of a in one group of sixteen are worth it.
+/// The least number of blocks of a in one group of sixteen that are worth it.
 constexpr std::size_t least_run = 4;
-/// Blocks of b among which there are too few pairs within the limit to look for the nearest first.
+/// Up to so many blocks of b have too few pairs within the limit to find the nearest first.
 constexpr std::size_t most_blocks_beside = 4;
-/// Pairs of points are visited so many at a time, between looks at the clock.
+/// How many pairs of points are visited between two checks of the clock.
 constexpr std::size_t visited_each = 256;
 /// Blocks of b whose points are compared at once.
 constexpr std::size_t blocks_at_once = 128;
@@ -35,7 +36,7 @@ float as_float(double value) {
   return value > most ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
 }
 
-/// What the squared distance of two points within a limit comes to in Number at most.
+/// The largest squared distance, as computed in Number, of two points within a limit.
 template <typename Number>
 Number squared_reach(double limit) {
   return static_cast<Number>(limit * limit * (1 + 8 * double{std::numeric_limits<Number>::epsilon()}) +
@@ -121,7 +122,8 @@ bool NearVertices::make_parts() {
   return make(pair_.a, pair_.b, near_.part_a) && make(pair_.b, pair_.a, near_.part_b);
 }
 
-/// Of a those that are near the few of b together, whose boxes are put side by side.
+/// Keeps the blocks of a that are near all listed blocks of b together, which are few, and puts their boxes
+/// side by side.
 void NearVertices::tighten() {
   find_meeting(of_a_, moved(around_all(of_b_, near_.b.listed()), -near_.shift, near_.reach), scratch_.groups,
                near_.a);
@@ -245,7 +247,7 @@ void NearVertices::find_beside(std::uint32_t block_of_a) {
     find_meeting(of_b_, box_around(block_of_a), scratch_.groups, scratch_.beside);
 }
 
-/// The same of one of those that were asked about together.
+/// Finds the blocks of b near one block of a, among those found for several blocks together.
 void NearVertices::find_beside_in_around(std::uint32_t block_of_a) {
   IndexList& found = scratch_.beside;
   find_meeting(scratch_.boxes, box_around(block_of_a), found);

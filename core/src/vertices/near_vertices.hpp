@@ -16,16 +16,16 @@
 
 namespace graze {
 
-/// What is left of two surfaces' blocks where either may be near the other, for all slices of a search. Boxes
-/// are seen about the origin of b's.
+/// The blocks of two surfaces that may be near the other surface, for all slices of a search. Boxes are
+/// relative to the origin of b's.
 struct NearBlocks {
   /// The blocks themselves, of a surface that has stretches in their place.
   NearPart part_a;
   NearPart part_b;
   IndexList a;  ///< ascending
   IndexList b;
-  /// Whether those of b are so few that they are looked at one after the other, by their places in the list.
-  /// Of more all levels are, and they have their places among all blocks of b.
+  /// Whether b has so few blocks left that they are tested in a line, by their index in the list. If there
+  /// are more, all levels are used, and blocks have their index among all blocks of b.
   bool is_linear_scan = false;
   BoxRows boxes;  ///< of the few
   // The points of each block of b in its place, in one of the two.
@@ -59,8 +59,8 @@ struct NearVerticesScratch {
   void reserve(const PairRoom& room);
 };
 
-/// Finds all pairs of vertices that are nearer than a limit, from the blocks of both surfaces: those
-/// in each other's box, of these those whose boxes are near each other, and of these the points.
+/// Finds all pairs of vertices that are nearer than a limit, from the blocks of both surfaces. It goes from
+/// blocks in each other's box to those whose boxes are near each other, and from these to the points.
 class NearVertices {
  public:
   /// Both surfaces have their blocks, or stretches.
@@ -68,9 +68,10 @@ class NearVertices {
 
   /// Lists the blocks that may have such a pair; none of a where there is none.
   void find_blocks();
-  /// Appends those pairs of some of the listed blocks of a that are nearer than a threshold, in their order,
-  /// by the points of a and then of b, and lists all that are not certainly further than the limit; false
-  /// when the budget ran out. Reads the lists of blocks alone, so that several threads may at once.
+  /// Appends the pairs of some of the listed blocks of a that are nearer than a threshold, in their order, by
+  /// the points of a and then of b. Lists all pairs that are not certainly further than the limit. Returns
+  /// false when the budget ran out. Reads the lists of blocks alone, so that several threads may call it at
+  /// once.
   bool key(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
            std::vector<FeaturePairKey>& keys, const NearListing& listing);
   /// Offers the nearest pairs of all listed blocks, and what comes before them; false when the budget ran

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-/// What a search for the closest points has found so far.
+/// The result of a search for the closest points so far.
 struct ClosestFound {
   Closest closest;
   /// Nothing was left out that is nearer than this, but for the keys found.
@@ -52,7 +52,7 @@ class ClosestRange {
     return false;
   }
 
-  /// What is certainly further than this does not matter now; in units of the scene.
+  /// The distance, in units of the scene, from which on a pair certainly does not matter now.
   [[nodiscard]] double limit() const {
     const double reached = std::min(set_.upper(), query_.reach) + leaf_test_slack_;
     if (query_.mode != AccuracyMode::within) return reached;
@@ -80,8 +80,8 @@ class ClosestRange {
     if (may_be_apart(upper) && upper < set_.upper())
       set_.offer(FeaturePairKey::of(vertex_piece(a), vertex_piece(b)));
   }
-  /// Where points of both surfaces are this far apart. Not at 0, as with middles; and not where a key must
-  /// be that near, since a search to a tolerance may leave it out.
+  /// Tells that points of both surfaces are this far apart. It does not count at 0, as with middle vertices.
+  /// Nor does it count where a key must be that near, since a search to a tolerance may leave it out.
   void at_most(double upper) {
     if (may_be_apart(upper) && query_.mode == AccuracyMode::exact) set_.at_most(upper);
   }

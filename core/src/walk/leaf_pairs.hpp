@@ -109,10 +109,10 @@ class LeafPairs {
     found.leaves.resize(count);
   }
 
-  /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds: whether something
-  /// that is at least `lower` apart may come to matter before the surfaces have moved by `slack`.
-  /// `meet(pair)` is called for every pair of regions. Stops where a level has more than `most` pairs: those
-  /// are then `front()`. False when the budget ran out.
+  /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds. That says whether
+  /// a pair at least `lower` apart may come to matter before the surfaces have moved by `slack`. `meet(pair)`
+  /// is called for every pair of regions. The walk stops where a level has more than `most` pairs: those are
+  /// then `front()`. Returns false when the budget ran out.
   template <typename Keep, typename Meet>
   bool walk(std::span<const RegionPair> start, const Keep& keep, const Meet& meet, LeafPairList& found,
             std::size_t most = std::numeric_limits<std::size_t>::max()) {
@@ -140,7 +140,7 @@ class LeafPairs {
   double lower_of_leaves(const RegionPair& leaves) {
     return lower_distance(scratch_.boxes_a.of(leaves.a), scratch_.boxes_b.of(leaves.b));
   }
-  /// Where the last walk stopped.
+  /// The pairs at which the last walk stopped.
   [[nodiscard]] std::span<const RegionPair> front() const { return scratch_.dmv.front; }
 
   [[nodiscard]] LeafOf leaf_a(const RegionPair& leaves) {
@@ -151,8 +151,8 @@ class LeafPairs {
   }
 
  private:
-  /// Of two regions of very different size the larger alone is expanded: of a pebble and a planet one way
-  /// down the planet is walked, not one for each part of the pebble. Otherwise both are, as in the paper.
+  /// Expands only the larger of two regions of very different size: with a pebble and a planet one way down
+  /// the planet is walked, not one for each part of the pebble. Otherwise expands both, as in the paper.
   [[nodiscard]] Expansion expansion_of(const RegionPair& regions, const Region& a, const Region& b) const {
     constexpr double very_different = 4;
     const double size_a = bounds_.size_a(regions);

@@ -8,10 +8,10 @@
 
 namespace graze {
 
-/// The order in which pairs of leaves are asked whether they touch: one leaf of the surface that has fewer
-/// regions after the other, where those that follow one another are far apart, and with each those of the
-/// other surface by their numbers. Leaves that follow one another by number are neighbours, and where boxes
-/// overlap but surfaces do not touch they would all be in the way. It depends on the two meshes alone.
+/// The order in which pairs of leaves are tested for touching. It takes one leaf of the surface with fewer
+/// regions after the other, scattered, and with each the leaves of the other surface by their numbers. Leaves
+/// that follow one another by number are neighbours. Where boxes overlap but surfaces do not touch they would
+/// all be in the way. The order depends on the two meshes alone.
 class TouchingOrder {
  public:
   TouchingOrder(const RegionTree& a, const RegionTree& b)

@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Where vertices are now, each once.
+/// The present positions of some vertices, each once.
 Points points_of(const Surface& surface, std::vector<std::uint32_t> vertices) {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -25,7 +25,7 @@ Points points_of(const Surface& surface, std::vector<std::uint32_t> vertices) {
   return points;
 }
 
-/// What a leaf owns, by its corners.
+/// The features that a leaf owns, by their corners.
 struct CornersOf {
   Points vertices;
   Points faces;
@@ -59,8 +59,8 @@ void require_apart(const CornersOf& a, const CornersOf& b, double lower, const c
       require_apart(*of_a, *of_b, lower, what, index);
 }
 
-/// Of each vertex and face and each two edges: of two corners that neither leaf owns it is another pair of
-/// leaves that is looked into.
+/// Checks each vertex with each face and each two edges. Two corners that neither leaf owns belong to another
+/// pair of leaves, which is tested itself.
 void require_features_apart(const CornersOf& a, const CornersOf& b, double lower, const char* what,
                             std::size_t index) {
   require_apart(a.vertices, b.faces, lower, what, index);

@@ -22,8 +22,8 @@ void reserve_to_overwrite(std::vector<Element>& elements, std::size_t room) {
   elements.reserve(room);
 }
 
-/// The same for a list that one object has of many that have others, about as long: room enough for most of
-/// them from the first time on, but no more than it may ever need.
+/// As the function above, for a list that one object has and many others have about as long. From the first
+/// time on it reserves enough for most of them, but never more than the list may ever need.
 template <typename Element>
 void reserve_for_one_of_many(std::vector<Element>& elements, std::size_t count, std::size_t most) {
   constexpr std::size_t least = 64;

@@ -15,8 +15,8 @@
 
 namespace graze {
 
-/// What a Mesh holds: topology and rest shape, the octree of regions, and lists that queries need. Immutable.
-/// Members that Mesh has as well say the same here.
+/// The data behind a Mesh: topology, rest shape, the octree of regions, and lists that queries need. It is
+/// immutable. Members that Mesh also has mean the same here.
 class GRAZE_API IndexedMesh {
  public:
   static constexpr std::uint32_t no_edge = Mesh::no_edge;
@@ -66,8 +66,8 @@ class GRAZE_API IndexedMesh {
   [[nodiscard]] std::span<const std::uint32_t> vertex_fans(std::uint32_t vertex) const {
     return fans().row(vertex);
   }
-  /// The used vertices in an order in which each eight of them are near each other at rest: halved along the
-  /// longest side of their box, and the halves again, with whole eights on either side.
+  /// The used vertices, ordered so that each eight of them are near each other at rest. The order halves
+  /// their box along its longest side, then halves the halves, with whole eights on either side.
   [[nodiscard]] std::span<const std::uint32_t> block_order() const { return blocks().order; }
   /// Which groups of sixteen blocks the vertices of a stretch (VertexStretches) are in, ascending.
   [[nodiscard]] std::span<const std::uint32_t> stretch_groups(std::uint32_t stretch) const {

@@ -8,10 +8,11 @@
 
 namespace graze {
 
-/// What a feature of a surface is part of; as wide as an index, so that both are compared at once.
+/// The kind of a feature that a list refers to. It is as wide as an index, so that kind and index are
+/// compared at once.
 enum class FeatureRefKind : std::uint32_t { vertex, edge, face, fold };
 
-/// A feature of a surface, by the number of what it is part of.
+/// A feature of a surface, by its kind and index. A fold has the index of its quad.
 struct FeatureRef {
   FeatureRefKind kind = FeatureRefKind::vertex;
   std::uint32_t index = 0;
@@ -33,10 +34,10 @@ struct FeaturePair {
 /// that, a query asks these and no others.
 struct NearList {
   std::vector<FeaturePair> pairs;
-  /// Every pair that is not listed was at least this far apart, at the two marks; negative where nothing is
-  /// known.
+  /// A lower bound of the distance, at the two marks, of every pair that is not listed. It is negative where
+  /// nothing is known.
   double unlisted_lower_bound = -1;
-  /// An edge and a face that are not listed, too, so that it cannot pierce this before a motion of as much.
+  /// The motion below which no edge that is not listed can come to pierce a face that it is not listed with.
   double slack = 0;
   Travel travel_a;
   Travel travel_b;

@@ -33,7 +33,7 @@ class GRAZE_API PairDetector {
   /// and changes nothing in the answer, but in AccuracyMode::within which of the allowed bounds are given.
   void detect(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
               PairAnswer& answer, PairCounters& counters);
-  /// The same without a front.
+  /// Detects without a front to start from or to keep.
   void detect(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer,
               PairCounters& counters);
 

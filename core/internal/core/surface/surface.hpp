@@ -59,7 +59,7 @@ class GRAZE_API Surface {
   /// Whether a position can be worked with: finite, and no coordinate beyond 2^120.
   [[nodiscard]] static bool is_within_limits(const Eigen::Vector3d& position);
 
-  /// What came of reading positions.
+  /// The result of reading positions.
   struct ReadResult {
     static constexpr std::uint32_t no_vertex = IndexedMesh::no_edge;
     /// The first used vertex that is not finite or has a coordinate beyond 2^120; then nothing was taken.
@@ -83,7 +83,7 @@ class GRAZE_API Surface {
   /// another pose is a change.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
-  /// What looking at some of the new positions found.
+  /// The result of scanning some of the new positions.
   struct PartSeen {
     /// The first, as in ReadResult; nothing after it was looked at.
     std::uint32_t bad_vertex = ReadResult::no_vertex;
@@ -97,15 +97,16 @@ class GRAZE_API Surface {
     /// Adds what was found in the vertices that come after.
     void add(const PartSeen& later);
   };
-  /// The same in parts. First look at the vertices from `begin` to `end`, then `take` what all parts found
-  /// together, then, where it says that something changed, write them; before that the surface's positions
-  /// are not to be asked for. Several threads may look or write at once, at parts that do not overlap.
+  /// Reading by several threads has three phases. First scan the vertices from `begin` to `end`; several
+  /// threads may scan ranges that do not overlap. Then `accept` what all scans found together. If that says
+  /// that something changed, write the positions, again by ranges. Between `accept` and the last write the
+  /// surface's positions must not be read.
   [[nodiscard]] PartSeen scan_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
                                         Displacement displacement = Displacement::exact) const;
   [[nodiscard]] PartSeen scan_pose(const std::array<double, 12>& rows, std::uint32_t begin,
                                    std::uint32_t end) const;
   ReadResult accept(const PartSeen& all);
-  /// Takes positions where they lie, which are this surface's until it is given others; none is to be
+  /// Uses positions where they lie. They are this surface's until it is given others, and none is to be
   /// written.
   ReadResult take_in_place(const PartSeen& all, const PositionView& view);
   void write_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end);
@@ -144,8 +145,8 @@ class GRAZE_API Surface {
   void refit(RefitOf what);
   void refit_vertices() { refit(RefitOf::vertices); }
   void refit_faces() { refit(RefitOf::faces); }
-  /// The same in parts: `begin_refit`, then ranges of regions that do not overlap and are all of them
-  /// together, by several threads at once if need be, then `finish_refit`.
+  /// A refit by several threads: `begin_refit`, then `refit_regions` for ranges that do not overlap and
+  /// together are all regions, then `finish_refit`.
   void begin_refit(RefitOf what);
   void refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end);
   void finish_refit(RefitOf what);
@@ -163,8 +164,8 @@ class GRAZE_API Surface {
   [[nodiscard]] const VertexBlocks& blocks() const { return blocks_; }
   /// Whether they are those of now.
   [[nodiscard]] bool has_blocks() const { return blocks_version_ == version_; }
-  /// The same of stretches, of a mesh that has them: enough in place of blocks, where few pairs look at the
-  /// surface and each at a part of it.
+  /// Makes stretches at the present positions, for a mesh that has them. They suffice instead of blocks where
+  /// few pairs test the surface, each a part of it.
   void make_stretches();
   [[nodiscard]] const VertexStretches& stretches() const { return stretches_; }
   [[nodiscard]] bool has_stretches() const { return stretches_version_ == version_; }
@@ -172,7 +173,7 @@ class GRAZE_API Surface {
   /// Lets go of all bounds, blocks and stretches, and of their memory: those of now are made anew.
   void forget_bounds() noexcept;
 
-  /// Of the last refits, one for each region.
+  /// The boxes of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
   [[nodiscard]] std::span<const Box> face_boxes() const { return face_boxes_; }
   [[nodiscard]] std::span<const Box> boxes(RefitOf what) const {

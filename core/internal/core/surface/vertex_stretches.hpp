@@ -16,7 +16,7 @@ class VertexStretches {
  public:
   static constexpr std::uint32_t stretch_size = vertices_per_stretch;  ///< vertices
 
-  /// Of positions that lie one beside the other.
+  /// Makes the stretches from positions that lie one beside the other.
   void make(const PositionView& positions);
 
   /// The place that boxes are about, amid most vertices.
