@@ -70,7 +70,7 @@ class Exact {
   [[nodiscard]] int top() const { return exponent_ + size_; }
   Limb& limb(int index) { return limbs_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] Limb limb(int index) const { return limbs_[static_cast<std::size_t>(index)]; }
-  /// The limb at a place of the number's own scale; 0 where it has none.
+  /// The limb at an index of the number's own scale; 0 where it has none.
   [[nodiscard]] Limb limb_at(int position) const {
     const int index = position - exponent_;
     return index >= 0 && index < size_ ? limb(index) : 0;

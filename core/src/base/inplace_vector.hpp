@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// A vector without memory of its own on the heap: at most `capacity` elements, held in place.
+/// A vector without memory on the heap: at most `capacity` elements, held inside it.
 template <typename Element, std::size_t capacity>
 class InplaceVector {
  public:

@@ -159,7 +159,7 @@ std::uint32_t end_vertex(const Surface& surface, const Simplex& segment, std::si
   return std::min(segment.vertex[0], segment.vertex[1]);
 }
 
-/// The piece of a segment that a place on it is.
+/// The piece of a segment that a position on it belongs to.
 FeaturePiece piece_along(const FeaturePiece& segment, const Simplex& ends, Along along) {
   if (along == Along::inside) return segment;
   return vertex_piece(ends.vertex[along == Along::first ? 0 : 1]);
@@ -179,8 +179,8 @@ bool are_parallel(const Simplex& a, const Simplex& b, DecisionCount& count) {
   });
 }
 
-/// Whether the closest points of two lines that are not parallel are inside both segments on them: the
-/// parameters times the square of the lines' cross product, and what is left of that.
+/// Whether the closest points of two lines that are not parallel are inside both segments on them. It asks
+/// for the parameters times the square of the lines' cross product, and for what is left of that.
 bool are_closest_inside(const Simplex& a, const Simplex& b, DecisionCount& count) {
   const auto is_above_zero = [&](const auto& left_of, const auto& right_of) {
     return decide_sign(count, [&]<typename Number>() {
@@ -201,7 +201,7 @@ bool are_closest_inside(const Simplex& a, const Simplex& b, DecisionCount& count
          is_above_zero(u, between(b.point[1], a.point[0]));
 }
 
-/// The ends at which two segments meet, the same bits of both.
+/// The ends at which two segments meet, with equal bits.
 std::optional<std::array<std::size_t, 2>> shared_ends(const Simplex& a, const Simplex& b) {
   for (std::size_t end_a = 0; end_a < 2; ++end_a)
     for (std::size_t end_b = 0; end_b < 2; ++end_b)
@@ -209,8 +209,8 @@ std::optional<std::array<std::size_t, 2>> shared_ends(const Simplex& a, const Si
   return std::nullopt;
 }
 
-/// The keys at the ends of the common stretch of parallel segments, or of the ends that are nearest where
-/// they have none, by how far along a the ends of b are.
+/// The pieces at the ends of the common stretch of parallel segments. Where they have none, those of the
+/// nearest ends. Found by how far along a the ends of b are.
 ClosestPiecesOfSegments ends_of_common_stretch(const FeaturePiece& segment_a, const Simplex& a,
                                                const FeaturePiece& segment_b, const Simplex& b,
                                                DecisionCount& count) {
@@ -324,8 +324,8 @@ FeaturePiece nearest_piece_of_face(const Eigen::Vector3d& point, const Surface& 
   const FeaturePiece first = nearest_piece_of_triangle(point, surface, face, Piece::first, count, squared);
   if (triangle_count(mesh, face) == 1) return first;
   SquaredRange squared_second;
-  // A point on the diagonal belongs to both triangles, so the triangle that keys another one is at least as
-  // near.
+  // A point on the diagonal belongs to both triangles. So if one triangle has its closest point there, the
+  // other is at least as near.
   const FeaturePiece second =
       nearest_piece_of_triangle(point, surface, face, Piece::second, count, squared_second);
   const SquaredRange squared_first = std::exchange(squared, SquaredRange{});

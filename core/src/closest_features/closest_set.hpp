@@ -19,8 +19,8 @@ inline bool is_edge_through_face(const FeaturePairKey& key) {
 /// The keys at the least distance among some, and a bound on that distance.
 struct Closest {
   KeySet keys;
-  /// At least the least distance that is looked for; infinite before the first offer. It may be known from
-  /// elsewhere, before a key at that distance has been offered.
+  /// An upper bound of the least distance; infinite before the first offer. It may be known from elsewhere,
+  /// before a key at that distance has been offered.
   double upper = std::numeric_limits<double>::infinity();
   /// Whether an edge pierces a face, among the keys offered.
   bool pierced = false;
@@ -39,7 +39,7 @@ struct Closest {
 /// Takes offers of keys; the bound only shrinks.
 class ClosestSet {
  public:
-  /// Goes on from what is in `closest`.
+  /// Continues from the content of `closest`.
   ClosestSet(const SurfacePair& pair, Ties ties, Closest& closest)
       : pair_(pair), ties_(ties), closest_(closest), keys_(closest.keys) {}
 
@@ -68,7 +68,7 @@ class ClosestSet {
   void merge_runs() { keys_.merge_runs(); }
 
   [[nodiscard]] double upper() const { return closest_.upper; }
-  /// One of them; with Ties::lowest, or once they are settled, the lowest.
+  /// One of the keys; the lowest with Ties::lowest, or after `merge_runs`.
   [[nodiscard]] const FeaturePairKey& front() const { return keys_.front(); }
 
  private:

@@ -70,11 +70,11 @@ class FeaturePairKey {
 
   friend bool operator==(const FeaturePairKey&, const FeaturePairKey&) = default;
   friend auto operator<=>(const FeaturePairKey&, const FeaturePairKey&) = default;
-  /// Whether both are the contact of the same two features.
+  /// Whether both keys are of one contact: the features are equal.
   [[nodiscard]] bool same_features(const FeaturePairKey& other) const {
     return high_ == other.high_ && low_ >> 24U == other.low_ >> 24U;
   }
-  /// The key as a number of the same order, where the indices need so many bits and all fits.
+  /// How many bits the indices need. `packed` gives the key as a number of the same order, if all fits.
   struct Widths {
     int index_a = 0;
     int index_b = 0;
@@ -120,8 +120,8 @@ class FeaturePairKey {
   std::uint64_t low_ = 0;
 };
 
-/// Two simplices whose affine hulls are as far apart as the features of a key are: their pieces, but for
-/// parallel ones one point of the lower in place of it.
+/// Two simplices whose affine hulls are as far apart as the features of a key are. They are the pieces; of
+/// parallel ones the lower is reduced to one of its points.
 struct Hulls {
   Simplex a;
   Simplex b;

@@ -11,9 +11,9 @@
 
 namespace graze {
 
-/// Some hundred bins that ascend as keys do, by the kinds of their features and the highest bits of the
-/// index of that of a. What many threads found in any order is put into bins by each; then each can sort some
-/// of the bins, and what they have is sorted together.
+/// Some hundred bins that ascend as keys do, by the kinds of the features and the highest bits of the index
+/// of feature a. Several threads find keys in any order, and each puts its own into bins. Then each thread
+/// sorts some of the bins, with what all threads have in them.
 class KeyBins {
  public:
   explicit KeyBins(const IndexedMesh& mesh_a);
@@ -34,7 +34,7 @@ class KeyBins {
   std::array<int, feature_kinds> shift_;
 };
 
-/// Names of one bin in a list.
+/// Keys of one bin in a list.
 struct BinRun {
   std::uint32_t bin;
   std::uint32_t begin;

@@ -50,7 +50,7 @@ std::size_t digit(std::uint64_t packed, int shift) {
 
 }  // namespace
 
-/// From the lowest digit up. Each begins at a bit that is not the same in all keys.
+/// Sorts from the lowest digit up. Each digit begins at a bit that is not equal in all keys.
 void KeyOrder::sort_packed() {
   std::uint64_t varying = 0;
   for (const std::uint64_t packed : packed_) varying |= packed ^ packed_.front();

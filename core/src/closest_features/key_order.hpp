@@ -10,8 +10,8 @@
 
 namespace graze {
 
-/// Sorts keys. Long lists are sorted digit by digit as numbers that hold all of a key, which takes the same
-/// few steps for each whatever their order.
+/// Sorts keys. Long lists are sorted digit by digit as numbers that hold all of a key. That takes a few steps
+/// for each key, whatever their order.
 class KeyOrder {
  public:
   void sort(std::span<FeaturePairKey> keys);

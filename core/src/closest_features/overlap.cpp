@@ -79,8 +79,8 @@ bool is_corner(const Eigen::Vector3d& point, const Simplex& triangle) {
   return std::find(triangle.point.begin(), triangle.point.end(), point) != triangle.point.end();
 }
 
-/// Whether a segment is parallel to a triangle's plane and passes over its inside: no separating line, which
-/// for a segment and a triangle could only run along a side or along the segment.
+/// Whether a segment is parallel to a triangle's plane and passes over its inside. It does where no line
+/// separates them, which could only run along a side or along the segment.
 bool segment_overlaps_triangle(const Simplex& segment, const Simplex& triangle, std::size_t fold_side,
                                DecisionCount& count) {
   const Eigen::Vector3d& p = segment.point[0];

@@ -37,8 +37,8 @@ struct Overlap {
   Outline outline;
 };
 
-/// Whether two pieces of at least two points each (edges, folds, triangles) are parallel and their relative
-/// interiors, seen along the gap between them, have a length or an area in common. Decided exactly.
+/// Whether two pieces of at least two points each (edges, folds, triangles) are parallel and overlap. Seen
+/// along the gap between them, their relative interiors have a length or an area in common. Decided exactly.
 /// `fold_side` of a triangle is the side (0-1, 1-2, 2-0) that is inside its face, 3 for none.
 bool do_overlap(const Simplex& a, std::size_t fold_side_a, const Simplex& b, std::size_t fold_side_b,
                 DecisionCount& count);

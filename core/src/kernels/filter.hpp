@@ -91,7 +91,7 @@ struct ClipCount {
   std::size_t others = 0;
 };
 
-/// Two numbers each, with room for as many pairs as were looked at and `lanes` more.
+/// Two numbers for each pair, with room for as many pairs as were tested and `lanes` more.
 struct NearPairs {
   std::uint32_t* row;
   std::uint32_t* column;
@@ -130,9 +130,9 @@ using PointTrianglePairs = FeaturePairs<1, 3>;
 using SegmentTrianglePairs = FeaturePairs<2, 3>;
 
 /// The kernels of one instruction set. `lay_out_…` fills blocks from vertices. `corners` has the index of
-/// each feature's corners among the vertices, one feature after the other, and the corners are listed as they
-/// are. It reads corners and writes features up to a multiple of 4, of which those behind `count` may be any.
-/// `clip_…` returns how many are left.
+/// each feature's corners among the vertices, one feature after the other. The corners are also listed as
+/// they are. It reads corners and writes features up to a multiple of 4, of which those behind `count` may be
+/// any. `clip_…` returns how many are left.
 struct Filter {
   using LayOut = void (*)(const Point* vertices, const std::uint32_t* corners, std::size_t count, float* data,
                           std::size_t stride, Point* points);
@@ -152,16 +152,16 @@ struct Filter {
   std::size_t (*near_boxes)(const RowsOfBoxes& rows, const Block& boxes, float limit, const NearPairs& out);
   /// The points that are not certainly further than `limit`; how many.
   std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
-  /// Bounds all pairs, and gives one bit for each that is not certainly further than the limit; places are
-  /// those of pairs with a bit. Of lanes that hold nothing in particular they say nothing in particular.
+  /// Bounds all pairs, and gives one bit for each that is not certainly further than the limit. Voronoi
+  /// regions are those of pairs with a bit. They mean nothing for lanes that hold no pair.
   std::uint32_t (*bound_segments)(SegmentPairs& pairs, const NearLimits& limits);
   std::uint32_t (*bound_points_and_triangles)(PointTrianglePairs& pairs, const NearLimits& limits);
   /// Bounds how far segments are to one side of their triangles' planes, and gives one bit for each that is
   /// not certainly further than the limit.
   std::uint32_t (*bound_over_planes)(SegmentTrianglePairs& pairs, float limit);
-  /// Gives one bit for each segment that does not certainly pass by its triangle. The bound is 0 or less, and
-  /// the place is `passes_through` where it certainly goes through the triangle's inside from one side to the
-  /// other.
+  /// Gives one bit for each segment that does not certainly pass by its triangle. The bound is 0 or less. The
+  /// Voronoi number is `passes_through` where the segment certainly goes through the triangle's inside from
+  /// one side to the other.
   std::uint32_t (*passing)(SegmentTrianglePairs& pairs);
   /// Lists the boxes, six rows of them, that meet another one, of those in `group_count` groups of sixteen:
   /// the listed ones, or the first ones where `groups` is null. Room for all of them and `lanes` more.

@@ -25,14 +25,14 @@ inline FeaturePiece piece_of_triangle(const IndexedMesh& mesh, std::uint32_t fac
   return pieces[index];
 }
 
-/// Pairs of features whose closest points are to be named, which is done several at once. What plain double
-/// is not certain of is named one by one. An index is that of a feature in its surface's mesh.
+/// Pairs of features whose closest points are found several at once. Those that plain double is not certain
+/// of are decided one by one. An index is that of a feature in its surface's mesh.
 class ClosestFeaturesBatch {
  public:
   /// Before the first pair of features of a pair of surfaces.
   void begin() { segments_ = points_and_triangles_ = 0; }
 
-  // Each may give `sink(key, squared range)` the keys of what was added before.
+  // Each function may give `sink(key, squared range)` the keys of pairs that were added before.
   template <typename Sink>
   void add_edges(const SurfacePair& pair, std::uint32_t edge_a, std::uint32_t edge_b, const Sink& sink) {
     put(pair.a, pair.a.mesh().edge(edge_a), segment_batch_.a, segments_);
@@ -50,7 +50,7 @@ class ClosestFeaturesBatch {
                            const Sink& sink) {
     add({vertex_b, face_a, false}, pair, sink);
   }
-  /// Names what is left.
+  /// Finds the closest features of the pairs that are left.
   template <typename Sink>
   void finish(const SurfacePair& pair, const Sink& sink) {
     resolve_segments(pair, sink);
@@ -154,7 +154,7 @@ void ClosestFeaturesBatch::resolve_points_and_triangles(const SurfacePair& pair,
                 [&](std::size_t lane) { resolve_alone(vertex_and_face_[lane], pair, sink); });
 }
 
-/// Empties a batch: gives the sink the keys that a kernel is certain of, and has the others named alone.
+/// Empties a batch. Gives the sink the keys that a kernel is certain of, and has the others decided alone.
 template <typename Sink, typename CertainKey, typename ResolveAlone>
 void ClosestFeaturesBatch::resolve_lanes(const kernels::VoronoiFound& found, std::size_t& count,
                                          const SurfacePair& pair, const Sink& sink, const CertainKey& certain,

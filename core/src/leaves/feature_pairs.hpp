@@ -14,13 +14,13 @@ namespace graze {
 /// than a threshold and every edge that pierces a face. A key may be met in several pairs of leaves.
 class CloseFeatures {
  public:
-  /// Names are appended to `keys`; all are there after `finish`.
+  /// Keys are appended to `keys`; all are there after `finish`.
   CloseFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
                 std::vector<FeaturePairKey>& keys, const NearListing& listing = {})
       : pair_(pair), threshold_(threshold), scratch_(scratch), keys_(keys), listing_(listing) {}
 
   void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
-  /// For what is added from here on, after `finish`.
+  /// Sets the threshold for pairs that are added from here on, after `finish`.
   void set_threshold(double threshold) { threshold_ = threshold; }
   /// The features that the scratch has taken, whatever they are of.
   void add_selected();

@@ -71,7 +71,7 @@ struct FloatFilterScratch {
 
 /// The knowledge of float about a pair of features that it has not discarded.
 struct KnownInFloat {
-  bool is_bounded = false;  ///< that it may be near; otherwise it has not been looked at
+  bool is_bounded = false;  ///< that it may be near; otherwise it has not been tested
   std::int32_t voronoi = kernels::unsure_voronoi;
 };
 
@@ -105,7 +105,7 @@ class FloatBatch {
     refs_[count_] = {a, b};
     return ++count_ == kernels::lanes;
   }
-  /// Calls `visit(part of a, part of b)` for each pair that `ask(pairs)`, a kernel, has left.
+  /// Calls `visit(feature of a, feature of b)` for each pair that `ask(pairs)`, a kernel, has left.
   template <typename Ask, typename Visit>
   void ask(const Ask& ask, const Visit& visit) {
     if (count_ == 0) return;
@@ -114,9 +114,9 @@ class FloatBatch {
       visit(a, b);
     }
   }
-  /// Empties it: `visit(part of a, part of b, what is known)` for each pair that `ask(pairs)`, a kernel, has
-  /// left, but once for what comes again right away, as a quad's second triangle does. Returns how many were
-  /// discarded.
+  /// Empties the batch. Calls `visit(feature of a, feature of b, what is known)` for each pair that
+  /// `ask(pairs)`, a kernel, has left. A pair that comes again right away, as a quad's second triangle does,
+  /// is visited once. Returns how many were discarded.
   template <typename Ask, typename Visit>
   std::size_t empty(const Ask& ask, const Visit& visit) {
     const std::size_t count = std::exchange(count_, 0);

@@ -128,8 +128,9 @@ class LeafFeaturePairs {
     return lists_.gather(taken, kernels::box_at<Corners>, kernels::box_components);
   }
 
-  /// Calls `use(rows, columns, count)` with numbers of the first `row_count` of `rows` and of those of
-  /// `columns` whose boxes are not certainly further than a limit from each other; whether that was not all.
+  /// Calls `use(rows, columns, count)` with pairs of the first `row_count` of `rows` and of `columns`, by
+  /// number. These are the pairs whose boxes are not certainly further than a limit from each other. Returns
+  /// whether that was not all.
   template <std::size_t RowCorners, std::size_t Corners, typename Use>
   bool near_boxes(const SelectedFeatures<RowCorners>& rows, std::size_t row_count,
                   const SelectedFeatures<Corners>& columns, const kernels::Block& boxes, float limit,
@@ -315,7 +316,8 @@ class LeafFeaturePairs {
     sink_(FeaturePairKey::of(a, b), SquaredRange{0, 0});
   }
 
-  /// Whether what float has left may be near: features that are too large for it have not been looked at.
+  /// Whether a pair that float has left may be near. Features that are too large for float have not been
+  /// tested.
   bool may_be_near(const Surface& a, const FeatureRef& of_a, const Surface& b, const FeatureRef& of_b,
                    const KnownInFloat& known) {
     return known.is_bounded || range_.keep(lower_in_double(a, of_a, b, of_b));

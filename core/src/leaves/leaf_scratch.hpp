@@ -42,8 +42,8 @@ struct LeafScratch {
   RecentKeys recent_keys;
   FilterFrame frame;
 
-  /// Before the first pair of leaves of a query or slice: nothing is left of another, and the frame is that
-  /// of this pair, or of the first that is met.
+  /// Call it before the first pair of leaves of a query or slice. It forgets the query before. The frame is
+  /// that of this pair, or of the first that is met.
   void begin() {
     frame = {};
     folds.begin();
@@ -52,7 +52,7 @@ struct LeafScratch {
   }
   void begin(const FilterFrame& first) { frame = first; }
 
-  /// Takes what is near of two leaves; false where there is nothing of either.
+  /// Selects the features of two leaves that are near each other; false where either has none.
   template <typename Range>
   bool select_near(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
     return select_near(pair, leaf_a, leaf_b, range, range.touching(), false, &SelectedLeaf::select_near);

@@ -22,7 +22,7 @@ class CornerList {
     if (local_indices_.size() < most + padding) local_indices_.resize(most + padding);
   }
   void add(std::uint32_t local_index) { local_indices_[count_++] = local_index; }
-  /// Goes on for the features that the kernels look at beyond the last.
+  /// Returns the list, padded for the features that the kernels read behind the last.
   [[nodiscard]] const std::uint32_t* padded() {
     std::fill_n(local_indices_.begin() + static_cast<std::ptrdiff_t>(count_), padding, 0U);
     return local_indices_.data();
@@ -43,8 +43,8 @@ class CornerList {
   std::size_t count_ = 0;
 };
 
-/// The corners of a leaf's features, each brought into the frame once, however many features it is part of:
-/// as RegionTree lists them.
+/// The corners of a leaf's features, each converted to the frame once, however many features share it. Their
+/// order is that of RegionTree.
 class LeafVertices {
  public:
   /// Takes up those of a leaf, its own vertices first.

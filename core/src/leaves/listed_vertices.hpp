@@ -18,7 +18,7 @@ namespace graze {
 void to_frame(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
               kernels::Point* brought);
 
-/// Vertices of a surface in a frame, each brought when it is asked for.
+/// Vertices of a surface in a frame, each converted when it is asked for.
 class VerticesInFrame {
  public:
   void begin(const Surface& surface, const FilterFrame& frame) {

@@ -14,8 +14,8 @@
 namespace graze {
 namespace {
 
-/// The closest points of two hulls, `low` with at most as many points as `high`: how far each is from its
-/// simplex's first point, and the gap from low to high, all times `denominator`.
+/// The closest points of two hulls, `low` with at most as many points as `high`. It holds how far each is
+/// from its simplex's first point, and the gap from low to high, all times `denominator`.
 template <typename Number>
 struct ClosestPoints {
   Vector<Number> low_offset;

@@ -72,7 +72,7 @@ class VertexContacts {
       const FeaturePairKey& key = keys[std::min(i, keys.size() - 1)];
       a[i] = key.index_a();
       b[i] = key.index_b();
-      // Names of one vertex of a follow each other.
+      // Keys with one vertex of a follow each other.
       const bool is_last = i > 0 && a[i] == a[i - 1];
       batch_.normal_a[i] = is_last ? batch_.normal_a[i - 1] : sides_.normal_of_a(pair_, a[i]);
       batch_.normal_b[i] = sides_.normal_of_b(pair_, b[i]);
@@ -187,7 +187,7 @@ class Batch {
 void measure(const SurfacePair& pair, std::span<const FeaturePairKey> keys, std::span<Contact> contacts,
              MeasureScratch& scratch) {
   scratch.sides.begin();
-  // Names are sorted by kind, and that of two vertices is the first.
+  // Keys are sorted by kind, and two vertices are the first kind.
   const auto vertices = std::find_if(keys.begin(), keys.end(),
                                      [](const FeaturePairKey& key) { return key.kind() != ContactKind::VV; });
   const auto vertex_count = static_cast<std::size_t>(vertices - keys.begin());

@@ -21,7 +21,7 @@ struct MeasureScratch {
   }
 };
 
-/// `measure` of each key into the contact at its place, several at once.
+/// Measures each key into the contact at its index, several at once.
 void measure(const SurfacePair& pair, std::span<const FeaturePairKey> keys, std::span<Contact> contacts,
              MeasureScratch& scratch);
 

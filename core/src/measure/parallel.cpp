@@ -155,8 +155,8 @@ class ParallelContacts {
     });
   }
 
-  /// Takes a pair of holders for the lowest if it is. Most give way to faces, which are asked about first:
-  /// what is known of two faces serves all edges around them.
+  /// Takes a pair of holders if it is the lowest. Most give way to faces, which are tested first: an answer
+  /// about two faces serves all edges around them.
   void offer(const Holder& a, const Holder& b) {
     const TwoFeatures features{a.feature, b.feature};
     const FeaturePairKey key =
@@ -239,7 +239,7 @@ class ParallelContacts {
   const FeaturePairKey& nearest_;
   bool touches_;  ///< the least distance is 0
   ParallelScratch& scratch_;
-  std::optional<FeaturePairKey> lowest_;  ///< of what is still looked for, the end
+  std::optional<FeaturePairKey> lowest_;  ///< the lowest key of those still searched for, the end
   std::optional<TwoFeatures> found_;
 };
 

@@ -18,8 +18,8 @@ namespace graze {
 /// Two features, of a and b.
 using TwoFeatures = std::pair<Feature, Feature>;
 
-/// An edge or face that holds a feature, with the directions by which most are seen not to be parallel to
-/// another: of an edge its own, of a face the normals of its triangles.
+/// An edge or face that holds a feature, with directions that show of most holders that they are not
+/// parallel. An edge has its own direction, a face the normals of its triangles.
 struct Holder {
   struct Direction {
     Eigen::Vector3d vector;

@@ -58,7 +58,7 @@ class NormalCache {
   };
 
   std::vector<Entry> entries_;
-  std::vector<RoughNormal> normals_;  ///< the last ones, in the place of their number
+  std::vector<RoughNormal> normals_;  ///< the last ones, by their number
   std::uint64_t next_ = 1;
   std::uint64_t first_ = 1;   ///< of this surface
   std::uint64_t oldest_ = 1;  ///< that is not replaced in this round

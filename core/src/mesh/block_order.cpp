@@ -10,8 +10,8 @@
 namespace graze {
 namespace {
 
-/// Halves vertices along the longest side of their box until what is left is one block: whole blocks on
-/// either side, and ties by number, so that the order is that of the positions alone.
+/// Halves vertices along the longest side of their box until one block is left. Each side has whole blocks,
+/// and ties go by number, so that the order depends on the positions alone.
 void halve(const IndexedMesh& mesh, std::span<std::uint32_t> vertices) {
   constexpr std::size_t size = vertices_per_block;
   if (vertices.size() <= size) return std::sort(vertices.begin(), vertices.end());

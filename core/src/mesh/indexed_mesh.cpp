@@ -19,7 +19,7 @@ namespace {
 template <typename Visit>
 void fill_rows(std::size_t row_count, std::vector<std::uint32_t>& values, std::vector<std::uint32_t>& begin,
                const Visit& visit) {
-  // While rows are filled, each begins one place further on: that of the row before ends there.
+  // While rows are filled, each begins one index further on, where the row before ends.
   begin.assign(row_count + 2, 0);
   visit([&](std::uint32_t row, std::uint32_t) { ++begin[row + 2]; });
   for (std::size_t row = 0; row < row_count; ++row) begin[row + 2] += begin[row + 1];
@@ -132,8 +132,8 @@ void join_equal(std::span<std::uint64_t> ends, std::vector<std::uint32_t>& first
 
 }  // namespace
 
-/// Corners are put in rows by the lower end of the edge that they begin, and those of a row that begin the
-/// same edge are joined; then edges are numbered by their first corners.
+/// Corners are put in rows by the lower end of the edge that they begin. Those of a row that begin one edge
+/// are joined. Then edges are numbered by their first corners.
 void IndexedMesh::number_edges() {
   const auto visit = [&](const auto& add) {
     std::uint32_t corner = 0;

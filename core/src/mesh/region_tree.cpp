@@ -102,8 +102,8 @@ class Builder {
   std::vector<Eigen::Vector3d> offsets_;
 };
 
-/// The features of a mesh sorted by the place of their owning vertex in the tree's vertex order, with the
-/// range of each place: features of place i are order[begin[i], begin[i + 1]).
+/// The features of a mesh, sorted by the position of their owning vertex in the tree's vertex order. The
+/// features at position i are order[begin[i], begin[i + 1]).
 struct Owned {
   std::vector<std::uint32_t> order;
   std::vector<std::uint32_t> begin;

@@ -21,7 +21,7 @@ void require_each_once(std::span<const std::uint32_t> values, std::size_t count,
   require(values.size() == count, what, values.size());
 }
 
-/// A leaf's lists of places give the corners of its edges and triangles.
+/// Checks that a leaf's local indices give the corners of its edges and triangles.
 void validate_places(const RegionTree& tree, const Region& leaf, const IndexedMesh& mesh) {
   const auto members = tree.vertices(leaf);
   const auto border = tree.border(leaf);

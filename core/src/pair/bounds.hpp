@@ -15,7 +15,7 @@ inline double upper_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return (b - a).norm() * round_up + lost_to_underflow;
 }
 
-/// Whether two points may be apart of which this is the upper distance; not where they are in one place.
+/// Whether two points with this upper distance may be apart. Points at one position are not.
 inline bool may_be_apart(double upper_distance) {
   return upper_distance > lost_to_underflow;
 }

@@ -14,9 +14,9 @@ namespace graze {
 /// those that find no room are not tested.
 ///
 /// A level is cut into slices by the pairs listed in the level above. A slice tests the pairs below its own
-/// and writes what is alive to its own place, so slices may run on any threads in any order; `advance` lists
-/// it in the slices' order. How a level is cut shows nowhere. What is below those that are listed when the
-/// query's deadline comes is not looked at.
+/// and writes the alive ones to its own memory, so slices may run on any threads in any order. `advance`
+/// lists them in the slices' order. How a level is cut shows nowhere. Pairs below those that are listed when
+/// the query's deadline comes are not tested.
 class RegionDistances {
  public:
   /// Both surfaces are refitted now; what is pointed to stays until all is listed. `sliced`: a level may be
@@ -39,7 +39,7 @@ class RegionDistances {
     std::size_t begin = 0;  ///< a range of what is listed
     std::size_t end = 0;
     std::vector<RegionDistance> alive;
-    std::uint64_t left_out = 0;  ///< alive, and certainly without a place
+    std::uint64_t left_out = 0;  ///< alive, and certainly without room
   };
   class Test;
 

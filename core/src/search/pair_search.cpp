@@ -58,8 +58,8 @@ const FeaturePairKey& lowest_piercing(const std::vector<FeaturePairKey>& keys) {
   return *std::find_if(keys.begin(), keys.end(), is_edge_through_face);
 }
 
-/// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
-/// many they are; the others are not looked into, and stay in no order.
+/// Puts the leaf pairs that are not further than a distance first, sorted by their lower bounds, and returns
+/// how many they are. The others are not tested, and stay in no order.
 std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance, const TouchingOrder& order) {
   const auto rest = std::partition(leaves.begin(), leaves.end(),
                                    [&](const LeafPair& each) { return each.lower <= distance; });
@@ -296,8 +296,8 @@ void PairSearch::gather_found() {
   }
 }
 
-/// After a walk: makes its leaf pairs the front, but for those that do not matter before the surfaces have
-/// moved by the slack, where what is looked for is nearer than `wanted`.
+/// Makes the leaf pairs of a walk the front. Leaves out those that do not matter before the surfaces have
+/// moved by the slack, for a search within `wanted`.
 void PairSearch::remember(double wanted, Worker& worker) {
   front_->forget_leaves();
   front_->reached_bits = static_cast<std::uint8_t>(std::bit_width(found_.leaves.size()));
@@ -335,7 +335,7 @@ void PairSearch::set_distance(Worker& worker, const FeaturePairKey& nearest) {
 
 // ---- All contacts of a detail; where there are none, the closest points
 
-/// Whether pairs of leaves this far apart can have a contact, or what is to be listed; surfaces pierce each
+/// Whether pairs of leaves this far apart can have a contact, or features to be listed. Surfaces pierce each
 /// other at every threshold.
 bool PairSearch::may_touch(double lower) const {
   return lower < wanted_ || (query_.detail == ContactDetail::features && lower == 0);
@@ -398,7 +398,7 @@ void PairSearch::begin_contacts(Worker& worker) {
   slice_leaves_in_contact();
 }
 
-/// Cuts the leaf pairs found so that every slice has as many to look into.
+/// Cuts the leaf pairs found so that every slice has as many to test.
 void PairSearch::slice_leaves_in_contact() {
   const auto& leaves = found_.leaves;
   if (!sliced_) return add_slices_of(0, leaves.size(), leaves.size());
@@ -446,8 +446,8 @@ Ties PairSearch::ties() const {
   return query_.detail == ContactDetail::closest ? Ties::all : Ties::lowest;
 }
 
-/// Surfaces that touched mostly still do, and then one place where they do is enough: that is looked for
-/// first, with nothing else to be near.
+/// Surfaces that touched mostly still do, and then one point where they do is enough. That is searched for
+/// first, alone.
 void PairSearch::begin_approach(Worker& worker) {
   answer_->contacts.clear();
   if (query_.detail == ContactDetail::vertices) return approach_vertices(worker);
@@ -492,7 +492,7 @@ auto PairSearch::offering_middles(ClosestRange& range) const {
   };
 }
 
-/// Finds the pairs of leaves to look into.
+/// Finds the pairs of leaves to test.
 void PairSearch::approach(Worker& worker) {
   stage_ = Stage::approach;
   if (from_front_) return slice_front();
@@ -545,10 +545,10 @@ void PairSearch::begin_closest(Worker& worker) {
   add_slices_of(first, end, closest_each);
 }
 
-/// Looks into a range of the leaf pairs found, as far as need be; false when the budget ran out.
+/// Tests a range of the leaf pairs found, as far as need be; false when the budget ran out.
 ///
-/// Leaf pairs whose boxes overlap now are the same ones, in the same order, whatever was known of earlier
-/// steps, so a witness at distance 0 does not depend on those either.
+/// Leaf pairs whose boxes overlap now are always these, in this order, whatever was known of earlier steps.
+/// So a witness at distance 0 does not depend on those either.
 bool PairSearch::test_leaves(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) {
   worker.begin_leaves(found_);
   ClosestRange range(worker.pair, query_, ties(), found, !certainly_apart_);
@@ -560,7 +560,7 @@ bool PairSearch::test_leaves(std::size_t begin, std::size_t end, ClosestFound& f
   return true;
 }
 
-/// Looks into two leaves, and says of them what is known then; false when the budget ran out.
+/// Tests two leaves, and updates their bounds; false when the budget ran out.
 bool PairSearch::test_leaves(LeafPair& leaves, ClosestRange& range, Worker& worker) const {
   if (!worker.meter.spend()) return false;
   ++worker.meter.counters().leaf_pairs_tested;
@@ -581,7 +581,7 @@ void PairSearch::finish_closest(Worker& worker) {
     return begin_search(worker);
   }
   if (from_front_) {
-    // Settled, unless something outside the front may be as near as what is in it.
+    // The answer is decided, unless something outside the front may be as near as the nearest in it.
     if (ClosestRange(worker.pair, query_, ties(), closest_).keep(unlisted_lower_bound_)) {
       from_front_ = certainly_apart_ = false;
       closest_.lower = infinity;

@@ -45,8 +45,8 @@ struct SearchScratch {
 };
 
 /// One query about one pair of surfaces: DMV, DV and contact determination, as stages of slices. A slice
-/// reads what the stage has in common and writes its own place, so slices may run on any threads in any
-/// order; between stages `advance` puts the slices' results together in their order. How a stage is cut
+/// reads what the stage has in common and writes its own results, so slices may run on any threads in any
+/// order. Between stages `advance` puts the slices' results together in their order. How a stage is cut
 /// depends on the surfaces and the query only, so the answer does not depend on who ran what.
 class PairSearch {
  public:
@@ -205,7 +205,7 @@ class PairSearch {
   NearBlocks near_blocks_;
   std::vector<FeaturePairKey> keys_;
   NearestKeys nearest_keys_;                           ///< of all slices, where contacts are limited
-  FeaturePairKey lowest_;                              ///< likewise, the nearest of all
+  FeaturePairKey lowest_;                              ///< the nearest of all, where contacts are limited
   std::vector<Stretch> stretches_;                     ///< of these
   std::vector<std::span<const FeaturePairKey>> runs_;  ///< of the slices' keys, by bins
   ClosestFound closest_;

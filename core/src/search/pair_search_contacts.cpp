@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t keys_each = 1024;
 constexpr std::size_t contacts_each = 128;
-/// Names that a slice finds before it hands them over, where contacts are limited.
+/// How many keys a slice finds before it hands them over, where contacts are limited.
 constexpr std::size_t handed_over_at_once = 8192;
 
 // The least time that a key and a contact take from here on. Where a deadline leaves less than that for all
@@ -152,7 +152,7 @@ void PairSearch::begin_measuring(Worker& worker) {
   }
 }
 
-/// For what is to be done with so many contacts when they have been measured.
+/// Keeps back the time that the caller needs for so many contacts when they have been measured.
 void PairSearch::keep_time_back(std::size_t contacts, Worker& worker) {
   if (!worker.time.is_set()) return;
   query_.deadline -= contacts * query_.time_after_contact;

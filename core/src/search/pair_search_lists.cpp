@@ -20,8 +20,8 @@ constexpr std::size_t kept_at_once = 1024;
 
 }  // namespace
 
-/// Goes by the list of an earlier query where that is still all that can be in contact; otherwise, where the
-/// surfaces move little, a new one is made on the way.
+/// Uses the list of an earlier query where it still has all that can be in contact. Otherwise, where the
+/// surfaces move little, a new list is made on the way.
 void PairSearch::begin_listing() {
   wanted_ = query_.threshold;
   is_listing_ = false;

@@ -31,7 +31,7 @@ void PairSearch::sort_front() {
   std::sort(front_->leaves.begin(), front_->leaves.end(), touching_order());
 }
 
-/// Looks for distance 0 and nothing else, in the cheapest way that there is.
+/// Searches for distance 0 and nothing else, in the cheapest way that there is.
 void PairSearch::find_touching(Worker& worker) {
   closest_.closest.upper = 0;
   is_bounded_ = true;
@@ -88,8 +88,8 @@ void PairSearch::walk_touching(Worker& worker) {
   report_closest(worker);
 }
 
-/// Looks into the pairs of leaves below `start` whose boxes overlap, in order, until one touches; false when
-/// the budget ran out.
+/// Tests the pairs of leaves below `start` whose boxes overlap, in order, until one touches; false when the
+/// budget ran out.
 bool PairSearch::test_overlapping(const RegionPair& start, const TouchingOrder& order, ClosestRange& range,
                                   Worker& worker) {
   auto& leaves = found_.leaves;

@@ -8,8 +8,8 @@
 
 namespace graze {
 
-/// The boxes of one surface's leaves where it is now: those of its refit where that is of now, otherwise made
-/// here when asked for, rather than by a refit of all.
+/// The present boxes of one surface's leaves. They are those of its refit if that is of now. Otherwise they
+/// are made here when asked for, rather than by a refit of all.
 class LeafBoxes {
  public:
   /// For one query; `surface` does not change meanwhile.

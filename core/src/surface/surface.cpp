@@ -179,7 +179,7 @@ void Surface::view(const PositionView& view, const Box& box) {
   count_motion(displacement_, std::exchange(box_, box));
 }
 
-/// A motion beyond the object's size is a jump: what was known before it is of no use, and the sum of all
+/// A motion beyond the object's size is a jump. Everything known before it is of no use, and the sum of all
 /// motions would stay too coarse for the small ones that follow.
 void Surface::count_motion(double displacement, const Box& before) {
   ++version_;
@@ -386,7 +386,7 @@ Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
   return result;
 }
 
-/// All vertices are known to be good, and so is how far they move: none of their old places is looked at.
+/// All vertices are known to be good, and so is how far they move: none of their old positions is read.
 Surface::ReadResult Surface::take_pose(const std::array<double, 12>& rows) {
   constexpr std::uint32_t each = 64;  // vertices that stay in a cache until their box is made
   ReadResult result;

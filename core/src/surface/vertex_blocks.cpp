@@ -34,8 +34,8 @@ void VertexBlocks::box_blocks(const PositionView& positions) {
                                   boxes_.data(), levels_[0].stride);
 }
 
-/// Boxes behind the last of a level stay NaN, so that they meet nothing, not even what has no end; they are
-/// made so when the number of blocks changes: once.
+/// Boxes behind the last of a level stay NaN, so that they meet nothing, not even an infinite box. They are
+/// made so once, when the number of blocks changes.
 void VertexBlocks::lay_out_levels() {
   std::size_t count = (order_.size() + block_size - 1) / block_size;
   if (level_count_ > 0 && levels_[0].count == count) return;

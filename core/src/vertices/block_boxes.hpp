@@ -94,13 +94,13 @@ inline double lower_distance(const std::array<float, 6>& box, const kernels::Box
 kernels::Block rows_of(const VertexBlocks::Level& level);
 kernels::Block rows_of(const BoxRows& boxes);
 kernels::Block rows_of(const VertexStretches& stretches);
-/// Boxes put side by side, those of some places.
+/// Gathers the boxes with some indices, side by side.
 void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> indices, BoxRows& boxes);
 /// The blocks whose boxes meet another one, ascending: level by level, from the last down. There is room for
 /// all in both lists, whatever is found, so that the same surfaces never take more.
 void find_meeting(const VertexBlocks& blocks, const kernels::BoxInFrame& box, IndexList& groups,
                   IndexList& found);
-/// Lists which of such boxes meet another one, by their places.
+/// Lists the indices of those boxes that meet another one.
 void find_meeting(const BoxRows& boxes, const kernels::BoxInFrame& box, IndexList& found);
 
 }  // namespace graze

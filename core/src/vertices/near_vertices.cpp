@@ -47,12 +47,12 @@ bool are_floats(const SurfacePair& pair) {
   return !pair.a.positions().is_double() && !pair.b.positions().is_double();
 }
 
-/// Whether squares of what is about as near as a limit are ordinary floats.
+/// Whether squares of distances near a limit are ordinary floats.
 bool suits_float(double limit) {
   return limit > 0x1p-50 && limit < 0x1p50;
 }
 
-/// More than a distance, so that what is that far is looked for too.
+/// Slightly more than a distance, so that a search includes points that far apart.
 double above(double distance) {
   return std::nextafter(distance * round_up, std::numeric_limits<double>::infinity());
 }
@@ -111,8 +111,8 @@ void NearVertices::find_blocks() {
   if (near_.a.count > 0) lay_out_blocks_of_b();
 }
 
-/// Blocks of what each surface has in the other's box, where it has none of all; false where it has nothing
-/// there.
+/// Makes blocks of the part of each surface in the other's box, where it has no blocks of all; false where it
+/// has nothing there.
 bool NearVertices::make_parts() {
   const auto make = [&](const Surface& surface, const Surface& other, NearPart& part) {
     if (surface.has_blocks()) return true;

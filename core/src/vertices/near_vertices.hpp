@@ -19,7 +19,7 @@ namespace graze {
 /// The blocks of two surfaces that may be near the other surface, for all slices of a search. Boxes are
 /// relative to the origin of b's.
 struct NearBlocks {
-  /// The blocks themselves, of a surface that has stretches in their place.
+  /// The blocks themselves, of a surface that has stretches instead.
   NearPart part_a;
   NearPart part_b;
   IndexList a;  ///< ascending
@@ -28,11 +28,12 @@ struct NearBlocks {
   /// are more, all levels are used, and blocks have their index among all blocks of b.
   bool is_linear_scan = false;
   BoxRows boxes;  ///< of the few
-  // The points of each block of b in its place, in one of the two.
+  // The points of each block of b at its index, in one of the two.
   std::vector<float> floats;
   std::vector<double> doubles;
   Eigen::Vector3f shift;  ///< from the origin of a's
-  float reach = 0;  ///< what is no nearer along an axis, in float, is certainly not nearer than looked for
+  float reach =
+      0;  ///< points no nearer than this along an axis, in float, are certainly not within the limit
 
   template <typename Self>
   static auto parts(Self& self) {
@@ -44,7 +45,7 @@ struct NearBlocks {
 /// Working memory of one thread.
 struct NearVerticesScratch {
   IndexList groups;
-  IndexList around;                                          ///< places of blocks of b near some blocks of a
+  IndexList around;                                          ///< indices of blocks of b near some blocks of a
   BoxRows boxes;                                             ///< of these
   IndexList beside;                                          ///< of these those near one of them
   IndexList near_a;                                          ///< points of a block of a
@@ -74,8 +75,8 @@ class NearVertices {
   /// once.
   bool key(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
            std::vector<FeaturePairKey>& keys, const NearListing& listing);
-  /// Offers the nearest pairs of all listed blocks, and what comes before them; false when the budget ran
-  /// out. What is of no use any more beside the nearest so far is not looked for.
+  /// Offers the nearest pairs of all listed blocks, and those met before them; false when the budget ran out.
+  /// Does not search where pairs would be of no use beside the nearest so far.
   bool offer(WorkMeter& meter, ClosestRange& nearest);
 
  private:

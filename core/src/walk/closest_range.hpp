@@ -23,9 +23,9 @@ struct ClosestFound {
   }
 };
 
-/// Branch and bound over pairs of regions: middle vertices give an upper bound, boxes a lower one. What is
-/// certainly not below the reach is not looked at, and in AccuracyMode::within nothing that is neither below
-/// the threshold nor more than the tolerance nearer than what is known.
+/// Branch and bound over pairs of regions: middle vertices give an upper bound, boxes a lower one. Pairs
+/// certainly not below the reach are not tested. In AccuracyMode::within a pair is tested only if it is below
+/// the threshold, or more than the tolerance nearer than the nearest so far.
 class ClosestRange {
  public:
   /// Goes on from `found`.
@@ -38,8 +38,8 @@ class ClosestRange {
         leaf_test_slack_(query.mode == AccuracyMode::exact ? query.leaf_test_slack : 0),
         may_pierce_(may_pierce) {}
 
-  /// Whether something this near could still matter, now or before the surfaces have moved by `slack`; what
-  /// is left out bounds the answer from below.
+  /// Whether a pair this near could still matter, now or before the surfaces have moved by `slack`. A pair
+  /// that is left out bounds the answer from below.
   bool keep(double lower_bound, double slack = 0) {
     const double nearest = std::max(0.0, lower_bound - slack);
     seen_ = std::min(seen_, lower_bound);
@@ -58,15 +58,15 @@ class ClosestRange {
     if (query_.mode != AccuracyMode::within) return reached;
     return std::min(reached, std::max(query_.threshold, set_.upper() - query_.tolerance));
   }
-  /// Names are wanted with the range of their distance.
+  /// Keys are wanted with the range of their distance.
   [[nodiscard]] static double keys_only_below() { return 0; }
   /// Something was left out that is further than an earlier or the present limit.
   void left_out(double limit) {
     if (limit < set_.upper()) found_.lower = std::min(found_.lower, limit);
   }
 
-  /// Whether nothing can come nearer, and what is nearest need not be looked for among others: surfaces that
-  /// pierce each other do so in many places, any of which is a witness.
+  /// Whether nothing can come nearer, and the search may stop. Surfaces that pierce each other do so at many
+  /// points, any of which is a witness.
   [[nodiscard]] bool is_decided() const { return set_.is_decided(query_.threshold); }
 
   /// Nothing further than this is nearest.
@@ -119,7 +119,7 @@ class ClosestRange {
   ClosestSet set_;
   double leaf_test_slack_;
   bool may_pierce_;
-  double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a look into two leaves began
+  double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a test of two leaves began
 };
 
 }  // namespace graze

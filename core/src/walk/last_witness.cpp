@@ -41,8 +41,8 @@ SurfacePoint surface_point(const Surface& surface, const FeaturePiece& piece, co
   return on;
 }
 
-/// The way from a point's first corner to it now, and how far the other corners are, which its rounding and
-/// that of the shares is relative to.
+/// The way from a point's first corner to it now, and how far the other corners are. Its rounding and that of
+/// the shares are relative to the latter.
 struct Offset {
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   double size = 0;

@@ -21,11 +21,11 @@ namespace graze {
 struct LeafPair {
   double lower = 0;
   RegionPair pair;
-  std::uint32_t listed = 0;       ///< its place in the front that it was taken from
+  std::uint32_t listed = 0;       ///< its index in the front that it was selected from
   float feature_lower_bound = 0;  ///< as ListedLeaves has it, now
 };
 
-/// Places in a front.
+/// Indices into a front.
 class ListedIndices {
  public:
   /// Room for so many, whatever they are.
@@ -56,7 +56,7 @@ struct LeafPairScratch {
   }
 };
 
-/// Pairs of leaves that a query looks into, and how near what it does not can be.
+/// The pairs of leaves that a query tests, and a lower bound for the others.
 struct LeafPairList {
   std::vector<LeafPair> leaves;
   /// No pair of leaves that was left out on the way is nearer.
@@ -81,9 +81,10 @@ class LeafPairs {
     scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
   }
 
-  /// Appends those leaf pairs of a part of a front that are not further than a distance; where the surfaces
-  /// are `certainly_apart`, by what looks into them said, too. Without a branch, since which are is as good
-  /// as random; of most what was known when they were listed is enough, and no box is looked at.
+  /// Appends those leaf pairs of a part of a front that are not further than a distance. Where the surfaces
+  /// are `certainly_apart`, their feature bounds count, too. It has no branch, since which pairs these are is
+  /// as good as random. For most of them the bounds from when they were listed are enough, and no box is
+  /// read.
   void select_from(const LeafFront& front, std::size_t begin, std::size_t end, double distance,
                    bool certainly_apart, LeafPairList& found) {
     std::uint32_t* const listed = scratch_.listed.room_for(end - begin);

@@ -18,7 +18,7 @@ class TouchingOrder {
       : scatters_a_(a.region_count() < b.region_count()),
         count_(scatters_a_ ? a.region_count() : b.region_count()),
         slot_count_(std::bit_ceil(count_)) {
-    // Steps of the golden ratio of all places; odd, so that every place is another number.
+    // Steps of the golden ratio of all slots. The step is odd, so that every slot gets another number.
     constexpr std::uint64_t golden = 0x9e3779b9;
     step_ = static_cast<std::uint32_t>(golden * slot_count_ >> 32U) | 1U;
     // Newton's iteration: three bits of an odd number's inverse are those of the number.
@@ -31,14 +31,14 @@ class TouchingOrder {
     const std::uint32_t slot = scattered * slot_step_ & (slot_count_ - 1);
     return std::uint64_t{slot} << 32U | (scatters_a_ ? pair.b : pair.a);
   }
-  /// Whether one of two that name a pair of leaves comes before the other.
+  /// Whether one of two that identify a pair of leaves comes before the other.
   template <typename Named>
   bool operator()(const Named& left, const Named& right) const {
     return of(left.pair) < of(right.pair);
   }
-  /// How many places regions are scattered over.
+  /// How many slots regions are scattered over.
   [[nodiscard]] std::uint32_t slot_count() const { return slot_count_; }
-  /// The number of the region at a place; none has it where it is not below `region_count`.
+  /// The number of the region at a slot. A slot is empty where this is not below `region_count`.
   [[nodiscard]] std::uint32_t region_at(std::uint32_t slot) const { return slot * step_ & (slot_count_ - 1); }
   [[nodiscard]] std::uint32_t region_count() const { return count_; }
   [[nodiscard]] bool scatters_a() const { return scatters_a_; }

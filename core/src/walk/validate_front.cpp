@@ -90,8 +90,8 @@ void validate_listed(const ListedLeaves& listed, const LeafFront& front, const S
 
 }  // namespace
 
-/// By the leaves' own points where boxes do not merge_runs it: a front may be made by boxes of an earlier
-/// refit, and neither those nor the boxes of now always give the greater bound.
+/// Uses the leaves' own points where boxes do not decide it. A front may be made by boxes of an earlier
+/// refit, and neither those nor the present boxes always give the greater bound.
 void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   const auto regions_a = a.mesh().regions().regions();
   const auto regions_b = b.mesh().regions().regions();

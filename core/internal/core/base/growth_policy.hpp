@@ -6,9 +6,9 @@
 
 namespace graze {
 
-/// How many elements to take memory for where `count` have none: half as many again, so that a number that
-/// rises a little from step to step takes memory a few times only. What is to spare costs addresses; memory
-/// that nobody has written to is not there yet.
+/// How many elements to reserve where `count` do not fit: half as many again. So a number that rises a little
+/// from step to step takes memory a few times only. The rest costs addresses, since memory that nobody has
+/// written to does not exist yet.
 constexpr std::size_t with_growth_room(std::size_t count) {
   return count + count / 2;
 }

@@ -44,8 +44,8 @@ class GRAZE_API IndexedMesh {
   /// An edge's two vertices, the lower first.
   [[nodiscard]] std::array<std::uint32_t, 2> edge(std::uint32_t index) const { return edges_[index]; }
 
-  // The lists that follow are each made as a whole when one of them is first asked for, by any thread, since
-  // few uses of a mesh need all of them.
+  // Each of the lists below is made as a whole when one of them is first asked for, by any thread. Few uses
+  // of a mesh need all of them.
 
   /// The vertices that share an edge with `vertex`, ascending.
   [[nodiscard]] std::span<const std::uint32_t> vertex_neighbours(std::uint32_t vertex) const {

@@ -13,7 +13,7 @@ struct GRAZE_API PairRoom {
   // Counts for one pair:
   std::size_t contacts = 0;
   std::size_t leaf_pairs = 0;        ///< that may be near
-  std::size_t ties = 0;              ///< names at the least distance, and features about them
+  std::size_t ties = 0;              ///< keys at the least distance, and features about them
   std::size_t region_distances = 0;  ///< listed
   // Of the largest of the meshes:
   std::size_t vertices = 0;

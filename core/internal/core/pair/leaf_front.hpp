@@ -63,7 +63,7 @@ struct LeafFront {
   /// A lower bound of the surfaces' distance at the two marks. While they have moved less than that, no edge
   /// pierces a face, and `feature_lower_bound` covers everything that counts.
   float apart = 0;
-  /// Whether the surfaces were at distance 0 when a query looked for the closest points last.
+  /// Whether the surfaces were at distance 0 when a query last searched for the closest points.
   bool touched = false;
   /// How many pairs of leaves the last walk reached, as the number of its bits.
   std::uint8_t reached_bits = 0;

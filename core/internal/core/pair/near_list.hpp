@@ -20,8 +20,8 @@ struct FeatureRef {
   friend bool operator==(const FeatureRef&, const FeatureRef&) = default;
 };
 
-/// Two features, one of each surface: two vertices, where contacts are of vertices; otherwise a vertex and a
-/// face, two edges or folds, or one of these and a face that it may pierce.
+/// Two features, one of each surface. They are two vertices, where contacts are of vertices. Otherwise they
+/// are a vertex and a face, two edges or folds, or an edge or fold and a face that it may pierce.
 struct FeaturePair {
   FeatureRef a;
   FeatureRef b;

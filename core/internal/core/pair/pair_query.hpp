@@ -29,10 +29,10 @@ struct PairQuery {
   double list_slack = 0;
   /// A front of more pairs of leaves than this is not kept, nor a list of more pairs of features.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
-  /// The most contacts that an answer keeps: the nearest, and of those that are as near the lowest names. 0:
-  /// all. Where more are found, no features are listed for the next steps.
+  /// The most contacts that an answer keeps: the nearest, and of those at one distance those with the lowest
+  /// keys. 0: all. Where more are found, no features are listed for the next steps.
   std::size_t contact_limit = 0;
-  /// How many distances of regions are listed at most; 0: none are looked for.
+  /// How many distances of regions are listed at most; 0: none.
   std::size_t region_distance_limit = 0;
   /// Regions are listed that may be nearer than this; in AccuracyMode::paper, those that pass its test.
   double region_distance_reach = 0;

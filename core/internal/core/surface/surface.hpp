@@ -42,7 +42,7 @@ class GRAZE_API Surface {
 
   [[nodiscard]] const IndexedMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const std::shared_ptr<const IndexedMesh>& shared_mesh() const { return mesh_; }
-  /// That of an unused vertex means nothing.
+  /// The position of a vertex; that of an unused one means nothing.
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t vertex) const {
     if (viewed_.data() != nullptr) return viewed_[vertex];
     if (in_double_.empty()) return in_float_[vertex].cast<double>();
@@ -72,20 +72,20 @@ class GRAZE_API Surface {
 
     [[nodiscard]] bool taken() const { return bad_vertex == no_vertex; }
   };
-  /// How ReadResult::displacement is found: a bound of the sort takes one quick pass, and is at most √3 times
-  /// too large, or infinite where positions come in another precision than before.
+  /// How ReadResult::displacement is found. A bound takes one quick pass and is at most √3 times too large.
+  /// It is infinite where positions come in another precision than before.
   enum class Displacement : std::uint8_t { exact, bound };
   /// Takes all of `view`, which has one position for each vertex, or nothing, also where there is no memory
   /// for it (std::bad_alloc). Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
-  /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
+  /// Poses the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
   /// From one pose to another the displacement is a bound, by the corners of the rest shape's box, and
   /// another pose is a change.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
   /// The result of scanning some of the new positions.
   struct PartSeen {
-    /// The first, as in ReadResult; nothing after it was looked at.
+    /// The first bad vertex, as in ReadResult; no vertex after it was scanned.
     std::uint32_t bad_vertex = ReadResult::no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
     double furthest_squared = 0;
@@ -118,11 +118,11 @@ class GRAZE_API Surface {
   [[nodiscard]] static PartSeen survey(const IndexedMesh& mesh, const PositionView& view, std::uint32_t begin,
                                        std::uint32_t end);
 
-  /// Whether positions can be looked at where they are: one beside the other, all of them used.
+  /// Whether positions can be viewed where they are: one beside the other, all of them used.
   [[nodiscard]] bool can_view(const PositionView& view) const;
-  /// Looks at positions where they are, which a survey found good, in that box, in place of reading them:
-  /// they are this surface's until `end_view`, and how far they moved is not known. After that its positions
-  /// are of no use before it is read again or has another view.
+  /// Views positions where they are, instead of reading them. A survey has found them good, in that box. They
+  /// are this surface's until `end_view`, and how far they moved is not known. After that its positions are
+  /// of no use before it is read again or has another view.
   void view(const PositionView& view, const Box& box);
   void end_view();
   /// Whether it has had a view since it was read.
@@ -150,8 +150,8 @@ class GRAZE_API Surface {
   void begin_refit(RefitOf what);
   void refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end);
   void finish_refit(RefitOf what);
-  /// At least how far any used vertex is from where the last refit saw it: 0 where the bounds are those of
-  /// the present positions, infinite before the first refit and after a jump.
+  /// A bound of how far any used vertex is from where the last refit saw it. It is 0 where the bounds are
+  /// those of the present positions, and infinite before the first refit and after a jump.
   [[nodiscard]] double motion_since_vertex_refit() const { return motion_since_refit(RefitOf::vertices); }
   [[nodiscard]] double motion_since_face_refit() const { return motion_since_refit(RefitOf::faces); }
   [[nodiscard]] double motion_since_refit(RefitOf what) const;
@@ -220,7 +220,7 @@ class GRAZE_API Surface {
   std::vector<Eigen::Vector3d> in_double_;
   std::optional<std::array<double, 12>>
       pose_;                ///< by which they are those of the rest shape, where it is known
-  PositionView viewed_;     ///< in place of these, where there is one; as long as both are empty always
+  PositionView viewed_;     ///< used instead of these, where there is one; always while both are empty
   bool is_behind_ = false;  ///< there has been one since they were written
   Box box_;
   std::vector<double> radii_;

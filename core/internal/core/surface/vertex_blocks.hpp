@@ -14,9 +14,9 @@
 namespace graze {
 
 /// A surface's used vertices, or those of a part of it, eight at a time in the order of
-/// IndexedMesh::block_order, and a box of each such block; of sixteen boxes one again, and so on. Made anew
-/// wherever the surface moved: for vertices that costs less than what a hierarchy that is kept from step to
-/// step would save.
+/// IndexedMesh::block_order. Each such block has a box, each sixteen boxes have one again, and so on. They
+/// are made anew wherever the surface moved. For vertices that costs less than a hierarchy that is kept from
+/// step to step would save.
 class VertexBlocks {
  public:
   static constexpr std::uint32_t block_size = vertices_per_block;  ///< vertices
