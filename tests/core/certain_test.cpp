@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/nearest_places.hpp"
-#include "kernels/places.hpp"
+#include "core/nearest_voronoi.hpp"
+#include "kernels/voronoi.hpp"
 #include "support/catch.hpp"
 #include "support/exact.hpp"
 #include "support/random_scenes.hpp"
@@ -72,17 +72,18 @@ void check_range(const SquaredRange& range, const Rational& truth) {
 using Corners = std::array<Vector3d, 3>;
 using Ends = std::array<Vector3d, 2>;
 
-void check_place(const Vector3d& point, const Corners& corner, Place place, const SquaredRange& range) {
+void check_voronoi(const Vector3d& point, const Corners& corner, VoronoiRegion place,
+                   const SquaredRange& range) {
   const NearestInTriangle expected = nearest_in_triangle(oracle::exact(point), exact_corners(corner));
-  REQUIRE(place == expected.place);
+  REQUIRE(place == expected.voronoi);
   check_range(range, expected.squared_distance);
 }
 
-void check_places(const Ends& a, const Ends& b, const std::array<Along, 2>& places,
-                  const SquaredRange& range) {
+void check_along(const Ends& a, const Ends& b, const std::array<Along, 2>& places,
+                 const SquaredRange& range) {
   const NearestOfSegments expected = nearest_of_segments(exact_corners(a), exact_corners(b));
   REQUIRE(expected.is_unique);
-  REQUIRE(places == expected.places);
+  REQUIRE(places == expected.along);
   check_range(range, expected.squared_distance);
 }
 
@@ -99,8 +100,8 @@ void put(const Vector3d& point, kernels::Points& points, std::size_t lane) {
 }
 
 /// What `kernel` fills in under the first instruction set, once it has been seen that all fill in the same.
-template <typename Batch, typename Kernel, typename SamePlaces>
-void run(Batch& batch, const Kernel& kernel, const SamePlaces& same_places) {
+template <typename Batch, typename Kernel, typename SameVoronoi>
+void run(Batch& batch, const Kernel& kernel, const SameVoronoi& same_voronoi) {
   const InstructionSet before = instruction_set();
   std::optional<Batch> first;
   for (const InstructionSet set : available_instruction_sets()) {
@@ -110,7 +111,7 @@ void run(Batch& batch, const Kernel& kernel, const SamePlaces& same_places) {
     for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
       REQUIRE(batch.found.certain[lane] == first->found.certain[lane]);
       if (batch.found.certain[lane] == 0) continue;
-      REQUIRE(same_places(batch, *first, lane));
+      REQUIRE(same_voronoi(batch, *first, lane));
       REQUIRE(batch.found.low[lane] == first->found.low[lane]);
       REQUIRE(batch.found.high[lane] == first->found.high[lane]);
     }
@@ -120,7 +121,7 @@ void run(Batch& batch, const Kernel& kernel, const SamePlaces& same_places) {
 
 /// Of one lane: whether the kernel is certain, which it is of all that certain.cpp is, and says the same of
 /// that.
-bool check_found(const kernels::PlacesFound& found, std::size_t lane, bool is_certain,
+bool check_found(const kernels::VoronoiFound& found, std::size_t lane, bool is_certain,
                  const SquaredRange& range) {
   const bool kernel_is_certain = found.certain[lane] == 1;
   REQUIRE((kernel_is_certain || found.certain[lane] == 0));
@@ -133,7 +134,7 @@ bool check_found(const kernels::PlacesFound& found, std::size_t lane, bool is_ce
 
 }  // namespace
 
-TEST_CASE("certain: the place of a point's nearest point in a triangle") {
+TEST_CASE("certain: the Voronoi region of a triangle that a point lies in") {
   Tally all;
   for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
     Generator generator(static_cast<Generator::Family>(family), family + 1);
@@ -142,12 +143,12 @@ TEST_CASE("certain: the place of a point's nearest point in a triangle") {
       const Vector3d point = generator.point();
       const std::array corner{generator.point(), generator.point(), generator.point()};
       ++tally.compared;
-      Place place{};
+      VoronoiRegion place{};
       SquaredRange range;
-      if (!certain_place(point, corner, place, range)) continue;
+      if (!certain_voronoi(point, corner, place, range)) continue;
       ++tally.certain;
       INFO("family " << family << ", case " << i);
-      check_place(point, corner, place, range);
+      check_voronoi(point, corner, place, range);
       ++all.places[static_cast<std::size_t>(place)];
     }
     INFO("family " << family << ": " << tally.certain << " of " << tally.compared);
@@ -155,12 +156,13 @@ TEST_CASE("certain: the place of a point's nearest point in a triangle") {
     all.compared += tally.compared;
     all.certain += tally.certain;
   }
-  for (std::size_t place = 0; place <= static_cast<std::size_t>(Place::inside); ++place)
+  for (std::size_t place = 0; place <= static_cast<std::size_t>(VoronoiRegion::inside); ++place)
     CHECK(all.places[place] > 100);
-  std::cout << "compared " << all.certain << " certain places in triangles of " << all.compared << "\n";
+  std::cout << "compared " << all.certain << " certain Voronoi regions of triangles of " << all.compared
+            << "\n";
 }
 
-TEST_CASE("certain: the places of two segments' closest points") {
+TEST_CASE("certain: where on two segments their closest points lie") {
   Tally all;
   for (std::uint64_t family = 0; family < Generator::family_count; ++family) {
     Generator generator(static_cast<Generator::Family>(family), family + 20);
@@ -170,10 +172,10 @@ TEST_CASE("certain: the places of two segments' closest points") {
       ++tally.compared;
       std::array<Along, 2> places{};
       SquaredRange range;
-      if (!certain_places(a, b, places, range)) continue;
+      if (!certain_along(a, b, places, range)) continue;
       ++tally.certain;
       INFO("family " << family << ", case " << i);
-      check_places(a, b, places, range);
+      check_along(a, b, places, range);
       ++all.places[static_cast<std::size_t>(places[0]) * 3 + static_cast<std::size_t>(places[1])];
     }
     INFO("family " << family << ": " << tally.certain << " of " << tally.compared);
@@ -182,7 +184,8 @@ TEST_CASE("certain: the places of two segments' closest points") {
     all.certain += tally.certain;
   }
   for (const std::size_t count : all.places) CHECK(count > 100);
-  std::cout << "compared " << all.certain << " certain places of segments of " << all.compared << "\n";
+  std::cout << "compared " << all.certain << " certain closest points of segments of " << all.compared
+            << "\n";
 }
 
 TEST_CASE("certain: several points and triangles at once") {
@@ -200,22 +203,22 @@ TEST_CASE("certain: several points and triangles at once") {
         for (std::size_t i = 0; i < 3; ++i) put(corner[lane][i], batch.corner[i], lane);
       }
       run(
-          batch, [](auto& asked) { kernels::places().points_and_triangles(asked); },
-          [](const auto& a, const auto& b, std::size_t lane) { return a.place[lane] == b.place[lane]; });
+          batch, [](auto& asked) { kernels::voronoi().points_and_triangles(asked); },
+          [](const auto& a, const auto& b, std::size_t lane) { return a.voronoi[lane] == b.voronoi[lane]; });
       for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
         INFO("family " << family << ", round " << round << ", lane " << lane);
-        Place place{};
+        VoronoiRegion place{};
         SquaredRange range;
-        const bool is_certain = certain_place(point[lane], corner[lane], place, range);
+        const bool is_certain = certain_voronoi(point[lane], corner[lane], place, range);
         if (!check_found(batch.found, lane, is_certain, range)) continue;
         ++certain;
-        const auto found = static_cast<Place>(batch.place[lane]);
-        check_place(point[lane], corner[lane], found, {batch.found.low[lane], batch.found.high[lane]});
+        const auto found = static_cast<VoronoiRegion>(batch.voronoi[lane]);
+        check_voronoi(point[lane], corner[lane], found, {batch.found.low[lane], batch.found.high[lane]});
       }
     }
   }
   CHECK(certain > 5000);
-  std::cout << "compared " << certain << " places of eight triangles at once\n";
+  std::cout << "compared " << certain << " Voronoi regions of eight triangles at once\n";
 }
 
 TEST_CASE("certain: several pairs of segments at once") {
@@ -233,25 +236,25 @@ TEST_CASE("certain: several pairs of segments at once") {
         }
       }
       run(
-          batch, [](auto& asked) { kernels::places().segments(asked); },
+          batch, [](auto& asked) { kernels::voronoi().segments(asked); },
           [](const auto& a, const auto& b, std::size_t lane) {
-            return a.place_a[lane] == b.place_a[lane] && a.place_b[lane] == b.place_b[lane];
+            return a.along_a[lane] == b.along_a[lane] && a.along_b[lane] == b.along_b[lane];
           });
       for (std::size_t lane = 0; lane < kernels::contact_lanes; ++lane) {
         INFO("family " << family << ", round " << round << ", lane " << lane);
         const auto& [a, b] = segments[lane];
         std::array<Along, 2> places{};
         SquaredRange range;
-        const bool is_certain = certain_places(a, b, places, range);
+        const bool is_certain = certain_along(a, b, places, range);
         if (!check_found(batch.found, lane, is_certain, range)) continue;
         ++certain;
-        check_places(a, b, {static_cast<Along>(batch.place_a[lane]), static_cast<Along>(batch.place_b[lane])},
-                     {batch.found.low[lane], batch.found.high[lane]});
+        check_along(a, b, {static_cast<Along>(batch.along_a[lane]), static_cast<Along>(batch.along_b[lane])},
+                    {batch.found.low[lane], batch.found.high[lane]});
       }
     }
   }
   CHECK(certain > 5000);
-  std::cout << "compared " << certain << " places of eight pairs of segments at once\n";
+  std::cout << "compared " << certain << " closest points of eight pairs of segments at once\n";
 }
 
 TEST_CASE("certain: whether a segment passes through a triangle") {

@@ -54,7 +54,7 @@ void check_clip(const FeatureBlock<Corners>& block, const std::vector<Corner<Cor
                 const FilterFrame& frame, const Box& box, const LeafSlab& slab, const Vector3d& middle,
                 float limit, ClipTally& tally) {
   kernels::BoxInFrame found = empty_box();
-  TakenFeatures<Corners> taken;
+  SelectedFeatures<Corners> taken;
   const kernels::BoxInFrame local = frame.to_local(box);
   taken.take(block, {local, local, frame.to_local(slab, middle), limit}, &found);
   std::vector<bool> is_kept(features.size(), false);

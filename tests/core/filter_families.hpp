@@ -131,7 +131,9 @@ inline Vector3d beside_of(std::uint64_t seed) {
 
 template <std::size_t Corners>
 FeatureBlock<Corners> block_of(const std::vector<Corner<Corners>>& features, const FilterFrame& frame) {
-  FeatureBlock<Corners> block(Corners == 1 ? Part::vertex : Corners == 2 ? Part::edge : Part::face);
+  FeatureBlock<Corners> block(Corners == 1   ? FeatureRefKind::vertex
+                              : Corners == 2 ? FeatureRefKind::edge
+                                             : FeatureRefKind::face);
   std::vector<Vector3d> positions;
   CornerList corners;
   block.begin(features.size());
@@ -147,8 +149,8 @@ FeatureBlock<Corners> block_of(const std::vector<Corner<Corners>>& features, con
   std::iota(all.begin(), all.end(), 0U);
   std::vector<kernels::Point> vertices(positions.size());
   if (!all.empty())
-    kernels::position_passes().doubles.bring({positions[0].data(), all.back()}, all.data(), all.size(),
-                                             frame.for_points(), vertices.data());
+    kernels::position_passes().doubles.to_frame({positions[0].data(), all.back()}, all.data(), all.size(),
+                                                frame.for_points(), vertices.data());
   block.lay_out(vertices.data(), corners.padded());
   return block;
 }

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "core/filter_families.hpp"
-#include "core/nearest_places.hpp"
+#include "core/nearest_voronoi.hpp"
 #include "leaves/float_filter.hpp"
 #include "support/catch.hpp"
 #include "support/real.hpp"
@@ -99,12 +99,12 @@ struct Found {
 struct Bounds {
   std::vector<float> bound;
   std::vector<bool> is_left;
-  std::vector<std::int32_t> place;
+  std::vector<std::int32_t> voronoi;
 };
 Bounds bounds_of(const PointBlock& rows, std::size_t row, const PointBlock& columns,
                  const kernels::NearLimits& limits) {
   Bounds bounds{std::vector<float>(columns.count(), infinity), std::vector<bool>(columns.count()),
-                std::vector<std::int32_t>(columns.count(), kernels::unsure_place)};
+                std::vector<std::int32_t>(columns.count(), kernels::unsure_voronoi)};
   Found found(columns.count());
   const std::size_t count =
       kernels::filter().near_points(point_of(rows, row), columns.block(), limits.limit, found.out());
@@ -129,7 +129,7 @@ Bounds bounds_by(const Ask& ask, const FeatureBlock<RowCorners>& rows, std::size
     for (std::size_t lane = 0; lane < count; ++lane) {
       bounds.bound.push_back(pairs.bound[lane]);
       bounds.is_left.push_back((left >> lane & 1U) != 0);
-      bounds.place.push_back(pairs.place[lane]);
+      bounds.voronoi.push_back(pairs.voronoi[lane]);
     }
   }
   return bounds;
@@ -200,7 +200,7 @@ std::vector<std::uint32_t> transcript(const Batch& a, const Batch& b) {
       std::memcpy(&bits, &bounds.bound[k], sizeof bits);
       words.push_back(bits);
       words.push_back(bounds.is_left[k] ? 1 : 0);
-      if (bounds.is_left[k]) words.push_back(static_cast<std::uint32_t>(bounds.place[k]));
+      if (bounds.is_left[k]) words.push_back(static_cast<std::uint32_t>(bounds.voronoi[k]));
     }
   };
   const auto take_pairs = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
@@ -409,17 +409,17 @@ TEST_CASE("filter: a batch hands on what is left, and a quad once") {
                                            {Vector3d(50, 0.2, 0.3)},
                                            {Vector3d(1e30, 0.2, 0.3)}},
                                           frame);
-  const std::vector<kernels::Point> places{
+  const std::vector<kernels::Point> points{
       {{0, 0, 0}, kernels::least_size}, {{1, 0, 0}, 1}, {{1, 1, 0}, 1}, {{0, 1, 0}, 1}};
   const auto halves = [&](std::uint32_t first_owner, std::uint32_t second_owner) {
-    TriangleBlock block(Part::face);
+    TriangleBlock block(FeatureRefKind::face);
     CornerList corners;
     block.begin(2);
     block.add(first_owner);
     block.add(second_owner);
     corners.begin(6);
-    for (const std::uint32_t place : {0U, 1U, 2U, 0U, 2U, 3U}) corners.add(place);
-    block.lay_out(places.data(), corners.padded());
+    for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) corners.add(corner);
+    block.lay_out(points.data(), corners.padded());
     return block;
   };
   using HandedOn = std::vector<std::tuple<std::uint32_t, std::uint32_t, bool, std::int32_t>>;
@@ -434,9 +434,9 @@ TEST_CASE("filter: a batch hands on what is left, and a quad once") {
     };
     add({0, 0, 1, 1, 2, 2, 3, 3}, {0, 1, 0, 1, 0, 1, 0, 1});
     HandedOn handed_on;
-    const auto visit = [&](const PartOf& vertex, const PartOf& face, const KnownInFloat& known) {
-      CHECK((vertex.part == Part::vertex && face.part == Part::face));
-      handed_on.emplace_back(vertex.index, face.index, known.is_bounded, known.place);
+    const auto visit = [&](const FeatureRef& vertex, const FeatureRef& face, const KnownInFloat& known) {
+      CHECK((vertex.kind == FeatureRefKind::vertex && face.kind == FeatureRefKind::face));
+      handed_on.emplace_back(vertex.index, face.index, known.is_bounded, known.voronoi);
     };
     const auto ask = [](auto& pairs) {
       return kernels::filter().bound_points_and_triangles(pairs, {0.5F, 0.5F});
@@ -449,9 +449,9 @@ TEST_CASE("filter: a batch hands on what is left, and a quad once") {
     CHECK(times_full == 2);
     return handed_on;
   };
-  constexpr auto inside = static_cast<std::int32_t>(Place::inside);
-  constexpr auto diagonal = static_cast<std::int32_t>(Place::edge01);  // of the second half
-  constexpr std::int32_t unsure = kernels::unsure_place;
+  constexpr auto inside = static_cast<std::int32_t>(VoronoiRegion::inside);
+  constexpr auto diagonal = static_cast<std::int32_t>(VoronoiRegion::edge01);  // of the second half
+  constexpr std::int32_t unsure = kernels::unsure_voronoi;
   CHECK(run(halves(5, 6), 3) == HandedOn{{0, 5, true, inside},
                                          {0, 6, true, diagonal},
                                          {1, 5, true, inside},

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "closest_features/closest_features.hpp"
 #include "core/base/floating_point_scope.hpp"
 #include "core/comparison.hpp"
 #include "core/pair/pair_answer.hpp"
@@ -17,7 +18,6 @@
 #include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
-#include "names/naming.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"
@@ -99,7 +99,7 @@ TEST_CASE("last witness: it is never nearer than its points are, and hardly furt
     const SurfacePair pair{a, b, count};
     for (int i = 0; i < 20; ++i) {
       const FeaturePiece piece = random_piece(a.mesh(), random);
-      const auto name = ContactName::of(piece, random_piece(b.mesh(), random));
+      const auto name = FeaturePairKey::of(piece, random_piece(b.mesh(), random));
       // Any points will do: near the features or not.
       const auto point_of = [&](const Surface& surface) -> Vector3d {
         const Vector3d size = surface.box().max - surface.box().min;
@@ -126,7 +126,7 @@ TEST_CASE("last witness: a point of a feature is found again where it was, and m
   const Surface b = surface_of(mapped(corner, 1, {0, 0, 3}));
   DecisionCount count;
   const SurfacePair pair{a, b, count};
-  const auto name = ContactName::of(face_piece(0, Piece::first), vertex_piece(0));
+  const auto name = FeaturePairKey::of(face_piece(0, Piece::first), vertex_piece(0));
   const LastWitness witness = last_witness_of(pair, name, {1, 0.5, 0}, {0, 0, 3});
   CHECK(std::abs(upper_distance(pair, witness, false) - std::sqrt(1 + 0.25 + 9)) < 1e-5);
   CHECK(upper_distance(pair, {}, false) == infinity);

@@ -9,10 +9,10 @@
 #include <limits>
 #include <vector>
 
+#include "closest_features/closest_features.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
-#include "names/naming.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_of.hpp"
 

@@ -12,7 +12,7 @@
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"
-#include "surface/made_of_leaves.hpp"
+#include "surface/per_leaf_cache.hpp"
 
 namespace graze::tests {
 namespace {
@@ -159,7 +159,7 @@ TEST_CASE("leaf slabs: they hold the corners, and what they say to be apart is")
 TEST_CASE("made of leaves: what is made of the same positions is kept, and made anew of others") {
   Surface surface = surface_of(sheet(0, 1));
   const Surface other = surface_of(sheet(0, 1));
-  MadeOfLeaves<int> made;
+  PerLeafCache<int> made;
   int count = 0;
   const auto value = [&](const Surface& of, std::size_t leaf) {
     made.begin(of);

@@ -69,7 +69,7 @@ Looks tremble(const DriftingPair& rest, const PairQuery& query, double tremor) {
 
 }  // namespace
 
-TEST_CASE("look slack: what is known of leaves from a look into them spares looks, and shows in no answer") {
+TEST_CASE("leaf test slack: bounds of features spare leaf tests, and change no answer") {
   const FloatingPointScope scope;
   const Shape ball = shape_of(models::sphere(32, 24));
   const Shape block = shape_of(models::box({1, 1, 1}));
@@ -100,7 +100,7 @@ TEST_CASE("look slack: what is known of leaves from a look into them spares look
         }
   CHECK(sum.without > 4000);
   CHECK(sum.with_slack * 3 < sum.without * 2);
-  std::cout << sum.with_slack << " looks into leaves with slack, " << sum.without << " without\n";
+  std::cout << sum.with_slack << " leaf tests with slack, " << sum.without << " without\n";
 }
 
 }  // namespace graze::tests

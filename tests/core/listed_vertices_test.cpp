@@ -64,7 +64,7 @@ template <typename Number>
 void check_brought(const Scattered<Number>& scattered, const FilterFrame& frame) {
   const auto& listed = scattered.listed;
   std::vector<kernels::Point> brought(listed.size());
-  bring(scattered.surface, listed, frame, brought.data());
+  to_frame(scattered.surface, listed, frame, brought.data());
   for (std::size_t i = 0; i < listed.size(); ++i) {
     const kernels::Point expected =
         local_vertex(frame, scattered.positions[listed[i]].template cast<double>());

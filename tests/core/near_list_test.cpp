@@ -154,7 +154,7 @@ TEST_CASE("near list: large pairs' slices list what one search does") {
   }
 }
 
-TEST_CASE("near list: one that is too long is not kept, nor tried again while all is calm") {
+TEST_CASE("near list: one that is too long is not kept, nor tried again while nothing moves") {
   const FloatingPointScope scope;
   const Shape ball = shape_of(models::sphere(24, 18));
   const Surface a = surface_of(ball);

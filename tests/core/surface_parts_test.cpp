@@ -46,7 +46,7 @@ Surface::ReadResult read_in_parts(Surface& surface, oracle::Random& random, cons
   std::sort(parts.begin(), parts.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
   Surface::PartSeen all;
   for (const auto& [begin, part] : parts) all.add(part);
-  const Surface::ReadResult result = surface.take(all);
+  const Surface::ReadResult result = surface.accept(all);
   if (result.changed)
     for (const Range& range : random_ranges(count, random)) write(range.begin, range.end);
   return result;
@@ -58,7 +58,7 @@ Surface::ReadResult read_positions_in_parts(Surface& surface, const Points& posi
   return read_in_parts(
       surface, random,
       [&](std::uint32_t begin, std::uint32_t end) {
-        return surface.look_at_positions(positions, begin, end, displacement);
+        return surface.scan_positions(positions, begin, end, displacement);
       },
       [&](std::uint32_t begin, std::uint32_t end) { surface.write_positions(positions, begin, end); });
 }
@@ -122,18 +122,17 @@ TEST_CASE("a surface in parts: read by several tasks as by one") {
       vertices += moved.positions.size();
     }
     const std::array<double, 12> pose{0, -1, 0, 0.5, 1, 0, 0, 0.25, 0, 0, 1, -4};
-    check_same(
-        read_in_parts(
-            parts, random,
-            [&](std::uint32_t begin, std::uint32_t end) { return parts.look_at_pose(pose, begin, end); },
-            [&](std::uint32_t begin, std::uint32_t end) { parts.write_pose(pose, begin, end); }),
-        whole.set_pose(pose));
+    check_same(read_in_parts(
+                   parts, random,
+                   [&](std::uint32_t begin, std::uint32_t end) { return parts.scan_pose(pose, begin, end); },
+                   [&](std::uint32_t begin, std::uint32_t end) { parts.write_pose(pose, begin, end); }),
+               whole.set_pose(pose));
     check_same(parts, whole);
   }
   std::cout << "compared " << vertices << " vertices\n";
 }
 
-TEST_CASE("a surface in parts: the first bad vertex is named and nothing is taken") {
+TEST_CASE("a surface in parts: the first bad vertex is named and no position is accepted") {
   const oracle::Shape shape = shape_of(models::sphere(20, 20));
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     oracle::Random random(seed);
@@ -152,7 +151,9 @@ TEST_CASE("a surface in parts: the first bad vertex is named and nothing is take
   }
 }
 
-TEST_CASE("a surface in parts: in another precision, a bound of the motion is none, and all is taken") {
+TEST_CASE(
+    "a surface in parts: in another precision, a bound of the motion is none, and all positions are "
+    "accepted") {
   const oracle::Shape shape = shape_of(models::sphere(20, 20));
   Surface surface(mesh_of(shape));
   Surface expected(mesh_of(shape));
@@ -162,8 +163,8 @@ TEST_CASE("a surface in parts: in another precision, a bound of the motion is no
   const std::uint32_t count = surface.mesh().vertex_count();
   const Travel before = surface.travel();
   for (int times = 0; times < 2; ++times) {
-    const auto seen = surface.look_at_positions(positions, 0, count, Surface::Displacement::bound);
-    const Surface::ReadResult result = surface.take(seen);
+    const auto seen = surface.scan_positions(positions, 0, count, Surface::Displacement::bound);
+    const Surface::ReadResult result = surface.accept(seen);
     REQUIRE(result.taken());
     CHECK(result.changed == (times == 0));
     CHECK(result.displacement == (times == 0 ? std::numeric_limits<double>::infinity() : 0));
@@ -178,10 +179,10 @@ TEST_CASE("a surface in parts: in another precision, a bound of the motion is no
   CHECK(surface.displacement() == 0);
   // Exactly where that is asked for, and none of it where a position is bad.
   Surface exact(mesh_of(shape));
-  CHECK(std::isfinite(exact.take(exact.look_at_positions(positions, 0, count)).displacement));
+  CHECK(std::isfinite(exact.accept(exact.scan_positions(positions, 0, count)).displacement));
   positions[7].x() = std::numeric_limits<float>::quiet_NaN();
   Surface bad(mesh_of(shape));
-  CHECK(bad.look_at_positions(positions, 0, count, Surface::Displacement::bound).bad_vertex == 7);
+  CHECK(bad.scan_positions(positions, 0, count, Surface::Displacement::bound).bad_vertex == 7);
 }
 
 namespace {
@@ -218,17 +219,17 @@ std::size_t check_one_pass(std::uint64_t seed) {
   std::vector<Eigen::Matrix<Number, 4, 1>> apart;  // no fast pass is for this layout
   for (const auto& position : next) apart.emplace_back(position.homogeneous());
   const PositionView one_by_one(apart[0].data(), apart.size(), sizeof apart[0]);
-  const auto exact = surface.look_at_positions(one_by_one, begin, end);
+  const auto exact = surface.scan_positions(one_by_one, begin, end);
   CHECK(exact.bad_vertex == Surface::ReadResult::no_vertex);
   for (const InstructionSet set : available_instruction_sets()) {
     use_instruction_set(set);
-    const auto bound = surface.look_at_positions(next, begin, end, Surface::Displacement::bound);
+    const auto bound = surface.scan_positions(next, begin, end, Surface::Displacement::bound);
     CHECK(is_same(bound.box, exact.box));
     CHECK(bound.changed == exact.changed);
     CHECK(bound.in_double == exact.in_double);
     const double furthest = std::sqrt(exact.furthest_squared);
     CHECK(bound.furthest_squared == 0);  // it is the fast pass that looked
-    const auto fast = surface.look_at_positions(next, begin, end);
+    const auto fast = surface.scan_positions(next, begin, end);
     CHECK(is_same(fast.box, exact.box));
     CHECK(fast.changed == exact.changed);
     CHECK(fast.furthest_squared == exact.furthest_squared);
@@ -241,7 +242,7 @@ std::size_t check_one_pass(std::uint64_t seed) {
     const Number worst[] = {std::numeric_limits<Number>::quiet_NaN(),
                             -std::numeric_limits<Number>::infinity(), static_cast<Number>(0x1.000002p120)};
     bad[vertex][static_cast<int>(random.below(3))] = worst[random.below(3)];
-    CHECK(surface.look_at_positions(bad, begin, end, Surface::Displacement::bound).bad_vertex == vertex);
+    CHECK(surface.scan_positions(bad, begin, end, Surface::Displacement::bound).bad_vertex == vertex);
     CHECK(is_same(Surface::survey(surface.mesh(), next, begin, end).box, exact.box));
     CHECK(is_same(Surface::survey(surface.mesh(), one_by_one, begin, end).box, exact.box));
     const auto surveyed = Surface::survey(surface.mesh(), bad, begin, end);

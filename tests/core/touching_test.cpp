@@ -62,7 +62,7 @@ Tally compare_steps(const Meeting& meeting, PairQuery query) {
     INFO(meeting.name << ", step " << step << ", threshold " << query.threshold);
     const bool touched = front.touched;
     const Travel travel = front.travel_a;
-    const bool is_served = front.beyond_now(a, b) > 0;
+    const bool is_served = front.unlisted_lower_bound_now(a, b) > 0;
     PairAnswer answer;
     PairAnswer afresh;
     PairCounters counters;
@@ -146,7 +146,7 @@ TEST_CASE("touching: that middle vertices are in one place shows in no witness")
   }
 }
 
-TEST_CASE("touching: surfaces on a grid that part by less than leaves are looked into for") {
+TEST_CASE("touching: surfaces on a grid that part by less than the slack of leaf tests") {
   const FloatingPointScope scope;
   PairDetector detector;
   PairDetector of_nothing;

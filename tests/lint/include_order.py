@@ -24,7 +24,7 @@ ORDER = {
         "mesh": "indices, regions, vertex order",
         "surface": "positions, bounds, motion",
         "pair": "query, answer, front, near list",
-        "names": "closest features of a pair",
+        "closest_features": "closest features of a pair",
         "measure": "points, normals, sides",
         "leaves": "features of two leaves, filters",
         "walk": "DMV, leaf pairs, witness",

@@ -38,7 +38,7 @@ struct Ball {
   }
   Ball operator-() const { return {-value, radius}; }
 
-  /// Whether it is certainly zero, as the difference of two coordinates that are the same bits.
+  /// Whether the number is certainly zero, as the difference of two coordinates with equal bits is.
   [[nodiscard]] bool is_zero() const { return value == 0 && radius == 0; }
 
   static constexpr double half_ulp = 0x1p-53;
@@ -80,8 +80,8 @@ auto decide(DecisionCount& count, const Question& question) {
   return question.template operator()<Exact>(unsure);
 }
 
-/// The sign of `number.operator()<Number>()`, likewise. Of a question with several signs mostly one alone is
-/// unsure.
+/// The sign of `number.operator()<Number>()`, decided as above. A question with several signs mostly is
+/// unsure of one alone.
 template <typename NumberOf>
 int decide_sign(DecisionCount& count, const NumberOf& number) {
   return decide(count, [&]<typename Number>(bool& unsure) {

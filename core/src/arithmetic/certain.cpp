@@ -21,20 +21,20 @@ bool is_in_range(double square) {
   return square >= least_square && square <= largest_square;
 }
 
-/// Of two points `x` apart.
+/// The range of the squared distance of two points `x` apart.
 SquaredRange range_of_points(double xx) {
   return {xx * (1 - 8 * unit), xx * (1 + 8 * unit)};
 }
 
-/// Of a point `x` from a point of a line along `direction`.
+/// The range of the squared distance of a point `x` from a point of a line along `direction`.
 SquaredRange range_to_line(const Plain& direction, double length_squared, const Plain& x, double xx) {
   const Plain area = cross(direction, x);
   const double squared = dot(area, area) / length_squared;
   return {std::max(squared - 32 * unit * xx, 0.0), squared + 32 * unit * xx};
 }
 
-/// Of a point `x` from a plane, or of two lines through points `x` apart: along `normal`, the product of two
-/// vectors of the squared lengths given.
+/// The range of the squared distance of a point `x` from a plane, or of two lines through points `x` apart.
+/// It is measured along `normal`, the product of two vectors of the squared lengths given.
 SquaredRange range_along(const Plain& normal, double normal_squared, double uu, double vv, const Plain& x,
                          double xx) {
   const double height = dot(normal, x);
@@ -71,8 +71,8 @@ bool certainly_not_parallel(const Eigen::Vector3d& u, const Eigen::Vector3d& v) 
   return is_in_range(uu) && is_in_range(vv) && is_long(dot(normal, normal), uu, vv);
 }
 
-bool certain_place(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner, Place& place,
-                   SquaredRange& squared) {
+bool certain_voronoi(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner,
+                     VoronoiRegion& region, SquaredRange& squared) {
   const Plain u = difference<double>(corner[1], corner[0]);
   const Plain v = difference<double>(corner[2], corner[0]);
   const Plain from0 = difference<double>(point, corner[0]);
@@ -103,28 +103,28 @@ bool certain_place(const Eigen::Vector3d& point, const std::array<Eigen::Vector3
   const auto linear = [&](double number) { return signs.at_most_zero(number, off2); };
   const auto square = [&](double number) { return signs.at_most_zero(number, off4); };
   if (linear(u0) && linear(v0)) {
-    place = Place::vertex0;
+    region = VoronoiRegion::vertex0;
     squared = range_of_points(square0);
   } else if (linear(-u1) && linear(v1 - u1)) {
-    place = Place::vertex1;
+    region = VoronoiRegion::vertex1;
     squared = range_of_points(square1);
   } else if (linear(-v2) && linear(u2 - v2)) {
-    place = Place::vertex2;
+    region = VoronoiRegion::vertex2;
     squared = range_of_points(square2);
   } else if (square(u0 * v1 - u1 * v0) && linear(-u0) && linear(u1)) {
-    place = Place::edge01;
+    region = VoronoiRegion::edge01;
     squared = range_to_line(u, uu, from0, square0);
   } else if (square(u2 * v0 - u0 * v2) && linear(-v0) && linear(v2)) {
-    place = Place::edge20;
+    region = VoronoiRegion::edge20;
     squared = range_to_line(v, vv, from0, square0);
   } else if (square(u1 * v2 - u2 * v1) && linear(u1 - v1) && linear(v2 - u2)) {
-    place = Place::edge12;
+    region = VoronoiRegion::edge12;
     const Plain w = difference<double>(corner[2], corner[1]);
     const double ww = dot(w, w);
     if (!is_in_range(ww)) return false;
     squared = range_to_line(w, ww, from1, square1);
   } else {
-    place = Place::inside;
+    region = VoronoiRegion::inside;
     squared = range_along(normal, normal_squared, uu, vv, from0, square0);
   }
   return signs.certain();
@@ -148,10 +148,10 @@ Segment segment_of(const std::array<Eigen::Vector3d, 2>& end) {
   return {end, along, dot(along, along)};
 }
 
-/// Whether the closest points are certainly end `place` of a segment and a point inside the other: the foot
-/// of the end is inside, and the way to the segment's other end leads away from it.
-bool is_end_over_inside(const Segment& segment, Along place, const Segment& other, SquaredRange& squared) {
-  const std::size_t end = place == Along::first ? 0 : 1;
+/// Whether the closest points are certainly end `along` of a segment and a point inside the other. The foot
+/// of the end has to be inside, and the way to the segment's other end has to lead away from it.
+bool is_end_over_inside(const Segment& segment, Along along, const Segment& other, SquaredRange& squared) {
+  const std::size_t end = along == Along::first ? 0 : 1;
   const Plain x = difference<double>(segment.end[end], other.end[0]);
   const Plain y = difference<double>(segment.end[end], other.end[1]);
   const double xx = dot(x, x);
@@ -170,9 +170,9 @@ bool is_end_over_inside(const Segment& segment, Along place, const Segment& othe
 }
 
 /// Whether the closest points are certainly these two ends: the ways from each lead away from the other.
-bool are_ends(const Segment& a, Along place_a, const Segment& b, Along place_b, SquaredRange& squared) {
-  const std::size_t end_a = place_a == Along::first ? 0 : 1;
-  const std::size_t end_b = place_b == Along::first ? 0 : 1;
+bool are_ends(const Segment& a, Along along_a, const Segment& b, Along along_b, SquaredRange& squared) {
+  const std::size_t end_a = along_a == Along::first ? 0 : 1;
+  const std::size_t end_b = along_b == Along::first ? 0 : 1;
   const Plain x = difference<double>(a.end[end_a], b.end[end_b]);
   const double xx = dot(x, x);
   if (!is_in_range(xx)) return false;
@@ -184,15 +184,15 @@ bool are_ends(const Segment& a, Along place_a, const Segment& b, Along place_b, 
   return true;
 }
 
-Along place_of(double parameter) {
+Along along_of(double parameter) {
   if (parameter <= 0) return Along::first;
   return parameter >= 1 ? Along::second : Along::inside;
 }
 
 }  // namespace
 
-bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
-                    std::array<Along, 2>& places, SquaredRange& squared) {
+bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
+                   std::array<Along, 2>& along, SquaredRange& squared) {
   const Segment first = segment_of(a);
   const Segment second = segment_of(b);
   const Plain w = difference<double>(b[0], a[0]);
@@ -209,7 +209,7 @@ bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Ei
   const double off_t = 16 * unit * std::sqrt(vv * ww) * uu;
   if (is_long(determinant, uu, vv) && s > off_s && determinant - s > off + off_s && t > off_t &&
       determinant - t > off + off_t && ww >= least_square) {
-    places = {Along::inside, Along::inside};
+    along = {Along::inside, Along::inside};
     squared = range_along(normal, determinant, uu, vv, w, ww);
     return true;
   }
@@ -220,11 +220,11 @@ bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Ei
   double on_a = determinant > 0 ? to_unit_interval(s / determinant) : 0;
   const double on_b = to_unit_interval((uv * on_a - vw) / vv);
   on_a = to_unit_interval((uv * on_b + uw) / uu);
-  places = {place_of(on_a), place_of(on_b)};
-  if (places[0] != Along::inside && places[1] != Along::inside)
-    return are_ends(first, places[0], second, places[1], squared);
-  if (places[0] != Along::inside) return is_end_over_inside(first, places[0], second, squared);
-  if (places[1] != Along::inside) return is_end_over_inside(second, places[1], first, squared);
+  along = {along_of(on_a), along_of(on_b)};
+  if (along[0] != Along::inside && along[1] != Along::inside)
+    return are_ends(first, along[0], second, along[1], squared);
+  if (along[0] != Along::inside) return is_end_over_inside(first, along[0], second, squared);
+  if (along[1] != Along::inside) return is_end_over_inside(second, along[1], first, squared);
   return false;
 }
 

@@ -7,9 +7,9 @@
 
 namespace graze {
 
-// What plain double is certain of about closest points, by error bounds that come from the features' sizes
-// alone (docs/numerics.md). What it is not certain of is asked of Ball and Exact, which would have answered
-// the same; most pairs of features need neither.
+// Decisions about closest points that plain double is certain of, by error bounds that come from the
+// features' sizes alone (docs/numerics.md). Ball and Exact decide the others, and would have decided these in
+// the same way. Most pairs of features need neither.
 
 /// The truth of a squared distance lies between these.
 struct SquaredRange {
@@ -30,20 +30,29 @@ inline SquaredRange squared_range(const Eigen::Vector3d& a, const Eigen::Vector3
 /// Whether two differences of points, rounded, are certainly of directions that are not parallel.
 bool certainly_not_parallel(const Eigen::Vector3d& u, const Eigen::Vector3d& v);
 
-/// Where in a triangle (0, 1, 2) a closest point lies.
-enum class Place : std::uint8_t { vertex0, vertex1, vertex2, edge01, edge12, edge20, inside, no_area };
+/// The Voronoi region of a triangle (0, 1, 2) that a point lies in.
+enum class VoronoiRegion : std::uint8_t {
+  vertex0,
+  vertex1,
+  vertex2,
+  edge01,
+  edge12,
+  edge20,
+  inside,
+  no_area
+};
 
-/// Where the point of the triangle nearest to `point` lies; false where that is not certain.
-bool certain_place(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner, Place& place,
-                   SquaredRange& squared);
+/// Finds the Voronoi region of `point`; false where double is not certain of it.
+bool certain_voronoi(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner,
+                     VoronoiRegion& region, SquaredRange& squared);
 
-/// Where on a segment a closest point lies.
+/// The position of a closest point on a segment.
 enum class Along : std::uint8_t { first, second, inside };
 
-/// Where the closest points of two segments lie, which are then one pair of points and inside neither a
-/// common stretch; false where that is not certain.
-bool certain_places(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
-                    std::array<Along, 2>& places, SquaredRange& squared);
+/// Finds the positions of two segments' closest points; false where double is not certain. They are then one
+/// pair of points, and not inside a common stretch.
+bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
+                   std::array<Along, 2>& along, SquaredRange& squared);
 
 /// Whether a segment passes through the inside of a triangle, from one side of its plane to the other.
 enum class Passing : std::uint8_t { unsure, no, yes };

@@ -176,7 +176,7 @@ double Exact::rough_quotient(const Exact& left, const Exact& right) {
 
 double Exact::quotient(const Exact& left, const Exact& right) {
   const double rough = rough_quotient(left, right);
-  // What the rough quotient leaves over is exact; only this sum rounds.
+  // The remainder of the rough quotient is exact; only this sum rounds.
   return rough + rough_quotient(left - Exact(rough) * right, right);
 }
 

@@ -15,7 +15,7 @@ namespace graze {
 /// arithmetic costs time only.
 ///
 /// The capacity is enough for products of ten coordinate differences, the highest degree that the kernels
-/// compare, of coordinates from the smallest denormal, 2^-1074, to 2^121: (1195 + 4) · 10 bits < 64 · 192.
+/// compare. Coordinates go from the smallest denormal, 2^-1074, to 2^121: (1195 + 4) · 10 bits < 64 · 192.
 /// Numbers in use have a few limbs, and copies take no more than these.
 class Exact {
  public:
@@ -70,7 +70,7 @@ class Exact {
   [[nodiscard]] int top() const { return exponent_ + size_; }
   Limb& limb(int index) { return limbs_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] Limb limb(int index) const { return limbs_[static_cast<std::size_t>(index)]; }
-  /// The limb at a place of the number's own scale; 0 where it has none.
+  /// The limb at an index of the number's own scale; 0 where it has none.
   [[nodiscard]] Limb limb_at(int position) const {
     const int index = position - exponent_;
     return index >= 0 && index < size_ ? limb(index) : 0;
@@ -107,7 +107,7 @@ inline Exact::Exact(double value) {
 }
 
 inline Exact Exact::difference(double to, double from) {
-  // What rounding leaves over (Knuth); finite doubles up to 2^121 do not overflow.
+  // The error of rounding (Knuth); finite doubles up to 2^121 do not overflow.
   const double rounded = to - from;
   const double of_from = rounded - to;
   const double left_over = (to - (rounded - of_from)) - (from + of_from);

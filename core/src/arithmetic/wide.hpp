@@ -82,7 +82,7 @@ inline int sign(const Wide& number, bool& unsure) {
 /// `Exact::quotient(base · denominator + numerator, denominator)`, where the balls leave no doubt of it.
 std::optional<double> rounded_quotient(double base, const Wide& numerator, const Wide& denominator);
 
-/// What `Exact::scaled` says of the true value, where the ball leaves no doubt of it.
+/// Returns `Exact::scaled` of the true value, if the ball leaves no doubt of it.
 std::optional<Exact::Scaled> scaled(const Wide& number);
 
 }  // namespace graze

@@ -17,9 +17,10 @@ struct Block {
 };
 inline constexpr std::size_t lanes = 16;
 
-/// Components of a block: the corners of a feature, its `size`, and its box, grown by `margin * size`. The
-/// size is the largest magnitude of its coordinates, at least `least_size`; infinite where they are not to be
-/// trusted: then all coordinates are 0, the box is everything, and the feature survives whatever is asked.
+/// The components of a block: the corners of a feature, its `size`, and its box, grown by `margin * size`.
+/// The size is the largest magnitude of its coordinates, at least `least_size`. It is infinite where the
+/// coordinates are not to be trusted. Then all coordinates are 0, the box is everything, and the feature
+/// survives every test.
 template <std::size_t Corners>
 inline constexpr std::size_t size_at = 3 * Corners;
 template <std::size_t Corners>
@@ -59,9 +60,9 @@ struct BoxInFrame {
   float min[3], max[3];
 };
 
-/// What is between two planes: `low` and `high` are at most and at least the products of points with the
-/// normal, whose length is at most 1, so that these are no further apart than the points. All is between
-/// planes without a normal.
+/// A slab between two planes. `low` and `high` are at most and at least the products of points with the
+/// normal. The normal's length is at most 1, so that the products are no further apart than the points.
+/// Without a normal the slab holds everything.
 struct SlabInFrame {
   float normal[3];
   float low, high;
@@ -76,8 +77,9 @@ struct ClipBy {
   float limit;
 };
 
-/// What is kept: numbers into the block, ascending, of those that may touch and of the others, with room for
-/// a whole block and `lanes` more each. And the box of all of them, which is extended; or null.
+/// The output of `clip_…`: ascending indices into the block, of features that may touch and of the others.
+/// Each list has room for a whole block and `lanes` more. `box`, if not null, is extended by the features
+/// kept.
 struct Clipped {
   std::uint32_t* touching = nullptr;
   std::uint32_t* others = nullptr;
@@ -89,7 +91,7 @@ struct ClipCount {
   std::size_t others = 0;
 };
 
-/// Two numbers each, with room for as many pairs as were looked at and `lanes` more.
+/// Two numbers for each pair, with room for as many pairs as were tested and `lanes` more.
 struct NearPairs {
   std::uint32_t* row;
   std::uint32_t* column;
@@ -103,8 +105,8 @@ struct RowsOfBoxes {
   std::size_t count;
 };
 
-/// Which pairs a kernel is asked about: those not certainly further than `limit`, and of these the places of
-/// those that are certainly nearer than `below`; not above 0: of none.
+/// Limits of a kernel's question. Pairs certainly further than `limit` are discarded. For pairs certainly
+/// nearer than `below` it finds the Voronoi regions; if `below` is not above 0, for none.
 struct NearLimits {
   float limit;
   float below = 0;
@@ -115,22 +117,22 @@ template <std::size_t CornersA, std::size_t CornersB>
 struct FeaturePairs {
   Point a[lanes][CornersA];
   Point b[lanes][CornersB];
-  // What the kernel fills in.
+  // Filled in by the kernel.
   float bound[lanes];  ///< of the distance, from below; minus infinity where a size is not to be trusted
-  std::int32_t place[lanes];  ///< where the closest points certainly are, or `unsure_place`
+  std::int32_t voronoi[lanes];  ///< where the closest points certainly are, or `unsure_voronoi`
 };
-/// A place is a number of `Place`, or of two segments four times one of `Along` and another; or this.
-inline constexpr std::int32_t unsure_place = -1;
-/// That of a segment through a triangle.
+/// A number of `VoronoiRegion`; for two segments four times one of `Along` plus another; or this.
+inline constexpr std::int32_t unsure_voronoi = -1;
+/// The number for a segment that passes through its triangle.
 inline constexpr std::int32_t passes_through = 0;
 using SegmentPairs = FeaturePairs<2, 2>;
 using PointTrianglePairs = FeaturePairs<1, 3>;
 using SegmentTrianglePairs = FeaturePairs<2, 3>;
 
-/// The kernels of one instruction set. `lay_out_…` fills blocks from vertices and the places of each
-/// feature's corners among them, one feature after the other, and lists these corners as they are; it reads
-/// corners and writes features up to a multiple of 4, of which those behind `count` may be any. `clip_…`
-/// returns how many are left.
+/// The kernels of one instruction set. `lay_out_…` fills blocks from vertices. `corners` has the index of
+/// each feature's corners among the vertices, one feature after the other. The corners are also listed as
+/// they are. It reads corners and writes features up to a multiple of 4, of which those behind `count` may be
+/// any. `clip_…` returns how many are left.
 struct Filter {
   using LayOut = void (*)(const Point* vertices, const std::uint32_t* corners, std::size_t count, float* data,
                           std::size_t stride, Point* points);
@@ -150,16 +152,16 @@ struct Filter {
   std::size_t (*near_boxes)(const RowsOfBoxes& rows, const Block& boxes, float limit, const NearPairs& out);
   /// The points that are not certainly further than `limit`; how many.
   std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
-  /// Bounds all pairs, and gives one bit for each that is not certainly further than the limit; places are
-  /// those of pairs with a bit. Of lanes that hold nothing in particular they say nothing in particular.
+  /// Bounds all pairs, and gives one bit for each that is not certainly further than the limit. Voronoi
+  /// regions are those of pairs with a bit. They mean nothing for lanes that hold no pair.
   std::uint32_t (*bound_segments)(SegmentPairs& pairs, const NearLimits& limits);
   std::uint32_t (*bound_points_and_triangles)(PointTrianglePairs& pairs, const NearLimits& limits);
   /// Bounds how far segments are to one side of their triangles' planes, and gives one bit for each that is
   /// not certainly further than the limit.
   std::uint32_t (*bound_over_planes)(SegmentTrianglePairs& pairs, float limit);
-  /// Gives one bit for each segment that does not certainly pass by its triangle. The bound is 0 or less, and
-  /// the place is `passes_through` where it certainly goes through the triangle's inside from one side to the
-  /// other.
+  /// Gives one bit for each segment that does not certainly pass by its triangle. The bound is 0 or less. The
+  /// Voronoi number is `passes_through` where the segment certainly goes through the triangle's inside from
+  /// one side to the other.
   std::uint32_t (*passing)(SegmentTrianglePairs& pairs);
   /// Lists the boxes, six rows of them, that meet another one, of those in `group_count` groups of sixteen:
   /// the listed ones, or the first ones where `groups` is null. Room for all of them and `lanes` more.

@@ -5,36 +5,36 @@
 
 #include "kernels/filter.hpp"
 #include "kernels/measure.hpp"
-#include "kernels/places.hpp"
 #include "kernels/positions.hpp"
+#include "kernels/voronoi.hpp"
 
 namespace graze {
 namespace kernels {
 
-// Each is defined by filter_<set>.cpp, measure_<set>.cpp and places_<set>.cpp.
+// Each table is defined by filter_<set>.cpp, measure_<set>.cpp and voronoi_<set>.cpp.
 namespace scalar {
 extern const Filter table;
 extern const Measure measure_table;
-extern const Places places_table;
+extern const VoronoiKernels voronoi_table;
 extern const PositionPasses position_passes;
 }  // namespace scalar
 namespace baseline {
 extern const Filter table;
 extern const Measure measure_table;
-extern const Places places_table;
+extern const VoronoiKernels voronoi_table;
 extern const PositionPasses position_passes;
 }  // namespace baseline
 #ifdef GRAZE_X86_KERNELS
 namespace avx2 {
 extern const Filter table;
 extern const Measure measure_table;
-extern const Places places_table;
+extern const VoronoiKernels voronoi_table;
 extern const PositionPasses position_passes;
 }  // namespace avx2
 namespace avx512 {
 extern const Filter table;
 extern const Measure measure_table;
-extern const Places places_table;
+extern const VoronoiKernels voronoi_table;
 extern const PositionPasses position_passes;
 }  // namespace avx512
 #endif
@@ -72,18 +72,18 @@ const Available& available() {
 struct Tables {
   const kernels::Filter& filter;
   const kernels::Measure& measure;
-  const kernels::Places& places;
+  const kernels::VoronoiKernels& voronoi;
   const kernels::PositionPasses& position_passes;
 };
 constexpr Tables scalar_tables{kernels::scalar::table, kernels::scalar::measure_table,
-                               kernels::scalar::places_table, kernels::scalar::position_passes};
+                               kernels::scalar::voronoi_table, kernels::scalar::position_passes};
 constexpr Tables baseline_tables{kernels::baseline::table, kernels::baseline::measure_table,
-                                 kernels::baseline::places_table, kernels::baseline::position_passes};
+                                 kernels::baseline::voronoi_table, kernels::baseline::position_passes};
 #ifdef GRAZE_X86_KERNELS
-constexpr Tables avx2_tables{kernels::avx2::table, kernels::avx2::measure_table, kernels::avx2::places_table,
+constexpr Tables avx2_tables{kernels::avx2::table, kernels::avx2::measure_table, kernels::avx2::voronoi_table,
                              kernels::avx2::position_passes};
 constexpr Tables avx512_tables{kernels::avx512::table, kernels::avx512::measure_table,
-                               kernels::avx512::places_table, kernels::avx512::position_passes};
+                               kernels::avx512::voronoi_table, kernels::avx512::position_passes};
 #endif
 
 const Tables& tables_of(InstructionSet set) {
@@ -109,7 +109,8 @@ InstructionSet best() {
   return available().sets[available().count - 1];
 }
 
-// What runs before these are initialised finds zero, and with it plain code: the same answers.
+// Code that runs before these are initialised finds zero, and with it the plain kernels, which give the same
+// answers.
 std::atomic<InstructionSet> set_in_use{best()};
 std::atomic<const Tables*> tables_in_use{&tables_of(best())};
 
@@ -126,8 +127,8 @@ const kernels::Filter& kernels::filter() {
 const kernels::Measure& kernels::measure() {
   return in_use().measure;
 }
-const kernels::Places& kernels::places() {
-  return in_use().places;
+const kernels::VoronoiKernels& kernels::voronoi() {
+  return in_use().voronoi;
 }
 const kernels::PositionPasses& kernels::position_passes() {
   return in_use().position_passes;

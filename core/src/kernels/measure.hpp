@@ -13,7 +13,7 @@ namespace graze::kernels {
 struct ContactBatch {
   Points low[2];
   Points high[3];
-  // What the kernels fill in.
+  // Filled in by the kernels.
   Points low_point;
   Points high_point;
   Points normal;  ///< from low to high
@@ -23,7 +23,7 @@ struct ContactBatch {
 
 struct NormalBatch {
   Points corner[3];
-  // What the kernel fills in.
+  // Filled in by the kernel.
   Points normal;                ///< the unit normals of the triangles
   double error[contact_lanes];  ///< of them at most; infinite where double is not good enough
 };
@@ -44,7 +44,7 @@ struct Fan {
   RoughNormal* normal;  ///< filled in: the triangles' unit normals, each by its angle at the vertex
 };
 
-/// Those behind the last, up to a multiple of 4, are read, too.
+/// A batch of fans. Kernels read the fans behind the last, up to a multiple of 4, too.
 template <typename Number>
 struct FanBatch {
   Fan<Number> fan[contact_lanes];
@@ -62,10 +62,11 @@ struct VertexBatch {
   double b[vertices_at_once][4];
   const RoughNormal* normal_a[vertices_at_once];
   const RoughNormal* normal_b[vertices_at_once];
-  // What the kernel fills in.
+  // Filled in by the kernel.
   double normal[vertices_at_once][4];  ///< from a to b, and the distance
-  /// 0 where double is not good enough for normal and distance, and these mean nothing; otherwise 1, 4 times
-  /// the side of a's normal and 16 times that of b's: 1 is front, 2 back, 0 not certain.
+  /// 0 where double is not good enough for normal and distance, which then mean nothing. Otherwise 1, plus 4
+  /// times the side of a's normal, plus 16 times that of b's. A side is 1 for front, 2 for back, and 0 where
+  /// it is not certain.
   double found[vertices_at_once];
 };
 

@@ -5,10 +5,11 @@
 
 namespace graze {
 
-/// Points of an array of coordinates, of which one register holds three and the number that follows them.
-/// Behind the last point there is none: a number more in each array made S5's steps, which follow the arrays
-/// from object to object, a quarter slower where two arrays no longer fitted in the place of one. Kernels
-/// load points by a function of their own, since they share none with other translation units.
+/// Points of an array of coordinates, loaded so that one register holds three coordinates and the number that
+/// follows them. Behind the last point there is no such number. To add one to each array made S5's steps,
+/// which follow the arrays from object to object, a quarter slower, where two arrays no longer fitted where
+/// one did. Kernels load points by a function of their own, since they share none with other translation
+/// units.
 template <typename Number>
 class PointRegisters {
  public:

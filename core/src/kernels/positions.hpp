@@ -10,7 +10,7 @@
 /// set, so this header has no inline function that another translation unit might share with them.
 namespace graze::kernels {
 
-/// What a pass over positions found; x, y and z.
+/// The result of a pass over positions; x, y and z.
 template <typename Number>
 struct PositionsSeen {
   Number min[3], max[3];
@@ -19,7 +19,8 @@ struct PositionsSeen {
   bool bad;            ///< some coordinate is beyond the limit or NaN; then the rest means nothing
 };
 
-/// Where `(p - origin) * scale` is what kernels see of p, in double and then rounded; the fourth is nothing.
+/// A frame of points: kernels see p as `(p - origin) * scale`, computed in double and then rounded. The
+/// fourth number is unused.
 struct PointFrame {
   double origin[4];
   double scale;
@@ -36,27 +37,26 @@ struct PassesOf {
   /// Compares points with where they were.
   void (*compare)(const Number* now, const Number* before, std::size_t count, Number limit,
                   PositionsSeen<Number>& seen);
-  /// The same of the points alone, of which nothing has moved.
+  /// As `compare`, for the points alone: it takes them as not moved.
   void (*survey)(const Number* now, std::size_t count, Number limit, PositionsSeen<Number>& seen);
   /// The largest square of a point's motion: differences, squares and sums rounded in double.
   double (*furthest)(const Number* now, const Number* before, std::size_t count);
   /// Listed points in a frame, as `lay_out_…` of Filter reads them.
-  void (*bring)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
-                const PointFrame& frame, Point* brought);
+  void (*to_frame)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
+                   const PointFrame& frame, Point* brought);
   /// The boxes of listed points, one for each eight of them, about `origin`: differences of coordinates,
   /// rounded to Number and then to float, in six rows.
   void (*box_blocks)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
                      const Number* origin, float* boxes, std::size_t stride);
-  /// The same of points as they lie in memory, one for each stretch of them.
+  /// As `box_blocks`, of points as they lie in memory, one box for each stretch of them.
   void (*box_stretches)(const Number* points, std::size_t count, const Number* origin, float* boxes,
                         std::size_t stride);
-  /// Up to eight listed points as a block: eight x, y and z, where no numbers stand in the place of points
-  /// that are not there.
+  /// Up to eight listed points as a block: eight x, eight y, eight z. Missing points are not-a-number.
   void (*lay_out_block)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
                         Number* block);
-  /// Compares the points of one block, of which `count` are there, with those of all listed blocks, and lists
-  /// the pairs whose squared distance, each operation rounded, is at most `reach_squared`, point after point:
-  /// its number, and eight times the place in the list and the number there; how many.
+  /// Compares the first `count` points of one block with those of all listed blocks. Lists the pairs whose
+  /// squared distance, each operation rounded, is at most `reach_squared`, point after point. A pair is the
+  /// point's number, and eight times the index in the list plus the number there. Returns how many there are.
   std::size_t (*near_points)(const Number* block, std::size_t count, const Number* blocks,
                              const std::uint32_t* listed, std::size_t listed_count, Number reach_squared,
                              const NearPairs& out);

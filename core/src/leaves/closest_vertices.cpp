@@ -5,11 +5,11 @@
 namespace graze {
 namespace {
 
-ContactName vertex_pair(std::uint32_t a, std::uint32_t b) {
-  return ContactName::of(vertex_piece(a), vertex_piece(b));
+FeaturePairKey vertex_pair(std::uint32_t a, std::uint32_t b) {
+  return FeaturePairKey::of(vertex_piece(a), vertex_piece(b));
 }
 
-/// What is at most as far as the nearest so far.
+/// A range that holds pairs at most as far as the nearest so far.
 struct AsNear {
   const ClosestSet& closest;
 
@@ -20,8 +20,8 @@ struct AsNear {
 
 }  // namespace
 
-ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
-                             LeafScratch& scratch, Closest& closest) {
+FeaturePairKey closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
+                                LeafScratch& scratch, Closest& closest) {
   closest.clear();
   ClosestSet set(pair, Ties::lowest, closest);
   set.offer(vertex_pair(leaf_a.region.middle, leaf_b.region.middle));

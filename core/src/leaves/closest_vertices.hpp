@@ -1,14 +1,14 @@
 #pragma once
 
-#include "leaves/leaf_names.hpp"
-#include "names/closest_set.hpp"
-#include "names/contact_name.hpp"
+#include "closest_features/closest_set.hpp"
+#include "closest_features/feature_pair_key.hpp"
+#include "leaves/leaf_feature_pairs.hpp"
 
 namespace graze {
 
 /// The closest pair of vertices of two leaves (eq. 5), ties to the lowest a, then b. `closest` is
 /// overwritten.
-ContactName closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
-                             LeafScratch& scratch, Closest& closest);
+FeaturePairKey closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
+                                LeafScratch& scratch, Closest& closest);
 
 }  // namespace graze

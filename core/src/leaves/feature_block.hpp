@@ -16,17 +16,17 @@ template <std::size_t Corners>
 struct FeatureView {
   const kernels::Point* points;
   const std::uint32_t* owners;
-  Part part;
+  FeatureRefKind kind;
 
   [[nodiscard]] const kernels::Point* corners(std::size_t i) const { return points + i * Corners; }
-  [[nodiscard]] PartOf part_of(std::size_t i) const { return {part, owners[i]}; }
+  [[nodiscard]] FeatureRef ref_of(std::size_t i) const { return {kind, owners[i]}; }
 };
 
 /// Features of one kind as the kernels read them, of `Corners` points each.
 template <std::size_t Corners>
 class FeatureBlock {
  public:
-  explicit FeatureBlock(Part part) : part_(part) {}
+  explicit FeatureBlock(FeatureRefKind kind) : kind_(kind) {}
 
   /// Empties it, and makes room for `most` features.
   void begin(std::size_t most) {
@@ -40,8 +40,8 @@ class FeatureBlock {
   void add(std::span<const std::uint32_t> owners) {
     owners_.insert(owners_.end(), owners.begin(), owners.end());
   }
-  /// Lays out all that were added; `corners` are the places among `vertices` of each one's corners, up to a
-  /// multiple of 4 features.
+  /// Lays out all features that were added. `corners` has the index of each feature's corners among
+  /// `vertices`, up to a multiple of 4 features.
   void lay_out(const kernels::Point* vertices, const std::uint32_t* corners) {
     const kernels::Filter& filter = kernels::filter();
     const auto kernel = Corners == 1   ? filter.lay_out_points
@@ -58,7 +58,7 @@ class FeatureBlock {
     make_room(other.points_.size() / Corners);
     graze::reserve_as(owners_, other.owners_);
   }
-  /// What it holds stays.
+  /// Makes room; the block keeps its content.
   void reserve(std::size_t most) {
     make_room(most);
     owners_.reserve(most);
@@ -70,7 +70,7 @@ class FeatureBlock {
   /// The corners of a feature as they came.
   [[nodiscard]] const kernels::Point* corners(std::size_t i) const { return view().corners(i); }
   /// Until something is added or laid out.
-  [[nodiscard]] FeatureView<Corners> view() const { return {points_.data(), owners_.data(), part_}; }
+  [[nodiscard]] FeatureView<Corners> view() const { return {points_.data(), owners_.data(), kind_}; }
   [[nodiscard]] kernels::Block block() const { return {data_.data(), stride_, owners_.size()}; }
   static std::size_t stride_of(std::size_t most) {
     return (most + kernels::lanes - 1) / kernels::lanes * kernels::lanes;
@@ -88,7 +88,7 @@ class FeatureBlock {
   std::size_t stride_ = 0;
   std::vector<kernels::Point> points_;
   std::vector<std::uint32_t> owners_;
-  Part part_;
+  FeatureRefKind kind_;
 };
 
 using PointBlock = FeatureBlock<1>;
@@ -97,10 +97,10 @@ using TriangleBlock = FeatureBlock<3>;
 
 /// Some features of a block, those first that may touch.
 template <std::size_t Corners>
-class TakenFeatures {
+class SelectedFeatures {
  public:
   /// Takes those that `by` keeps, and extends `found`, where there is one, by their box. The block stays.
-  void take(const FeatureBlock<Corners>& all, const kernels::ClipBy& by, kernels::BoxInFrame* found) {
+  void select_near(const FeatureBlock<Corners>& all, const kernels::ClipBy& by, kernels::BoxInFrame* found) {
     all_ = &all;
     count_ = touching_ = 0;
     if (all.count() == 0) return;

@@ -12,11 +12,11 @@
 
 namespace graze {
 
-/// The coordinates that the float kernels see: about a corner of the smaller of two leaves and scaled by a
-/// power of two to its size, so that neither where a scene is nor how large it is makes a difference.
+/// The coordinates that the float kernels see. They are relative to a corner of the smaller of two leaves and
+/// scaled by a power of two to its size. So neither the position nor the size of a scene makes a difference.
 class FilterFrame {
  public:
-  /// That of nothing.
+  /// The frame of nothing.
   FilterFrame() = default;
   FilterFrame(const Box& a, const Box& b) {
     const Eigen::Vector3d extent_a = a.max - a.min;
@@ -44,12 +44,12 @@ class FilterFrame {
   [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
     return (point - origin_) * scale_;
   }
-  /// The same for what brings many points.
+  /// The frame as the passes over many points take it.
   [[nodiscard]] kernels::PointFrame for_points() const {
     return {{origin_.x(), origin_.y(), origin_.z(), 0}, scale_};
   }
-  /// A box as the kernels see it, no smaller for rounding; and none where it is far larger than they can see,
-  /// but within `largest_size`, where all features are that they trust.
+  /// A box as the kernels see it, no smaller for rounding. A box far larger than they can see becomes one
+  /// within `largest_size`, where all features are that they trust.
   [[nodiscard]] kernels::BoxInFrame to_local(const Box& box) const {
     return rounded(to_local(box.min), to_local(box.max));
   }
@@ -57,8 +57,7 @@ class FilterFrame {
   [[nodiscard]] float size_of(const Box& box) const {
     return static_cast<float>(clamped_size(to_local(box.min), to_local(box.max)));
   }
-  /// That part of a box where something can be that is no further than a distance from what is in another;
-  /// perhaps empty.
+  /// The part of a box that can be within a distance of another box; perhaps empty.
   [[nodiscard]] kernels::BoxInFrame to_local_beside(const Box& box, const Box& other, double distance) const {
     const Eigen::Array3d reach = Eigen::Array3d::Constant(distance * scale_);
     return rounded(to_local(box.min).array().max(to_local(other.min).array() - reach),
@@ -89,7 +88,7 @@ class FilterFrame {
                ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
                : rounded;
   }
-  /// The same rounded down.
+  /// Converts a distance to the frame, rounded down.
   [[nodiscard]] float to_local_below(double distance) const {
     return static_cast<float>(std::min(distance * scale_, 0x1p100) * (1 - 0x1p-23));
   }
@@ -120,7 +119,7 @@ inline kernels::BoxInFrame empty_box() {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 }
-/// A box and what is no further from it along an axis than a distance.
+/// A box grown by a distance along each axis.
 inline kernels::BoxInFrame grown(const kernels::BoxInFrame& box, float by) {
   kernels::BoxInFrame grown{};
   for (int axis = 0; axis < 3; ++axis) {

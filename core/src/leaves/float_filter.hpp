@@ -21,7 +21,7 @@
 namespace graze {
 
 /// The box of the corners of a feature.
-Box box_of(const Surface& surface, Part part, std::uint32_t index);
+Box box_of(const Surface& surface, FeatureRefKind kind, std::uint32_t index);
 
 /// Two numbers of each pair of features that a kernel has left, with room for so many pairs or those of one
 /// row.
@@ -46,9 +46,9 @@ struct FloatFilterScratch {
     if (bound.size() < columns_in_row) bound.resize(columns_in_row);
     return {column.data(), bound.data()};
   }
-  /// So many components of all that was taken of a block, from `first` on.
+  /// Gathers so many components, from `first` on, of the features selected from a block.
   template <std::size_t Corners>
-  kernels::Block gather(const TakenFeatures<Corners>& taken, std::size_t first, std::size_t components) {
+  kernels::Block gather(const SelectedFeatures<Corners>& taken, std::size_t first, std::size_t components) {
     const std::size_t stride = FeatureBlock<Corners>::stride_of(taken.count());
     if (columns.size() < components * stride) columns.resize(components * stride);
     const kernels::Block all = taken.all().block();
@@ -69,10 +69,10 @@ struct FloatFilterScratch {
   }
 };
 
-/// What float knows of a pair of features that it has left.
+/// The knowledge of float about a pair of features that it has not discarded.
 struct KnownInFloat {
-  bool is_bounded = false;  ///< that it may be near; otherwise it has not been looked at
-  std::int32_t place = kernels::unsure_place;
+  bool is_bounded = false;  ///< that it may be near; otherwise it has not been tested
+  std::int32_t voronoi = kernels::unsure_voronoi;
 };
 
 /// Pairs of features whose distance float is to bound from below, which is done several at once.
@@ -98,25 +98,25 @@ class FloatBatch {
     }
   }
   /// Adds a pair of features by their corners; whether it is full then.
-  bool add(const PartOf& a, const std::array<kernels::Point, CornersA>& corners_a, const PartOf& b,
+  bool add(const FeatureRef& a, const std::array<kernels::Point, CornersA>& corners_a, const FeatureRef& b,
            const std::array<kernels::Point, CornersB>& corners_b) {
     std::copy(corners_a.begin(), corners_a.end(), pairs_.a[count_]);
     std::copy(corners_b.begin(), corners_b.end(), pairs_.b[count_]);
-    parts_[count_] = {a, b};
+    refs_[count_] = {a, b};
     return ++count_ == kernels::lanes;
   }
-  /// Calls `visit(part of a, part of b)` for each pair that `ask(pairs)`, a kernel, has left.
+  /// Calls `visit(feature of a, feature of b)` for each pair that `ask(pairs)`, a kernel, has left.
   template <typename Ask, typename Visit>
   void ask(const Ask& ask, const Visit& visit) {
     if (count_ == 0) return;
     for (std::uint32_t left = ask(pairs_) & ((1U << count_) - 1); left != 0; left &= left - 1) {
-      const auto& [a, b] = parts_[static_cast<std::size_t>(std::countr_zero(left))];
+      const auto& [a, b] = refs_[static_cast<std::size_t>(std::countr_zero(left))];
       visit(a, b);
     }
   }
-  /// Empties it: `visit(part of a, part of b, what is known)` for each pair that `ask(pairs)`, a kernel, has
-  /// left, but once for what comes again right away, as a quad's second triangle does. Returns how many were
-  /// discarded.
+  /// Empties the batch. Calls `visit(feature of a, feature of b, what is known)` for each pair that
+  /// `ask(pairs)`, a kernel, has left. A pair that comes again right away, as a quad's second triangle does,
+  /// is visited once. Returns how many were discarded.
   template <typename Ask, typename Visit>
   std::size_t empty(const Ask& ask, const Visit& visit) {
     const std::size_t count = std::exchange(count_, 0);
@@ -125,9 +125,10 @@ class FloatBatch {
     const std::size_t discarded = count - static_cast<std::size_t>(std::popcount(left));
     for (std::size_t last = kernels::lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      if (last == kernels::lanes || parts_[lane] != parts_[last])
-        visit(parts_[lane].first, parts_[lane].second,
-              KnownInFloat{pairs_.bound[lane] > -std::numeric_limits<float>::infinity(), pairs_.place[lane]});
+      if (last == kernels::lanes || refs_[lane] != refs_[last])
+        visit(
+            refs_[lane].first, refs_[lane].second,
+            KnownInFloat{pairs_.bound[lane] > -std::numeric_limits<float>::infinity(), pairs_.voronoi[lane]});
       last = lane;
     }
     return discarded;
@@ -138,11 +139,11 @@ class FloatBatch {
            std::size_t j) {
     std::memcpy(pairs_.a[lane], a.corners(i), sizeof pairs_.a[lane]);
     std::memcpy(pairs_.b[lane], b.corners(j), sizeof pairs_.b[lane]);
-    parts_[lane] = {a.part_of(i), b.part_of(j)};
+    refs_[lane] = {a.ref_of(i), b.ref_of(j)};
   }
 
   kernels::FeaturePairs<CornersA, CornersB> pairs_{};
-  std::array<std::pair<PartOf, PartOf>, kernels::lanes> parts_;
+  std::array<std::pair<FeatureRef, FeatureRef>, kernels::lanes> refs_;
   std::size_t count_ = 0;
 };
 

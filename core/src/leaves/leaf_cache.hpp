@@ -8,10 +8,10 @@
 
 namespace graze {
 
-/// The features of the leaves that a query looked into last. A leaf is met beside several others.
+/// The features of the leaves that a query tested last. A leaf is met beside several others.
 class LeafCache {
  public:
-  /// What follows is about this surface where it is now, in this frame.
+  /// Begins with this surface where it is now, in this frame.
   void begin(const Surface& surface, const FilterFrame& frame, bool vertices_only) {
     const bool same = surface_ == surface.serial() && version_ == surface.version() && frame_ == frame &&
                       vertices_only_ == vertices_only;
@@ -45,7 +45,8 @@ class LeafCache {
   void reserve_as(const LeafCache& other) {
     if (!other.slots_.empty()) reserve(other.room_);
   }
-  /// In every place for the largest leaf so far: which leaf goes where is a matter of chance.
+  /// Every slot has room for the largest leaf so far, since which leaf goes into which slot is a matter of
+  /// chance.
   void reserve(const PairRoom& room) {
     const auto make = [](std::size_t& have, std::size_t count) {
       have = std::max(have, std::min(count, most_everywhere));
@@ -80,9 +81,9 @@ class LeafCache {
     reserve(room);
   }
 
-  /// A leaf of more features of a kind, as coincident vertices make, takes room in its own place alone.
+  /// A leaf of more features of a kind, as coincident vertices make, takes more room in its own slot alone.
   static constexpr std::size_t most_everywhere = 512;
-  /// A leaf has one place only. Leaves beside each other have numbers beside each other.
+  /// A leaf has one slot only. Leaves beside each other have numbers beside each other.
   static constexpr std::size_t slot_count = 64;
   struct Slot {
     const Region* leaf = nullptr;

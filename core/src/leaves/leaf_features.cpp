@@ -1,23 +1,23 @@
 #include "leaves/leaf_features.hpp"
 
-#include "names/naming.hpp"
+#include "closest_features/closest_features.hpp"
 
 namespace graze {
 
-Box box_of(const Surface& surface, Part part, std::uint32_t index) {
+Box box_of(const Surface& surface, FeatureRefKind kind, std::uint32_t index) {
   const IndexedMesh& mesh = surface.mesh();
   Box box;
-  switch (part) {
-    case Part::vertex:
+  switch (kind) {
+    case FeatureRefKind::vertex:
       box.add(surface.position(index));
       break;
-    case Part::edge:
+    case FeatureRefKind::edge:
       for (const std::uint32_t end : mesh.edge(index)) box.add(surface.position(end));
       break;
-    case Part::face:
+    case FeatureRefKind::face:
       for (const std::uint32_t corner : mesh.face(index)) box.add(surface.position(corner));
       break;
-    case Part::fold:
+    case FeatureRefKind::fold:
       for (const std::size_t corner : {0U, 2U}) box.add(surface.position(mesh.face(index)[corner]));
       break;
   }
@@ -26,13 +26,13 @@ Box box_of(const Surface& surface, Part part, std::uint32_t index) {
 
 void LeafFeatures::collect_vertices(const Surface& surface, const Region& leaf, const FilterFrame& frame,
                                     LeafVertices& corners) {
-  corners.take_own(surface, leaf, frame);
+  corners.load_own(surface, leaf, frame);
   lay_out_vertices(surface, leaf, corners);
 }
 
 void LeafFeatures::collect(const Surface& surface, const Region& leaf, const FilterFrame& frame,
                            LeafVertices& corners) {
-  corners.take(surface, leaf, frame);
+  corners.load(surface, leaf, frame);
   lay_out_vertices(surface, leaf, corners);
   lay_out_edges(surface, leaf, corners);
   lay_out_faces(surface, leaf, corners);
@@ -42,7 +42,8 @@ void LeafFeatures::lay_out_vertices(const Surface& surface, const Region& leaf, 
   vertices.begin(leaf.vertex_count);
   vertices.add(surface.mesh().regions().vertices(leaf));
   from.corners.begin(leaf.vertex_count);
-  for (std::uint32_t place = 0; place < leaf.vertex_count; ++place) from.corners.add(place);
+  for (std::uint32_t vertex_index = 0; vertex_index < leaf.vertex_count; ++vertex_index)
+    from.corners.add(vertex_index);
   vertices.lay_out(from.data(), from.corners.padded());
 }
 
@@ -83,16 +84,17 @@ void LeafFeatures::lay_out_folds(const IndexedMesh& mesh, const Region& leaf, Le
   folds.lay_out(from.data(), from.corners.padded());
 }
 
-void TakenLeaf::take_vertices(const LeafFeatures& all, const kernels::ClipBy& by,
-                              kernels::BoxInFrame* found) {
-  vertices.take(all.vertices, by, found);
+void SelectedLeaf::select_near_vertices(const LeafFeatures& all, const kernels::ClipBy& by,
+                                        kernels::BoxInFrame* found) {
+  vertices.select_near(all.vertices, by, found);
 }
 
-void TakenLeaf::take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found) {
-  vertices.take(all.vertices, by, found);
-  edges.take(all.edges, by, found);
-  triangles.take(all.triangles, by, found);
-  folds.take(all.folds, by, found);
+void SelectedLeaf::select_near(const LeafFeatures& all, const kernels::ClipBy& by,
+                               kernels::BoxInFrame* found) {
+  vertices.select_near(all.vertices, by, found);
+  edges.select_near(all.edges, by, found);
+  triangles.select_near(all.triangles, by, found);
+  folds.select_near(all.folds, by, found);
 }
 
 bool FoldAnswers::is_fold(const Surface& surface, std::uint32_t face, DecisionCount& count) {

@@ -31,10 +31,10 @@ void reserve_features(Features& features, const PairRoom& room) {
 /// Features that a leaf owns, in a frame.
 class LeafFeatures {
  public:
-  PointBlock vertices{Part::vertex};
-  SegmentBlock edges{Part::edge};
-  TriangleBlock triangles{Part::face};  ///< a quad's two one after the other
-  SegmentBlock folds{Part::fold};       ///< diagonals of quads that no edge joins, by the quad's number
+  PointBlock vertices{FeatureRefKind::vertex};
+  SegmentBlock edges{FeatureRefKind::edge};
+  TriangleBlock triangles{FeatureRefKind::face};  ///< a quad's two one after the other
+  SegmentBlock folds{FeatureRefKind::fold};  ///< diagonals of quads that no edge joins, by the quad's number
 
   /// All features of a leaf, laid out. `corners` is working memory.
   void collect(const Surface& surface, const Region& leaf, const FilterFrame& frame, LeafVertices& corners);
@@ -59,18 +59,18 @@ class LeafFeatures {
   void lay_out_folds(const IndexedMesh& mesh, const Region& leaf, LeafVertices& from);
 };
 
-/// Those features of a leaf that are near another.
-class TakenLeaf {
+/// The features of a leaf that are near the other leaf.
+class SelectedLeaf {
  public:
-  TakenFeatures<1> vertices;
-  TakenFeatures<2> edges;
-  TakenFeatures<3> triangles;
-  TakenFeatures<2> folds;
+  SelectedFeatures<1> vertices;
+  SelectedFeatures<2> edges;
+  SelectedFeatures<3> triangles;
+  SelectedFeatures<2> folds;
 
   /// Takes those that `by` keeps, and extends `found`, where there is one, by their box. What they are taken
   /// from stays.
-  void take(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
-  void take_vertices(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
+  void select_near(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
+  void select_near_vertices(const LeafFeatures& all, const kernels::ClipBy& by, kernels::BoxInFrame* found);
 
   [[nodiscard]] std::size_t count() const {
     return vertices.count() + edges.count() + triangles.count() + folds.count();

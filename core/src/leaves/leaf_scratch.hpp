@@ -3,47 +3,47 @@
 #include <array>
 #include <cstdint>
 
+#include "closest_features/feature_pair_key.hpp"
+#include "leaves/closest_features_batch.hpp"
 #include "leaves/float_filter.hpp"
 #include "leaves/leaf_cache.hpp"
 #include "leaves/leaf_features.hpp"
 #include "leaves/listed_vertices.hpp"
-#include "leaves/naming_batch.hpp"
-#include "names/contact_name.hpp"
 #include "surface/leaf_slab.hpp"
-#include "surface/made_of_leaves.hpp"
+#include "surface/per_leaf_cache.hpp"
 
 namespace graze {
 
-/// Where in a list some of its names are: most that were added a moment ago need not be added again, so that
-/// what is left to sort is a fraction, since a contact is found from each of the features about it. Any place
-/// will do to look at, whatever was there before.
-class RecentNames {
+/// Indices of recent keys in a list. Most keys that were added a moment ago need not be added again, since a
+/// contact is found from each of the features about it. That leaves a fraction to sort. Any index is safe to
+/// test, whatever was there before.
+class RecentKeys {
  public:
-  [[nodiscard]] std::uint32_t& place(const ContactName& name) { return places_[name.hash() >> 52U]; }
+  [[nodiscard]] std::uint32_t& slot(const FeaturePairKey& key) { return slots_[key.hash() >> 52U]; }
 
  private:
-  std::array<std::uint32_t, 4096> places_{};
+  std::array<std::uint32_t, 4096> slots_{};
 };
 
-/// What is known of the leaves of a pair of surfaces, and those of two leaves' features that are near.
+/// Working memory for the leaves of a pair of surfaces, and for those features of two leaves that are near.
 struct LeafScratch {
   LeafCache all_a;
   LeafCache all_b;
-  MadeOfLeaves<LeafSlab> slabs_a;
-  MadeOfLeaves<LeafSlab> slabs_b;
+  PerLeafCache<LeafSlab> slabs_a;
+  PerLeafCache<LeafSlab> slabs_b;
   LeafVertices corners;
   VerticesInFrame listed_a;
   VerticesInFrame listed_b;
-  TakenLeaf a;
-  TakenLeaf b;
+  SelectedLeaf a;
+  SelectedLeaf b;
   FoldAnswers folds;
   FloatBatches filter;
-  NamingBatch naming;
-  RecentNames recent_names;
+  ClosestFeaturesBatch naming;
+  RecentKeys recent_keys;
   FilterFrame frame;
 
-  /// Before the first pair of leaves of a query or slice: nothing is left of another, and the frame is that
-  /// of this pair, or of the first that is met.
+  /// Call it before the first pair of leaves of a query or slice. It forgets the query before. The frame is
+  /// that of this pair, or of the first that is met.
   void begin() {
     frame = {};
     folds.begin();
@@ -52,14 +52,15 @@ struct LeafScratch {
   }
   void begin(const FilterFrame& first) { frame = first; }
 
-  /// Takes what is near of two leaves; false where there is nothing of either.
+  /// Selects the features of two leaves that are near each other; false where either has none.
   template <typename Range>
-  bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
-    return take(pair, leaf_a, leaf_b, range, range.touching(), false, &TakenLeaf::take);
+  bool select_near(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
+    return select_near(pair, leaf_a, leaf_b, range, range.touching(), false, &SelectedLeaf::select_near);
   }
   template <typename Range>
-  bool take_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
-    return take(pair, leaf_a, leaf_b, range, 0, true, &TakenLeaf::take_vertices);
+  bool select_near_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
+                            Range& range) {
+    return select_near(pair, leaf_a, leaf_b, range, 0, true, &SelectedLeaf::select_near_vertices);
   }
 
   template <typename Self>
@@ -69,15 +70,15 @@ struct LeafScratch {
   }
 
  private:
-  static const LeafSlab& slab_now(MadeOfLeaves<LeafSlab>& slabs, const Surface& surface, const Region& leaf) {
+  static const LeafSlab& slab_now(PerLeafCache<LeafSlab>& slabs, const Surface& surface, const Region& leaf) {
     slabs.begin(surface);
     const std::size_t number = surface.mesh().regions().number(leaf);
     return slabs.of(number, [&] { return slab_of(surface, leaf); });
   }
 
   template <typename Range, typename Take>
-  bool take(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
-            double touching_within, bool vertices_only, const Take& take_near) {
+  bool select_near(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
+                   double touching_within, bool vertices_only, const Take& select) {
     const double limit = range.limit();
     const auto nothing_near = [&] {
       range.left_out(limit);
@@ -94,8 +95,8 @@ struct LeafScratch {
       if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
     }
     if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
-    // What of b is near where a can be near b's leaf, and what of a is near that. Two features can only touch
-    // where both sides' boxes are.
+    // Selects from b what is near where a can be near b's leaf, and from a what is near that. Two features
+    // can only touch where both sides' boxes are.
     const kernels::BoxInFrame near_a = frame.to_local_beside(leaf_a.box, leaf_b.box, limit);
     if (is_empty(near_a)) return nothing_near();
     all_a.begin(pair.a, frame, vertices_only);
@@ -104,12 +105,12 @@ struct LeafScratch {
     const float local_limit = frame.to_local_limit(limit);
     const float touching = frame.to_local_limit(touching_within);
     kernels::BoxInFrame near_b = empty_box();
-    (b.*take_near)(of_b, {near_a, grown(near_a, touching), frame.to_local(slab_a, middle_a), local_limit},
-                   &near_b);
+    (b.*select)(of_b, {near_a, grown(near_a, touching), frame.to_local(slab_a, middle_a), local_limit},
+                &near_b);
     if (is_empty(near_b)) return nothing_near();
     const LeafFeatures& of_a = all_a.of(pair.a, leaf_a.region, corners);
-    (a.*take_near)(of_a, {near_b, grown(near_b, touching), frame.to_local(slab_b, middle_b), local_limit},
-                   nullptr);
+    (a.*select)(of_a, {near_b, grown(near_b, touching), frame.to_local(slab_b, middle_b), local_limit},
+                nullptr);
     const auto of_all = [&](const auto& features) {
       return vertices_only ? features.vertices.count() : features.count();
     };

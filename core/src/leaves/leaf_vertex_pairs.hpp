@@ -6,12 +6,12 @@
 
 namespace graze {
 
-/// Calls `visit(vertex of a, vertex of b)` for all pairs of the leaves' vertices but what is certainly too
-/// far for `range`, of which it asks and which it tells what LeafNames does.
+/// Calls `visit(vertex of a, vertex of b)` for the pairs of the leaves' vertices, without those certainly too
+/// far for `range`. LeafFeaturePairs says what a range is asked and told.
 template <typename Range, typename Visit>
 void for_each_vertex_pair(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
                           LeafScratch& scratch, Range& range, const Visit& visit) {
-  if (!scratch.take_vertices(pair, leaf_a, leaf_b, range)) return;
+  if (!scratch.select_near_vertices(pair, leaf_a, leaf_b, range)) return;
   const PointBlock& a = scratch.a.vertices.all();
   const PointBlock& b = scratch.b.vertices.all();
   FloatFilterScratch& lists = scratch.filter.lists;
@@ -33,8 +33,8 @@ void for_each_vertex_pair(const SurfacePair& pair, const LeafOf& leaf_a, const L
       const double now = range.limit();
       const float bound = survivors.bound[k];
       if (bound == -std::numeric_limits<float>::infinity()) {
-        if (!range.keep(lower_distance(box_of(pair.a, Part::vertex, a.owner(i)),
-                                       box_of(pair.b, Part::vertex, b.owner(j)))))
+        if (!range.keep(lower_distance(box_of(pair.a, FeatureRefKind::vertex, a.owner(i)),
+                                       box_of(pair.b, FeatureRefKind::vertex, b.owner(j)))))
           continue;
       } else if (now < limit && bound >= scratch.frame.to_local_limit(now)) {
         range.left_out(now);

@@ -5,13 +5,13 @@
 
 namespace graze {
 
-void LeafVertices::take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
+void LeafVertices::load_own(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
   local_.clear();
   add(surface, surface.mesh().regions().vertices(leaf), frame);
 }
 
-void LeafVertices::take(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
-  take_own(surface, leaf, frame);
+void LeafVertices::load(const Surface& surface, const Region& leaf, const FilterFrame& frame) {
+  load_own(surface, leaf, frame);
   add(surface, surface.mesh().regions().border(leaf), frame);
 }
 
@@ -19,7 +19,7 @@ void LeafVertices::add(const Surface& surface, std::span<const std::uint32_t> ve
                        const FilterFrame& frame) {
   const std::size_t first = local_.size();
   local_.resize(first + vertices.size());
-  bring(surface, vertices, frame, local_.data() + first);
+  to_frame(surface, vertices, frame, local_.data() + first);
 }
 
 void LeafVertices::reserve(const PairRoom& room) {

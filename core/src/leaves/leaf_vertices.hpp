@@ -14,41 +14,43 @@
 
 namespace graze {
 
-/// Where the corners of features are among vertices, one feature after the other.
+/// The corners of features as indices of vertices, one feature after the other.
 class CornerList {
  public:
   void begin(std::size_t most) {
     count_ = 0;
-    if (places_.size() < most + padding) places_.resize(most + padding);
+    if (local_indices_.size() < most + padding) local_indices_.resize(most + padding);
   }
-  void add(std::uint32_t place) { places_[count_++] = place; }
-  /// Goes on for the features that the kernels look at beyond the last.
+  void add(std::uint32_t local_index) { local_indices_[count_++] = local_index; }
+  /// Returns the list, padded for the features that the kernels read behind the last.
   [[nodiscard]] const std::uint32_t* padded() {
-    std::fill_n(places_.begin() + static_cast<std::ptrdiff_t>(count_), padding, 0U);
-    return places_.data();
+    std::fill_n(local_indices_.begin() + static_cast<std::ptrdiff_t>(count_), padding, 0U);
+    return local_indices_.data();
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.places_);
+    return std::tie(self.local_indices_);
   }
-  void reserve_as(const CornerList& other) { begin(std::max(other.places_.size(), padding) - padding); }
+  void reserve_as(const CornerList& other) {
+    begin(std::max(other.local_indices_.size(), padding) - padding);
+  }
   void reserve(std::size_t most) { begin(most); }
 
  private:
   static constexpr std::size_t padding = 9;  ///< three triangles
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> local_indices_;
   std::size_t count_ = 0;
 };
 
-/// The corners of a leaf's features, each brought into the frame once, however many features it is part of:
-/// as RegionTree lists them.
+/// The corners of a leaf's features, each converted to the frame once, however many features share it. Their
+/// order is that of RegionTree.
 class LeafVertices {
  public:
   /// Takes up those of a leaf, its own vertices first.
-  void take(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  void load(const Surface& surface, const Region& leaf, const FilterFrame& frame);
   /// Its own vertices alone.
-  void take_own(const Surface& surface, const Region& leaf, const FilterFrame& frame);
+  void load_own(const Surface& surface, const Region& leaf, const FilterFrame& frame);
 
   [[nodiscard]] const kernels::Point* data() const { return local_.data(); }
 

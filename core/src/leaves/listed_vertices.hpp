@@ -15,10 +15,10 @@ namespace graze {
 
 /// Listed vertices of a surface in a frame. Of those too large for the kernels the coordinates are left out,
 /// and the size says so.
-void bring(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
-           kernels::Point* brought);
+void to_frame(const Surface& surface, std::span<const std::uint32_t> vertices, const FilterFrame& frame,
+              kernels::Point* brought);
 
-/// Vertices of a surface in a frame, each brought when it is asked for.
+/// Vertices of a surface in a frame, each converted when it is asked for.
 class VerticesInFrame {
  public:
   void begin(const Surface& surface, const FilterFrame& frame) {
@@ -32,7 +32,7 @@ class VerticesInFrame {
   }
   const kernels::Point& operator[](std::uint32_t vertex) {
     if (std::exchange(brought_[vertex], now_) != now_)
-      bring(*surface_, std::span(&vertex, 1), frame_, &points_[vertex]);
+      to_frame(*surface_, std::span(&vertex, 1), frame_, &points_[vertex]);
     return points_[vertex];
   }
 

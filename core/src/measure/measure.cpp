@@ -7,15 +7,15 @@
 
 #include "arithmetic/direction.hpp"
 #include "arithmetic/wide.hpp"
+#include "closest_features/piercing.hpp"
+#include "closest_features/ratio.hpp"
 #include "measure/normals.hpp"
-#include "names/piercing.hpp"
-#include "names/ratio.hpp"
 
 namespace graze {
 namespace {
 
-/// The closest points of two hulls, `low` with at most as many points as `high`: how far each is from its
-/// simplex's first point, and the gap from low to high, all times `denominator`.
+/// The closest points of two hulls, `low` with at most as many points as `high`. It holds how far each is
+/// from its simplex's first point, and the gap from low to high, all times `denominator`.
 template <typename Number>
 struct ClosestPoints {
   Vector<Number> low_offset;
@@ -126,15 +126,17 @@ class PointRounder {
   double error_;
 };
 
-/// Of distances and points, by the size of the features and their gap: what the contract allows distances.
-/// Stricter bounds send many more contacts of well-shaped meshes to exact arithmetic (docs/tried.md).
+/// The error allowed for distances and points, relative to the size of the features and their gap: the
+/// contract's bound for distances. Stricter bounds send many more contacts of well-shaped meshes to exact
+/// arithmetic (docs/tried.md).
 constexpr double allowed_error = 0x1p-48;
 
 template <typename Number>
 using Fraction = std::pair<Vector<Number>, Number>;
 
 /// The distance of the hulls, of which this is the square, within the allowed error or exactly rounded.
-double distance_of(const SurfacePair& pair, const ContactName& name, const Ratio<Ball>& square, double size) {
+double distance_of(const SurfacePair& pair, const FeaturePairKey& key, const Ratio<Ball>& square,
+                   double size) {
   const double bottom = square.denominator.value - square.denominator.radius * Ball::slack;
   if (bottom > 0x1p-900 && std::isfinite(square.numerator.value) && std::isfinite(square.denominator.value)) {
     const double low = std::sqrt(std::max(0.0, square.numerator.value - square.numerator.radius) /
@@ -144,47 +146,47 @@ double distance_of(const SurfacePair& pair, const ContactName& name, const Ratio
     if (square.numerator.value > 0x1p-900 && (high - low) * Ball::slack <= size * allowed_error)
       return middle;
   }
-  return rounded_distance(pair, name).upper;
+  return rounded_distance(pair, key).upper;
 }
 
 /// Fills in distance and normal of a contact whose points are known.
-void complete(const SurfacePair& pair, const ContactName& name, const Hulls& hulls, ClosestOf& closest,
+void complete(const SurfacePair& pair, const FeaturePairKey& key, const Hulls& hulls, ClosestOf& closest,
               Contact& contact) {
   const Ratio<Ball> square = hull_distance_squared<Ball>(hulls.a, hulls.b);
   bool unsure = false;
   const bool may_touch = sign(square.numerator, unsure) <= 0;
   if (may_touch && do_touch(hulls, pair.count)) {
     contact.distance = 0;
-    contact.normal = touching_normal(pair.a, name.a(), pair.b, name.b(), pair.count);
+    contact.normal = touching_normal(pair.a, key.a(), pair.b, key.b(), pair.count);
     return;
   }
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   contact.distance =
-      distance_of(pair, name, square, extent(a_is_low ? hulls.a : hulls.b, a_is_low ? hulls.b : hulls.a));
+      distance_of(pair, key, square, extent(a_is_low ? hulls.a : hulls.b, a_is_low ? hulls.b : hulls.a));
   const auto normal = unit_direction(pair.count, [&]<typename Number>() { return closest.in<Number>().gap; });
   contact.normal = a_is_low ? *normal : Eigen::Vector3d(-*normal);
 }
 
-void add_sides(const SurfacePair& pair, const ContactName& name, Contact& contact) {
+void add_sides(const SurfacePair& pair, const FeaturePairKey& key, Contact& contact) {
   if (contact.distance == 0) return;
-  contact.side_a = side_of(pair.a, name.a(), contact.normal, pair.count);
-  contact.side_b = side_of(pair.b, name.b(), -contact.normal, pair.count);
+  contact.side_a = side_of(pair.a, key.a(), contact.normal, pair.count);
+  contact.side_b = side_of(pair.b, key.b(), -contact.normal, pair.count);
 }
 
-Contact named(const ContactName& name) {
+Contact named(const FeaturePairKey& key) {
   Contact contact;
-  contact.kind = name.kind();
-  contact.feature_a = name.a().feature;
-  contact.feature_b = name.b().feature;
+  contact.kind = key.kind();
+  contact.feature_a = key.a().feature;
+  contact.feature_b = key.b().feature;
   return contact;
 }
 
-Contact measure_piercing(const SurfacePair& pair, const ContactName& name) {
-  const Hulls hulls = hulls_of(pair, name);
+Contact measure_piercing(const SurfacePair& pair, const FeaturePairKey& key) {
+  const Hulls hulls = hulls_of(pair, key);
   const bool a_is_segment = hulls.a.size < hulls.b.size;
   const Simplex& segment = a_is_segment ? hulls.a : hulls.b;
   const Simplex& triangle = a_is_segment ? hulls.b : hulls.a;
-  Contact contact = named(name);
+  Contact contact = named(key);
   contact.point_a =
       PointRounder(pair.count, extent(segment, triangle) * allowed_error)
           .round(segment.point[0], [&]<typename Number>() -> Fraction<Number> {
@@ -193,21 +195,21 @@ Contact measure_piercing(const SurfacePair& pair, const ContactName& name) {
             return {difference<Number>(segment.point[1], segment.point[0]) * way.numerator, way.denominator};
           });
   contact.point_b = contact.point_a;
-  contact.normal = touching_normal(pair.a, name.a(), pair.b, name.b(), pair.count);
+  contact.normal = touching_normal(pair.a, key.a(), pair.b, key.b(), pair.count);
   return contact;
 }
 
 }  // namespace
 
-Contact measure_without_sides(const SurfacePair& pair, const ContactName& name) {
-  if (name.meeting() == Meeting::pierced) return measure_piercing(pair, name);
-  const Hulls hulls = hulls_of(pair, name);
+Contact measure_without_sides(const SurfacePair& pair, const FeaturePairKey& key) {
+  if (key.meeting() == Meeting::pierced) return measure_piercing(pair, key);
+  const Hulls hulls = hulls_of(pair, key);
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   const Simplex& low = a_is_low ? hulls.a : hulls.b;
   const Simplex& high = a_is_low ? hulls.b : hulls.a;
   ClosestOf closest(low, high);
   PointRounder rounder(pair.count, extent(low, high) * allowed_error);
-  Contact contact = named(name);
+  Contact contact = named(key);
   Eigen::Vector3d& low_point = a_is_low ? contact.point_a : contact.point_b;
   Eigen::Vector3d& high_point = a_is_low ? contact.point_b : contact.point_a;
   low_point = low.point[0];
@@ -220,26 +222,26 @@ Contact measure_without_sides(const SurfacePair& pair, const ContactName& name) 
     high_point = rounder.round(high.point[0], [&]<typename Number>() -> Fraction<Number> {
       return {closest.in<Number>().high_offset, closest.in<Number>().denominator};
     });
-  complete(pair, name, hulls, closest, contact);
+  complete(pair, key, hulls, closest, contact);
   return contact;
 }
 
-Contact measure(const SurfacePair& pair, const ContactName& name) {
-  Contact contact = measure_without_sides(pair, name);
-  add_sides(pair, name, contact);
+Contact measure(const SurfacePair& pair, const FeaturePairKey& key) {
+  Contact contact = measure_without_sides(pair, key);
+  add_sides(pair, key, contact);
   return contact;
 }
 
-Contact measure_parallel(const SurfacePair& pair, const ContactName& name, const Eigen::Vector3d& point_a,
+Contact measure_parallel(const SurfacePair& pair, const FeaturePairKey& key, const Eigen::Vector3d& point_a,
                          const Eigen::Vector3d& point_b) {
-  Contact contact = named(name);
+  Contact contact = named(key);
   contact.point_a = point_a;
   contact.point_b = point_b;
-  const Hulls hulls = hulls_of(pair, name);
+  const Hulls hulls = hulls_of(pair, key);
   const bool a_is_low = hulls.a.size <= hulls.b.size;
   ClosestOf closest(a_is_low ? hulls.a : hulls.b, a_is_low ? hulls.b : hulls.a);
-  complete(pair, name, hulls, closest, contact);
-  add_sides(pair, name, contact);
+  complete(pair, key, hulls, closest, contact);
+  add_sides(pair, key, contact);
   return contact;
 }
 

@@ -2,17 +2,17 @@
 
 #include <graze/contact.hpp>
 
-#include "names/contact_name.hpp"
+#include "closest_features/feature_pair_key.hpp"
 
 namespace graze {
 
-/// The contact of a name that meets in one point pair: points, distance, normal and sides.
-Contact measure(const SurfacePair& pair, const ContactName& name);
-/// The same but for the sides, which contacts at distance 0 have none of.
-Contact measure_without_sides(const SurfacePair& pair, const ContactName& name);
+/// The contact of a key that meets in one point pair: points, distance, normal and sides.
+Contact measure(const SurfacePair& pair, const FeaturePairKey& key);
+/// As `measure`, but without the sides, which contacts at distance 0 have none of.
+Contact measure_without_sides(const SurfacePair& pair, const FeaturePairKey& key);
 
 /// The contact of parallel features, at given points of their closest set.
-Contact measure_parallel(const SurfacePair& pair, const ContactName& name, const Eigen::Vector3d& point_a,
+Contact measure_parallel(const SurfacePair& pair, const FeaturePairKey& key, const Eigen::Vector3d& point_a,
                          const Eigen::Vector3d& point_b);
 
 Witness witness_of(const Contact& contact);

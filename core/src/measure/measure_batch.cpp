@@ -20,24 +20,24 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
-Shape shape_of(const ContactName& name) {
-  const auto [low, high] = std::minmax({corner_count(name.a()), corner_count(name.b())});
+Shape shape_of(const FeaturePairKey& key) {
+  const auto [low, high] = std::minmax({corner_count(key.a()), corner_count(key.b())});
   return {low, high};
 }
 
 /// A piercing fold is left out since its normal is not the triangle's.
-bool is_for_kernels(const ContactName& name, const Shape& shape) {
-  if (name.meeting() == Meeting::pierced) return name.kind() == ContactKind::EF;
-  return name.meeting() == Meeting::closest && shape.low + shape.high <= 4;
+bool is_for_kernels(const FeaturePairKey& key, const Shape& shape) {
+  if (key.meeting() == Meeting::pierced) return key.kind() == ContactKind::EF;
+  return key.meeting() == Meeting::closest && shape.low + shape.high <= 4;
 }
 
 Eigen::Vector3d at(const kernels::Points& points, std::size_t lane) {
   return {points[0][lane], points[1][lane], points[2][lane]};
 }
 
-void measure_alone(const SurfacePair& pair, const ContactName& name, Contact& contact, Sides& sides) {
-  contact = measure_without_sides(pair, name);
-  sides.add(pair, name, contact);
+void measure_alone(const SurfacePair& pair, const FeaturePairKey& key, Contact& contact, Sides& sides) {
+  contact = measure_without_sides(pair, key);
+  sides.add(pair, key, contact);
 }
 
 void put_points(const Surface& surface, std::span<const std::uint32_t> vertices, double (*points)[4]) {
@@ -56,23 +56,23 @@ class VertexContacts {
   VertexContacts(const SurfacePair& pair, MeasureScratch& scratch)
       : pair_(pair), sides_(scratch.sides), batch_(scratch.vertices) {}
 
-  void measure(std::span<const ContactName> names, Contact* contacts) {
-    lay_out(names);
+  void measure(std::span<const FeaturePairKey> keys, Contact* contacts) {
+    lay_out(keys);
     kernels::measure().vertices(batch_);
-    for (std::size_t i = 0; i < names.size(); ++i) take(i, names[i], contacts[i]);
+    for (std::size_t i = 0; i < keys.size(); ++i) take(i, keys[i], contacts[i]);
   }
 
  private:
-  void lay_out(std::span<const ContactName> names) {
+  void lay_out(std::span<const FeaturePairKey> keys) {
     std::array<std::uint32_t, kernels::vertices_at_once> a, b;
-    const std::size_t rows = (names.size() + 3) / 4 * 4;
-    batch_.count = names.size();
+    const std::size_t rows = (keys.size() + 3) / 4 * 4;
+    batch_.count = keys.size();
     sides_.begin_normals();
     for (std::size_t i = 0; i < rows; ++i) {
-      const ContactName& name = names[std::min(i, names.size() - 1)];
-      a[i] = name.index_a();
-      b[i] = name.index_b();
-      // Names of one vertex of a follow each other.
+      const FeaturePairKey& key = keys[std::min(i, keys.size() - 1)];
+      a[i] = key.index_a();
+      b[i] = key.index_b();
+      // Keys with one vertex of a follow each other.
       const bool is_last = i > 0 && a[i] == a[i - 1];
       batch_.normal_a[i] = is_last ? batch_.normal_a[i - 1] : sides_.normal_of_a(pair_, a[i]);
       batch_.normal_b[i] = sides_.normal_of_b(pair_, b[i]);
@@ -82,17 +82,17 @@ class VertexContacts {
     sides_.finish_normals();
   }
 
-  void take(std::size_t i, const ContactName& name, Contact& contact) {
+  void take(std::size_t i, const FeaturePairKey& key, Contact& contact) {
     const auto found = static_cast<unsigned>(batch_.found[i]);
     if (found == 0) {
-      contact = measure_without_sides(pair_, name);
+      contact = measure_without_sides(pair_, key);
       if (contact.distance == 0) return;
     } else {
       contact = {ContactKind::VV,
                  static_cast<Side>(found >> 2U & 3U),
                  static_cast<Side>(found >> 4U),
-                 {FeatureKind::vertex, name.index_a()},
-                 {FeatureKind::vertex, name.index_b()},
+                 {FeatureKind::vertex, key.index_a()},
+                 {FeatureKind::vertex, key.index_b()},
                  Eigen::Map<const Eigen::Vector3d>(batch_.a[i]),
                  Eigen::Map<const Eigen::Vector3d>(batch_.b[i]),
                  Eigen::Map<const Eigen::Vector3d>(batch_.normal[i]),
@@ -116,21 +116,21 @@ class VertexContacts {
 /// Measures contacts of one shape, as many at once as the kernels take.
 class Batch {
  public:
-  Batch(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
+  Batch(const SurfacePair& pair, std::span<const FeaturePairKey> keys, std::span<Contact> contacts,
         MeasureScratch& scratch)
-      : pair_(pair), names_(names), contacts_(contacts), scratch_(scratch) {}
+      : pair_(pair), keys_(keys), contacts_(contacts), scratch_(scratch) {}
 
   void add(std::size_t contact, const Shape& shape) {
     if (shape != shape_ || count_ == kernels::contact_lanes) finish();
     shape_ = shape;
-    const ContactName& name = names_[contact];
-    const bool a_is_low = is_a_low(name);
-    put(a_is_low ? pair_.a : pair_.b, a_is_low ? name.a() : name.b(), shape.low, scratch_.batch.low);
-    put(a_is_low ? pair_.b : pair_.a, a_is_low ? name.b() : name.a(), shape.high, scratch_.batch.high);
+    const FeaturePairKey& key = keys_[contact];
+    const bool a_is_low = is_a_low(key);
+    put(a_is_low ? pair_.a : pair_.b, a_is_low ? key.a() : key.b(), shape.low, scratch_.batch.low);
+    put(a_is_low ? pair_.b : pair_.a, a_is_low ? key.b() : key.a(), shape.high, scratch_.batch.high);
     contact_[count_++] = contact;
   }
   void add_alone(std::size_t contact) {
-    measure_alone(pair_, names_[contact], contacts_[contact], scratch_.sides);
+    measure_alone(pair_, keys_[contact], contacts_[contact], scratch_.sides);
   }
   void finish() {
     if (count_ == 0) return;
@@ -140,7 +140,7 @@ class Batch {
   }
 
  private:
-  static bool is_a_low(const ContactName& name) { return corner_count(name.a()) <= corner_count(name.b()); }
+  static bool is_a_low(const FeaturePairKey& key) { return corner_count(key.a()) <= corner_count(key.b()); }
 
   void put(const Surface& surface, const FeaturePiece& piece, std::uint32_t corners,
            kernels::Points* points) const {
@@ -157,24 +157,24 @@ class Batch {
   void take(std::size_t lane) {
     const kernels::ContactBatch& batch = scratch_.batch;
     if (batch.certain[lane] == 0) return add_alone(contact_[lane]);
-    const ContactName& name = names_[contact_[lane]];
+    const FeaturePairKey& key = keys_[contact_[lane]];
     Contact& contact = contacts_[contact_[lane]];
-    const bool a_is_low = is_a_low(name);
+    const bool a_is_low = is_a_low(key);
     const Eigen::Vector3d normal = at(batch.normal, lane);
-    contact = {name.kind(),
+    contact = {key.kind(),
                Side::none,
                Side::none,
-               name.a().feature,
-               name.b().feature,
+               key.a().feature,
+               key.b().feature,
                at(a_is_low ? batch.low_point : batch.high_point, lane),
                at(a_is_low ? batch.high_point : batch.low_point, lane),
                a_is_low ? normal : Eigen::Vector3d(-normal),
                batch.distance[lane]};
-    scratch_.sides.add(pair_, name, contact);
+    scratch_.sides.add(pair_, key, contact);
   }
 
   const SurfacePair& pair_;
-  std::span<const ContactName> names_;
+  std::span<const FeaturePairKey> keys_;
   std::span<Contact> contacts_;
   MeasureScratch& scratch_;
   Shape shape_;
@@ -184,24 +184,23 @@ class Batch {
 
 }  // namespace
 
-void measure(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
+void measure(const SurfacePair& pair, std::span<const FeaturePairKey> keys, std::span<Contact> contacts,
              MeasureScratch& scratch) {
   scratch.sides.begin();
-  // Names are sorted by kind, and that of two vertices is the first.
-  const auto vertices = std::find_if(names.begin(), names.end(),
-                                     [](const ContactName& name) { return name.kind() != ContactKind::VV; });
-  const auto vertex_count = static_cast<std::size_t>(vertices - names.begin());
+  // Keys are sorted by kind, and two vertices are the first kind.
+  const auto vertices = std::find_if(keys.begin(), keys.end(),
+                                     [](const FeaturePairKey& key) { return key.kind() != ContactKind::VV; });
+  const auto vertex_count = static_cast<std::size_t>(vertices - keys.begin());
   VertexContacts of_vertices(pair, scratch);
   for (std::size_t i = 0; i < vertex_count; i += kernels::vertices_at_once) {
     pair.check_time(kernels::vertices_at_once / 4);
-    of_vertices.measure(names.subspan(i, std::min(vertex_count - i, kernels::vertices_at_once)),
-                        &contacts[i]);
+    of_vertices.measure(keys.subspan(i, std::min(vertex_count - i, kernels::vertices_at_once)), &contacts[i]);
   }
-  Batch batch(pair, names, contacts, scratch);
-  for (std::size_t i = vertex_count; i < names.size(); ++i) {
+  Batch batch(pair, keys, contacts, scratch);
+  for (std::size_t i = vertex_count; i < keys.size(); ++i) {
     pair.check_time();
-    const Shape shape = shape_of(names[i]);
-    if (is_for_kernels(names[i], shape))
+    const Shape shape = shape_of(keys[i]);
+    if (is_for_kernels(keys[i], shape))
       batch.add(i, shape);
     else
       batch.add_alone(i);

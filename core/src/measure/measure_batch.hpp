@@ -4,9 +4,9 @@
 #include <span>
 
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "kernels/measure.hpp"
 #include "measure/sides.hpp"
-#include "names/contact_name.hpp"
 
 namespace graze {
 
@@ -21,8 +21,8 @@ struct MeasureScratch {
   }
 };
 
-/// `measure` of each name into the contact at its place, several at once.
-void measure(const SurfacePair& pair, std::span<const ContactName> names, std::span<Contact> contacts,
+/// Measures each key into the contact at its index, several at once.
+void measure(const SurfacePair& pair, std::span<const FeaturePairKey> keys, std::span<Contact> contacts,
              MeasureScratch& scratch);
 
 }  // namespace graze

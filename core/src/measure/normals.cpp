@@ -94,7 +94,7 @@ Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vec
   const Eigen::Vector3d normal = weighted_normal(surface, piece, count);
   const Eigen::Vector3d direction = gap.stableNormalized();
   const double along = normal.dot(direction);
-  // Unit normals and the direction are within 2^-44 of the true ones, angles nearly so; a vertex has at most
+  // Unit normals and the direction are within 2^-44 of the true ones, angles nearly so. A vertex has at most
   // a few thousand triangles before the sum of its weights exceeds 2^-36 / 2^-44.
   if (!(std::abs(along) > 0x1p-36)) return Side::none;
   return along > 0 ? Side::front : Side::back;

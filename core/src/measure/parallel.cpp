@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
+#include "closest_features/overlap.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "measure/measure.hpp"
-#include "names/overlap.hpp"
 
 namespace graze {
 namespace {
@@ -38,19 +38,19 @@ Holder face_holder(const Surface& surface, std::uint32_t face) {
   return holder;
 }
 
-/// What plain double is off by is below 2^-49 of the sizes, and by no more than these are edges or faces
-/// certainly not parallel. What underflows decides nothing.
+/// The error of plain double is below 2^-49 of the sizes. Edges or faces that are further from parallel than
+/// this are certainly not parallel. Products that underflow decide nothing.
 constexpr double least_angle_squared = 0x1p-80;
 constexpr double least_product = 0x1p-900;
 
 bool are_certainly_across(double squared, double sizes) {
   return sizes > least_product && squared > least_angle_squared * sizes;
 }
-/// Of two edges or two faces.
+/// Whether two edges or two faces are certainly not parallel.
 bool are_not_parallel(const Holder::Direction& a, const Holder::Direction& b) {
   return are_certainly_across(a.vector.cross(b.vector).squaredNorm(), a.largest_square * b.largest_square);
 }
-/// Of an edge and a face.
+/// Whether an edge and a face are certainly not parallel.
 bool are_not_square(const Holder::Direction& a, const Holder::Direction& b) {
   const double along = a.vector.dot(b.vector);
   return are_certainly_across(along * along, a.largest_square * b.largest_square);
@@ -72,8 +72,8 @@ struct SidedPiece {
   std::size_t fold_side = 3;
 };
 
-Few<SidedPiece, 2> pieces_of(const Surface& surface, const Feature& feature) {
-  Few<SidedPiece, 2> pieces;
+InplaceVector<SidedPiece, 2> pieces_of(const Surface& surface, const Feature& feature) {
+  InplaceVector<SidedPiece, 2> pieces;
   if (feature.kind == FeatureKind::edge) {
     pieces.push_back({edge_piece(feature.index), 3});
   } else if (triangle_count(surface.mesh(), feature.index) == 1) {
@@ -89,11 +89,11 @@ Few<SidedPiece, 2> pieces_of(const Surface& surface, const Feature& feature) {
 }
 
 /// Features that are parallel to each other and have a stretch or an area of closest points. Among all that
-/// hold the names at the least distance, asks which are, and which of names and of these gives way to others
+/// hold the keys at the least distance, asks which are, and which of keys and of these gives way to others
 /// of these.
 class ParallelContacts {
  public:
-  ParallelContacts(const SurfacePair& pair, const ContactName& nearest, ParallelScratch& scratch)
+  ParallelContacts(const SurfacePair& pair, const FeaturePairKey& nearest, ParallelScratch& scratch)
       : pair_(pair),
         nearest_(nearest),
         touches_(nearest.meeting() == Meeting::pierced || do_touch(hulls_of(pair, nearest), pair.count)),
@@ -105,18 +105,19 @@ class ParallelContacts {
     }
   }
 
-  /// Whether a parallel contact holds both features of a name.
-  [[nodiscard]] bool gives_way(const ContactName& name) {
-    find(name);
-    return any_parallel(scratch_.of_name_a, scratch_.of_name_b, nullptr);
+  /// Whether a parallel contact holds both features of a key.
+  [[nodiscard]] bool gives_way(const FeaturePairKey& key) {
+    find(key);
+    return any_parallel(scratch_.of_key_a, scratch_.of_key_b, nullptr);
   }
 
   /// The lowest that gives way to no other and comes before `end`, if there is one, with its middle.
-  [[nodiscard]] std::optional<Contact> lowest(std::span<const ContactName> names, const ContactName* end) {
+  [[nodiscard]] std::optional<Contact> lowest(std::span<const FeaturePairKey> keys,
+                                              const FeaturePairKey* end) {
     if (end != nullptr) lowest_ = *end;
-    for (const ContactName& name : names) {
-      find(name);
-      for_each_pair(scratch_.of_name_a, scratch_.of_name_b, [&](const Holder& a, const Holder& b) {
+    for (const FeaturePairKey& key : keys) {
+      find(key);
+      for_each_pair(scratch_.of_key_a, scratch_.of_key_b, [&](const Holder& a, const Holder& b) {
         offer(a, b);
         return false;
       });
@@ -125,12 +126,12 @@ class ParallelContacts {
   }
 
  private:
-  void find(const ContactName& name) {
+  void find(const FeaturePairKey& key) {
     constexpr std::uint32_t pieces =
         8;  // some hundred pairs of holders, most of which are apart at first sight
     pair_.check_time(pieces);
-    scratch_.of_name_a.find(pair_.a, name.a().feature);
-    scratch_.of_name_b.find(pair_.b, name.b().feature);
+    scratch_.of_key_a.find(pair_.a, key.a().feature);
+    scratch_.of_key_b.find(pair_.b, key.b().feature);
   }
 
   /// Calls `is_it(a, b)` with pairs of holders that may be parallel, faces first, until one is it.
@@ -147,28 +148,28 @@ class ParallelContacts {
   }
 
   /// Whether a parallel contact is among the pairs of holders, other than `itself`.
-  bool any_parallel(const Holders& of_a, const Holders& of_b, const FeaturePair* itself) {
+  bool any_parallel(const Holders& of_a, const Holders& of_b, const TwoFeatures* itself) {
     return for_each_pair(of_a, of_b, [&](const Holder& a, const Holder& b) {
-      const FeaturePair features{a.feature, b.feature};
+      const TwoFeatures features{a.feature, b.feature};
       return (itself == nullptr || features != *itself) && is_parallel(features);
     });
   }
 
-  /// Takes a pair of holders for the lowest if it is. Most give way to faces, which are asked about first:
-  /// what is known of two faces serves all edges around them.
+  /// Takes a pair of holders if it is the lowest. Most give way to faces, which are tested first: an answer
+  /// about two faces serves all edges around them.
   void offer(const Holder& a, const Holder& b) {
-    const FeaturePair features{a.feature, b.feature};
-    const ContactName name =
-        ContactName::of({a.feature, Piece::fold}, {b.feature, Piece::fold}, Meeting::parallel);
-    if (lowest_ && !(name < *lowest_)) return;
+    const TwoFeatures features{a.feature, b.feature};
+    const FeaturePairKey key =
+        FeaturePairKey::of({a.feature, Piece::fold}, {b.feature, Piece::fold}, Meeting::parallel);
+    if (lowest_ && !(key < *lowest_)) return;
     if (gives_way_to_faces(features) || !is_parallel(features)) return;
     scratch_.above_a.find(pair_.a, a.feature);
     scratch_.above_b.find(pair_.b, b.feature);
     if (any_parallel(scratch_.above_a, scratch_.above_b, &features)) return;
-    lowest_ = name;
+    lowest_ = key;
     found_ = features;
   }
-  bool gives_way_to_faces(const FeaturePair& features) {
+  bool gives_way_to_faces(const TwoFeatures& features) {
     const auto is_face = [](const Feature& feature) { return feature.kind == FeatureKind::face; };
     if (is_face(features.first) && is_face(features.second)) return false;
     for (const std::uint32_t of_a : faces_of(pair_.a.mesh(), features.first))
@@ -176,14 +177,14 @@ class ParallelContacts {
         if (is_parallel({{FeatureKind::face, of_a}, {FeatureKind::face, of_b}})) return true;
     return false;
   }
-  /// Of an edge, or a face itself, which stays where it is.
+  /// The faces of an edge, or a face itself. The span refers to the mesh or to `feature`.
   static std::span<const std::uint32_t> faces_of(const IndexedMesh& mesh, const Feature& feature) {
     if (feature.kind == FeatureKind::face) return {&feature.index, 1};
     return mesh.edge_faces(feature.index);
   }
 
   /// Whether two features have a stretch or an area of closest points at the least distance.
-  bool is_parallel(const FeaturePair& features) {
+  bool is_parallel(const TwoFeatures& features) {
     const auto& [a, b] = features;
     if (a.kind != FeatureKind::face || b.kind != FeatureKind::face) return decide_parallel(features);
     ParallelScratch::Known& known =
@@ -192,53 +193,54 @@ class ParallelContacts {
       known = {features, scratch_.query, decide_parallel(features)};
     return known.are_parallel;
   }
-  bool decide_parallel(const FeaturePair& features) {
+  bool decide_parallel(const TwoFeatures& features) {
     bool found = false;
-    for_each_part(features, [&](const ContactName&, const Simplex&, const Simplex&) { return found = true; });
+    for_each_part(features,
+                  [&](const FeaturePairKey&, const Simplex&, const Simplex&) { return found = true; });
     return found;
   }
 
   /// Calls `use` with the pieces of two features that are parallel contacts, until it returns true.
   template <typename Use>
-  void for_each_part(const FeaturePair& features, const Use& use) {
+  void for_each_part(const TwoFeatures& features, const Use& use) {
     for (const SidedPiece& of_a : pieces_of(pair_.a, features.first))
       for (const SidedPiece& of_b : pieces_of(pair_.b, features.second)) {
         const Simplex a = simplex_of(pair_.a, of_a.piece);
         const Simplex b = simplex_of(pair_.b, of_b.piece);
         if (!do_overlap(a, of_a.fold_side, b, of_b.fold_side, pair_.count)) continue;
-        const ContactName name = ContactName::of(of_a.piece, of_b.piece, Meeting::parallel);
+        const FeaturePairKey key = FeaturePairKey::of(of_a.piece, of_b.piece, Meeting::parallel);
         // One triangle of a bent quad may be parallel and further than the other.
-        if (is_nearest(name, a, b) && use(name, a, b)) return;
+        if (is_nearest(key, a, b) && use(key, a, b)) return;
       }
   }
-  [[nodiscard]] bool is_nearest(const ContactName& name, const Simplex& a, const Simplex& b) const {
-    if (!touches_) return compare_distances(pair_, name, nearest_) == 0;
+  [[nodiscard]] bool is_nearest(const FeaturePairKey& key, const Simplex& a, const Simplex& b) const {
+    if (!touches_) return compare_distances(pair_, key, nearest_) == 0;
     for (std::uint32_t i = 0; i < a.size; ++i)
       for (std::uint32_t j = 0; j < b.size; ++j)
         if (a.point[i] == b.point[j]) return true;
-    return do_touch(hulls_of(pair_, name), pair_.count);
+    return do_touch(hulls_of(pair_, key), pair_.count);
   }
 
-  [[nodiscard]] Contact contact_of(const FeaturePair& features) {
+  [[nodiscard]] Contact contact_of(const TwoFeatures& features) {
     const LocalFrame frame(pair_.a, features.first, pair_.b, features.second);
-    std::optional<ContactName> first_name;
+    std::optional<FeaturePairKey> first_key;
     Overlaps overlaps;
-    for_each_part(features, [&](const ContactName& name, const Simplex& a, const Simplex& b) {
-      if (!first_name) first_name = name;
+    for_each_part(features, [&](const FeaturePairKey& key, const Simplex& a, const Simplex& b) {
+      if (!first_key) first_key = key;
       overlaps.push_back(overlap_of(a, b, frame, pair_.count));
       return false;
     });
     const Overlap largest = largest_part(overlaps);
-    return measure_parallel(pair_, *first_name, frame.to_world(largest.middle_a),
+    return measure_parallel(pair_, *first_key, frame.to_world(largest.middle_a),
                             frame.to_world(largest.middle_b));
   }
 
   const SurfacePair& pair_;
-  const ContactName& nearest_;
+  const FeaturePairKey& nearest_;
   bool touches_;  ///< the least distance is 0
   ParallelScratch& scratch_;
-  std::optional<ContactName> lowest_;  ///< of what is still looked for, the end
-  std::optional<FeaturePair> found_;
+  std::optional<FeaturePairKey> lowest_;  ///< the lowest key of those still searched for, the end
+  std::optional<TwoFeatures> found_;
 };
 
 }  // namespace
@@ -273,21 +275,21 @@ void Holders::find(const Surface& surface, const Feature& feature) {
 }
 
 void ParallelScratch::reserve(const PairRoom& room) {
-  for (Holders* const holders : {&of_name_a, &of_name_b, &above_a, &above_b})
+  for (Holders* const holders : {&of_key_a, &of_key_b, &above_a, &above_b})
     std::apply([&](auto&... part) { (part.reserve(room.ties), ...); }, Holders::parts(*holders));
   known.reserve(known_count);
 }
 
-Contact closest_contact(const SurfacePair& pair, const std::vector<ContactName>& names,
+Contact closest_contact(const SurfacePair& pair, const std::vector<FeaturePairKey>& keys,
                         ParallelScratch& scratch) {
-  ParallelContacts parallel(pair, names.front(), scratch);
-  const auto lowest_name = std::find_if(names.begin(), names.end(),
-                                        [&](const ContactName& name) { return !parallel.gives_way(name); });
-  const ContactName* const name = lowest_name == names.end() ? nullptr : &*lowest_name;
+  ParallelContacts parallel(pair, keys.front(), scratch);
+  const auto lowest_key = std::find_if(keys.begin(), keys.end(),
+                                       [&](const FeaturePairKey& key) { return !parallel.gives_way(key); });
+  const FeaturePairKey* const key = lowest_key == keys.end() ? nullptr : &*lowest_key;
   // Parallel are edges and faces alone.
-  if (name != nullptr && name->kind() < ContactKind::EE) return measure(pair, *name);
-  if (const auto contact = parallel.lowest(names, name)) return *contact;
-  return measure(pair, *name);
+  if (key != nullptr && key->kind() < ContactKind::EE) return measure(pair, *key);
+  if (const auto contact = parallel.lowest(keys, key)) return *contact;
+  return measure(pair, *key);
 }
 
 }  // namespace graze

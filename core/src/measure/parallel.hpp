@@ -7,26 +7,26 @@
 #include <utility>
 #include <vector>
 
-#include "base/few.hpp"
+#include "base/inplace_vector.hpp"
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/surface/surface.hpp"
-#include "names/contact_name.hpp"
 
 namespace graze {
 
 /// Two features, of a and b.
-using FeaturePair = std::pair<Feature, Feature>;
+using TwoFeatures = std::pair<Feature, Feature>;
 
-/// An edge or face that holds a feature, with the directions by which most are seen not to be parallel to
-/// another: of an edge its own, of a face the normals of its triangles.
+/// An edge or face that holds a feature, with directions that show of most holders that they are not
+/// parallel. An edge has its own direction, a face the normals of its triangles.
 struct Holder {
   struct Direction {
     Eigen::Vector3d vector;
     double largest_square;  ///< of its length, were the corners square
   };
   Feature feature;
-  Few<Direction, 2> directions;
+  InplaceVector<Direction, 2> directions;
 };
 
 /// All that hold a feature, itself included where it is no vertex; each once.
@@ -47,30 +47,30 @@ struct Holders {
 struct ParallelScratch {
   /// Whether two faces are parallel contacts, of those that were asked about last.
   struct Known {
-    FeaturePair faces;
+    TwoFeatures faces;
     std::uint32_t query = 0;  ///< the number of the query that asked
     bool are_parallel = false;
   };
 
-  Holders of_name_a, of_name_b;
+  Holders of_key_a, of_key_b;
   Holders above_a, above_b;
   std::vector<Known> known;
   std::uint32_t query = 0;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.of_name_a, self.of_name_b, self.above_a, self.above_b, self.known);
+    return std::tie(self.of_key_a, self.of_key_b, self.above_a, self.above_b, self.known);
   }
   void reserve(const PairRoom& room);
 };
 
-/// `ContactDetail::closest` of two surfaces from all names at their least distance (sorted, at least one).
+/// `ContactDetail::closest` of two surfaces from all keys at their least distance (sorted, at least one).
 ///
-/// Features that are parallel to each other have a stretch or an area of closest points; where one holds a
-/// name's features it stands for that name, since those points are only its border: the area between a box
-/// and the table under it (FF) and not one corner of it (VF). Of what then is left the lowest (kind, feature
-/// a, feature b) is the contact, with the middle of its closest set.
-Contact closest_contact(const SurfacePair& pair, const std::vector<ContactName>& names,
+/// Features that are parallel to each other have a stretch or an area of closest points. Where one of these
+/// holds a key's features it stands for that key, since those points are only its border. An example is the
+/// area between a box and the table under it (FF), and not one corner of it (VF). The lowest (kind, feature
+/// a, feature b) of the rest is the contact, with the middle of its closest set.
+Contact closest_contact(const SurfacePair& pair, const std::vector<FeaturePairKey>& keys,
                         ParallelScratch& scratch);
 
 }  // namespace graze

@@ -16,8 +16,8 @@ using Corners = std::array<std::uint32_t, 3>;
 /// The corners of a triangle from one of them around. Without branches, which could not be foretold.
 Corners turned_to(std::uint32_t vertex, std::span<const std::uint32_t> corner) {
   constexpr std::array<std::size_t, 6> around{0, 1, 2, 0, 1, 2};
-  const std::size_t place = (corner[1] == vertex ? 1U : 0U) + (corner[2] == vertex ? 2U : 0U);
-  return {vertex, corner[around[place + 1]], corner[around[place + 2]]};
+  const std::size_t corner_index = (corner[1] == vertex ? 1U : 0U) + (corner[2] == vertex ? 2U : 0U);
+  return {vertex, corner[around[corner_index + 1]], corner[around[corner_index + 2]]};
 }
 
 /// The corners of each triangle that has the vertex, of a face that has it, from it around.

@@ -6,9 +6,9 @@
 #include <span>
 #include <tuple>
 
+#include "closest_features/closest_features.hpp"
 #include "core/surface/surface.hpp"
 #include "kernels/measure.hpp"
-#include "names/naming.hpp"
 
 namespace graze {
 
@@ -36,7 +36,7 @@ class NormalSums {
   std::tuple<kernels::FanBatch<float>, kernels::FanBatch<double>> fans_{};
 };
 
-/// What `side_of` says of a unit vector, where a rough normal is enough to know; otherwise nothing.
+/// Returns `side_of` a unit vector if a rough normal is enough to know it; otherwise nothing.
 std::optional<Side> certain_side(const RoughNormal& normal, const Eigen::Vector3d& direction);
 
 }  // namespace graze

@@ -19,11 +19,11 @@ void Sides::begin() {
   normals_b_.begin();
 }
 
-void Sides::add(const SurfacePair& pair, const ContactName& name, Contact& contact) {
+void Sides::add(const SurfacePair& pair, const FeaturePairKey& key, Contact& contact) {
   if (contact.distance == 0) return;
   if (count_ == asked_.size()) finish(pair);
-  const FeaturePiece a = name.a();
-  const FeaturePiece b = name.b();
+  const FeaturePiece a = key.a();
+  const FeaturePiece b = key.b();
   const auto [normal_a, is_new_a] = normals_a_.find(a);
   if (is_new_a) sums_.add(pair.a, a, *normal_a);
   const auto [normal_b, is_new_b] = normals_b_.find(b);

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/surface/surface.hpp"
 #include "measure/rough_normals.hpp"
-#include "names/contact_name.hpp"
 
 namespace graze {
 
@@ -18,7 +18,7 @@ namespace graze {
 /// asked about last are kept.
 class NormalCache {
  public:
-  /// Of so many features that are asked about in a row all are kept, until the next.
+  /// How many features asked about in a row are certainly kept, until the next.
   static constexpr std::size_t at_once = 128;
 
   /// Forgets all, for another surface.
@@ -58,7 +58,7 @@ class NormalCache {
   };
 
   std::vector<Entry> entries_;
-  std::vector<RoughNormal> normals_;  ///< the last ones, in the place of their number
+  std::vector<RoughNormal> normals_;  ///< the last ones, by their number
   std::uint64_t next_ = 1;
   std::uint64_t first_ = 1;   ///< of this surface
   std::uint64_t oldest_ = 1;  ///< that is not replaced in this round
@@ -70,7 +70,7 @@ class Sides {
   /// For another pair; forgets what was not finished.
   void begin();
   /// Fills in the contact's sides, at the latest by finish(), until when it stays where it is.
-  void add(const SurfacePair& pair, const ContactName& name, Contact& contact);
+  void add(const SurfacePair& pair, const FeaturePairKey& key, Contact& contact);
   void finish(const SurfacePair& pair);
 
   /// The normal at a vertex, as from the next `finish_normals` until the next `begin_normals`, between which

@@ -10,8 +10,8 @@
 namespace graze {
 namespace {
 
-/// Halves vertices along the longest side of their box until what is left is one block: whole blocks on
-/// either side, and ties by number, so that the order is that of the positions alone.
+/// Halves vertices along the longest side of their box until one block is left. Each side has whole blocks,
+/// and ties go by number, so that the order depends on the positions alone.
 void halve(const IndexedMesh& mesh, std::span<std::uint32_t> vertices) {
   constexpr std::size_t size = vertices_per_block;
   if (vertices.size() <= size) return std::sort(vertices.begin(), vertices.end());
@@ -42,7 +42,8 @@ void list_stretch_groups(std::span<const std::uint32_t> order, std::vector<std::
                          std::vector<std::uint32_t>& begin) {
   const auto count = static_cast<std::uint32_t>(order.size());
   std::vector<std::uint32_t> group_of(count);
-  for (std::uint32_t place = 0; place < count; ++place) group_of[order[place]] = place / vertices_per_group;
+  for (std::uint32_t position = 0; position < count; ++position)
+    group_of[order[position]] = position / vertices_per_group;
   begin.push_back(0);
   for (std::uint32_t first = 0; first < count; first += vertices_per_stretch) {
     const auto from = group_of.begin() + first;

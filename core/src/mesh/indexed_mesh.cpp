@@ -19,7 +19,7 @@ namespace {
 template <typename Visit>
 void fill_rows(std::size_t row_count, std::vector<std::uint32_t>& values, std::vector<std::uint32_t>& begin,
                const Visit& visit) {
-  // While rows are filled, each begins one place further on: that of the row before ends there.
+  // While rows are filled, each begins one index further on, where the row before ends.
   begin.assign(row_count + 2, 0);
   visit([&](std::uint32_t row, std::uint32_t) { ++begin[row + 2]; });
   for (std::size_t row = 0; row < row_count; ++row) begin[row + 2] += begin[row + 1];
@@ -62,7 +62,7 @@ IndexedMesh::IndexedMesh(PositionView rest, std::span<const std::uint32_t> corne
   rest_ = copy_of(rest);
   take_faces(corners, corner_counts);
   check_faces();
-  look_for_unused();
+  find_unused();
   check_rest();
   number_edges();
   regions_ = RegionTree(*this);
@@ -111,7 +111,7 @@ void IndexedMesh::check_rest() const {
                   " is not finite or has a coordinate beyond 2^120");
 }
 
-void IndexedMesh::look_for_unused() {
+void IndexedMesh::find_unused() {
   used_.assign(vertex_count(), 0);
   for (const std::uint32_t corner : corners_) used_[corner] = 1;
   if (std::find(used_.begin(), used_.end(), 0) == used_.end()) std::vector<std::uint8_t>().swap(used_);
@@ -119,8 +119,8 @@ void IndexedMesh::look_for_unused() {
 
 namespace {
 
-/// Where an edge is first met: of corners that begin edges with the same two vertices, all have the first of
-/// them in place of `ends`, which holds the lower end's corners with their higher ends.
+/// Finds the corner where each edge is first met. All corners that begin edges with the same two vertices get
+/// the first of them. `ends` holds the lower end's corners with their higher ends.
 void join_equal(std::span<std::uint64_t> ends, std::vector<std::uint32_t>& first_met) {
   // Higher end, then corner: equal ones follow one another, the first met before the others.
   std::sort(ends.begin(), ends.end());
@@ -132,8 +132,8 @@ void join_equal(std::span<std::uint64_t> ends, std::vector<std::uint32_t>& first
 
 }  // namespace
 
-/// Corners are put in rows by the lower end of the edge that they begin, and those of a row that begin the
-/// same edge are joined; then edges are numbered by their first corners.
+/// Corners are put in rows by the lower end of the edge that they begin. Those of a row that begin one edge
+/// are joined. Then edges are numbered by their first corners.
 void IndexedMesh::number_edges() {
   const auto visit = [&](const auto& add) {
     std::uint32_t corner = 0;

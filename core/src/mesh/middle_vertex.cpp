@@ -57,7 +57,7 @@ class LosslessSum {
   bool lost_ = false;
 };
 
-/// Of one vertex n times the way to the average of n vertices.
+/// The way from one vertex to the average of n vertices, times n.
 struct ScaledWay {
   std::uint32_t vertex = 0;
   std::array<LosslessSum, 3> axes;
@@ -150,7 +150,7 @@ std::uint32_t nearest_of_all(std::span<const Eigen::Vector3d> positions,
   return best;
 }
 
-/// Those vertices that may be nearest to the average, by plain doubles.
+/// The vertices that may be nearest to the average, by plain doubles.
 std::vector<std::uint32_t> candidates_of(std::span<const Eigen::Vector3d> positions,
                                          std::span<const std::uint32_t> vertices) {
   const Eigen::Vector3d origin = positions[vertices.front()];
@@ -180,10 +180,10 @@ std::vector<std::uint32_t> candidates_of(std::span<const Eigen::Vector3d> positi
 
 std::uint32_t middle_vertex(std::span<const Eigen::Vector3d> positions,
                             std::span<const std::uint32_t> vertices) {
-  constexpr std::size_t few = 8;
+  constexpr std::size_t most_candidates = 8;
   std::vector<std::uint32_t> candidates = candidates_of(positions, vertices);
   if (candidates.size() == 1) return candidates.front();
-  if (candidates.size() > few) return nearest_of_all(positions, vertices);
+  if (candidates.size() > most_candidates) return nearest_of_all(positions, vertices);
   std::sort(candidates.begin(), candidates.end());
   std::array<LosslessSum, 3> sum;
   for (const std::uint32_t vertex : vertices)

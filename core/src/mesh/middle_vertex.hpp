@@ -7,7 +7,7 @@
 namespace graze {
 
 /// The vertex of a region that is closest to the average of the region's vertices (eq. 1), decided as in real
-/// arithmetic; ties go to the lowest number. `vertices` names at least one of `positions`.
+/// arithmetic. Ties go to the lowest number. `vertices` has at least one index into `positions`.
 std::uint32_t middle_vertex(std::span<const Eigen::Vector3d> positions,
                             std::span<const std::uint32_t> vertices);
 

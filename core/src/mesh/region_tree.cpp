@@ -97,29 +97,30 @@ class Builder {
   std::vector<std::uint32_t>& vertices_;
   std::vector<std::uint32_t> sorted_;
   Eigen::Vector3d size_;  ///< of the root box
-  /// Of each used vertex from the minimum of the box of its region: from 0 to the box's size, so that halving
-  /// the size and taking half of it away do not round, and cuts are exact at every depth.
+  /// The offset of each used vertex from the minimum of its region's box: from 0 to the box's size. So
+  /// halving the size and taking half of it away do not round, and cuts are exact at every depth.
   std::vector<Eigen::Vector3d> offsets_;
 };
 
-/// The features of a mesh sorted by the place of their owning vertex in the tree's vertex order, with the
-/// range of each place: features of place i are order[begin[i], begin[i + 1]).
+/// The features of a mesh, sorted by the position of their owning vertex in the tree's vertex order. The
+/// features at position i are order[begin[i], begin[i + 1]).
 struct Owned {
   std::vector<std::uint32_t> order;
   std::vector<std::uint32_t> begin;
 };
 
 template <typename OwnerOf>
-Owned sort_by_owner(std::uint32_t feature_count, std::size_t place_count, const OwnerOf& place_of_owner) {
+Owned sort_by_owner(std::uint32_t feature_count, std::size_t position_count,
+                    const OwnerOf& position_of_owner) {
   Owned owned;
-  owned.begin.assign(place_count + 1, 0);
+  owned.begin.assign(position_count + 1, 0);
   for (std::uint32_t feature = 0; feature < feature_count; ++feature)
-    ++owned.begin[place_of_owner(feature) + 1];
+    ++owned.begin[position_of_owner(feature) + 1];
   std::partial_sum(owned.begin.begin(), owned.begin.end(), owned.begin.begin());
   owned.order.resize(feature_count);
   std::vector<std::uint32_t> next = owned.begin;
   for (std::uint32_t feature = 0; feature < feature_count; ++feature)
-    owned.order[next[place_of_owner(feature)]++] = feature;
+    owned.order[next[position_of_owner(feature)]++] = feature;
   return owned;
 }
 
@@ -139,12 +140,12 @@ RegionTree::RegionTree(const IndexedMesh& mesh) {
   Builder(mesh, regions_, vertices_).build(level_begin_);
   leaf_level_ = median_leaf_level(regions_);
 
-  std::vector<std::uint32_t> place(mesh.vertex_count());
-  for (std::uint32_t i = 0; i < vertices_.size(); ++i) place[vertices_[i]] = i;
+  std::vector<std::uint32_t> position(mesh.vertex_count());
+  for (std::uint32_t i = 0; i < vertices_.size(); ++i) position[vertices_[i]] = i;
   Owned owned_faces = sort_by_owner(mesh.face_count(), vertices_.size(),
-                                    [&](std::uint32_t face) { return place[mesh.face(face)[0]]; });
+                                    [&](std::uint32_t face) { return position[mesh.face(face)[0]]; });
   Owned owned_edges = sort_by_owner(mesh.edge_count(), vertices_.size(),
-                                    [&](std::uint32_t edge) { return place[mesh.edge(edge)[0]]; });
+                                    [&](std::uint32_t edge) { return position[mesh.edge(edge)[0]]; });
   for (Region& region : regions_) {
     const std::uint32_t end = region.first_vertex + region.vertex_count;
     region.first_face = owned_faces.begin[region.first_vertex];
@@ -181,33 +182,33 @@ void RegionTree::list_borders(const IndexedMesh& mesh) {
 }
 
 void RegionTree::list_places(const IndexedMesh& mesh) {
-  std::vector<std::uint32_t> place(mesh.vertex_count());
+  std::vector<std::uint32_t> local_index(mesh.vertex_count());
   const auto pad = [&](std::size_t begin, std::size_t each) {
-    while ((places_.size() - begin) % (4 * each) != 0) places_.push_back(0);
+    while ((local_indices_.size() - begin) % (4 * each) != 0) local_indices_.push_back(0);
   };
-  place_begin_.resize(regions_.size());
+  local_begin_.resize(regions_.size());
   for (std::uint32_t index = 0; index < region_count(); ++index) {
     const Region& leaf = regions_[index];
     if (!leaf.is_leaf()) continue;
     std::uint32_t count = 0;
     for (const auto& list : {vertices(leaf), border(leaf)})
-      for (const std::uint32_t vertex : list) place[vertex] = count++;
-    PlaceBegin& begin = place_begin_[index];
-    begin.ends = static_cast<std::uint32_t>(places_.size());
+      for (const std::uint32_t vertex : list) local_index[vertex] = count++;
+    LocalBegin& begin = local_begin_[index];
+    begin.ends = static_cast<std::uint32_t>(local_indices_.size());
     for (const std::uint32_t edge : edges(leaf))
-      for (const std::uint32_t end : mesh.edge(edge)) places_.push_back(place[end]);
+      for (const std::uint32_t end : mesh.edge(edge)) local_indices_.push_back(local_index[end]);
     pad(begin.ends, 2);
-    begin.corners = static_cast<std::uint32_t>(places_.size());
+    begin.corners = static_cast<std::uint32_t>(local_indices_.size());
     for (const std::uint32_t face : faces(leaf)) {
       const auto corner = mesh.face(face);
       for (std::size_t second = 1; second + 1 < corner.size(); ++second)
         for (const std::size_t at : {std::size_t{0}, second, second + 1})
-          places_.push_back(place[corner[at]]);
+          local_indices_.push_back(local_index[corner[at]]);
     }
-    begin.corner_count = static_cast<std::uint32_t>(places_.size()) - begin.corners;
+    begin.corner_count = static_cast<std::uint32_t>(local_indices_.size()) - begin.corners;
     pad(begin.corners, 3);
   }
-  places_.shrink_to_fit();
+  local_indices_.shrink_to_fit();
 }
 
 /// The second is the furthest from the first, the third the furthest from the line through both.
@@ -238,7 +239,7 @@ void RegionTree::choose_spread(const IndexedMesh& mesh) {
 
 std::size_t RegionTree::byte_count() const {
   return bytes_of(regions_) + bytes_of(level_begin_) + bytes_of(vertices_) + bytes_of(faces_) +
-         bytes_of(edges_) + bytes_of(border_) + bytes_of(places_) + bytes_of(place_begin_) +
+         bytes_of(edges_) + bytes_of(border_) + bytes_of(local_indices_) + bytes_of(local_begin_) +
          bytes_of(spread_);
 }
 

@@ -17,7 +17,7 @@ std::size_t number_of(int axis, int along, int across) {
   return static_cast<std::size_t>((axis * corners + along) * corners + across);
 }
 
-/// Looks for the furthest vertex in a direction, by the boxes of regions at rest.
+/// Finds the furthest vertex in a direction, by the boxes of regions at rest.
 class FurthestVertex {
  public:
   FurthestVertex(const IndexedMesh& mesh, const Eigen::Vector3d& centre)
@@ -58,7 +58,7 @@ class FurthestVertex {
       sum += direction[axis] * (direction[axis] > 0 ? boxes_[index].max[axis] : boxes_[index].min[axis]);
     return sum;
   }
-  /// So that the one that reaches furthest is looked into first.
+  /// The region that reaches furthest is searched first.
   void add_children(const Region& region, const Eigen::Vector3d& direction) {
     const auto first = static_cast<std::ptrdiff_t>(waiting_.size());
     for (std::uint32_t child = 0; child < region.child_count; ++child)
@@ -123,8 +123,9 @@ RestReach::Both RestReach::reach_in(const Eigen::Vector3d& direction) const {
 }
 
 double RestReach::slack_of(const double* row) const {
-  // What is listed, the weights, the sums here and the vertices themselves are off by fewer than a hundred
-  // roundings of numbers as large as this sum, and by less than the smallest normal number at a time.
+  // The listed reaches, the weights, the sums here and the vertices each have rounding errors. Together these
+  // are fewer than a hundred roundings of numbers as large as this sum, and each loses less than the smallest
+  // normal number.
   constexpr double roundings = 0x1p-46;
   constexpr double lost = 0x1p-1000;
   const Eigen::Vector3d direction = Eigen::Vector3d(row[0], row[1], row[2]).cwiseAbs();

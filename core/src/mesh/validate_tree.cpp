@@ -21,12 +21,12 @@ void require_each_once(std::span<const std::uint32_t> values, std::size_t count,
   require(values.size() == count, what, values.size());
 }
 
-/// A leaf's lists of places give the corners of its edges and triangles.
+/// Checks that a leaf's local indices give the corners of its edges and triangles.
 void validate_places(const RegionTree& tree, const Region& leaf, const IndexedMesh& mesh) {
   const auto members = tree.vertices(leaf);
   const auto border = tree.border(leaf);
-  const auto vertex_at = [&](std::uint32_t place) {
-    return place < members.size() ? members[place] : border[place - members.size()];
+  const auto vertex_at = [&](std::uint32_t local_index) {
+    return local_index < members.size() ? members[local_index] : border[local_index - members.size()];
   };
   const std::uint32_t* end = tree.edge_ends(leaf).data();
   for (const std::uint32_t edge : tree.edges(leaf))

@@ -15,7 +15,7 @@ inline double upper_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return (b - a).norm() * round_up + lost_to_underflow;
 }
 
-/// Whether two points may be apart of which this is the upper distance; not where they are in one place.
+/// Whether two points with this upper distance may be apart. Points at one position are not.
 inline bool may_be_apart(double upper_distance) {
   return upper_distance > lost_to_underflow;
 }
@@ -47,8 +47,9 @@ class RegionBounds {
   [[nodiscard]] double lower(const RegionPair& pair) const {
     return less_motion(lower_distance(box_a(pair), box_b(pair)), motion_);
   }
-  /// The same for vertices, from the spheres about the middle vertices (eq. 2) too. They leave out next to
-  /// nothing that boxes do not, and are worth their refit only where the paper's regions are to be told of.
+  /// A bound for vertices that also uses the spheres about the middle vertices (eq. 2). The spheres leave out
+  /// next to nothing that boxes do not. They are worth their refit only where the paper's regions are
+  /// reported.
   [[nodiscard]] double lower_with_spheres(const RegionPair& pair) const {
     const Region& region_a = a_.mesh().regions().region(pair.a);
     const Region& region_b = b_.mesh().regions().region(pair.b);

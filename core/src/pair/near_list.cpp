@@ -7,7 +7,7 @@
 namespace graze {
 
 bool NearList::has_vertices_within(const Surface& a, const Surface& b, double threshold) const {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const NearParts& parts) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const FeaturePair& parts) {
     return squared_range(a.position(parts.a.index), b.position(parts.b.index)).is_below(threshold);
   });
 }

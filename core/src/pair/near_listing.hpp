@@ -6,15 +6,15 @@
 
 namespace graze {
 
-/// Where pairs of features that may be in contact before the surfaces have moved by a slack are listed.
+/// A list for pairs of features that may be in contact before the surfaces have moved by a slack.
 struct NearListing {
-  std::vector<NearParts>* pairs = nullptr;  ///< nowhere
+  std::vector<FeaturePair>* pairs = nullptr;  ///< nowhere
   double slack = 0;
 
   [[nodiscard]] bool is_wanted() const { return pairs != nullptr; }
-  void add(const PartOf& a, const PartOf& b) const {
+  void add(const FeatureRef& a, const FeatureRef& b) const {
     // A quad's second triangle mostly comes right after its first.
-    if (is_wanted() && (pairs->empty() || pairs->back() != NearParts{a, b})) pairs->push_back({a, b});
+    if (is_wanted() && (pairs->empty() || pairs->back() != FeaturePair{a, b})) pairs->push_back({a, b});
   }
 };
 

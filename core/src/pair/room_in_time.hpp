@@ -11,8 +11,8 @@
 
 namespace graze {
 
-// Memory that is new costs when it is first written to, many times what writing to it does later. Where there
-// is a deadline it is met piece by piece, with looks at the clock in between; what was met stays.
+// New memory costs many times more when it is first written to than later. Where there is a deadline it is
+// written to piece by piece, with checks of the clock in between. The part that was written to stays.
 
 /// `resize_to_overwrite`, which ends when the time does: throws TimeIsUp. `time` is null where there is no
 /// deadline.
@@ -28,8 +28,8 @@ void make_room_in_time(std::vector<Element>& elements, std::size_t count, TimeLi
   }
 }
 
-/// Room for all elements that a search can find before its deadline, each of which takes at least so long:
-/// added one by one they are not copied on the way. What is never written to costs addresses.
+/// Reserves room for all elements that a search can find before its deadline, if each takes at least so long.
+/// Added one by one they are not copied on the way. Memory that is never written to costs addresses only.
 template <typename Element>
 void reserve_until_deadline(std::vector<Element>& elements, std::chrono::nanoseconds each, TimeLimit* time) {
   constexpr std::size_t most = std::size_t{1} << 21;

@@ -9,12 +9,12 @@
 
 namespace graze {
 
-/// Thrown where the time of a query is up, and caught where the search was called. What is remembered of a
-/// pair says nothing that is not so wherever it is thrown, and working memory is begun anew by every query.
+/// Thrown when the time of a query is up, and caught where the search was called. Whatever is remembered of a
+/// pair is true wherever it is thrown, and every query begins its working memory anew.
 struct TimeIsUp {};
 
-/// The deadline of a query, seen by one thread. Looks at the clock, which costs some 25 ns, often enough that
-/// a search ends some tens of microseconds after its deadline.
+/// The deadline of a query, seen by one thread. A check of the clock costs some 25 ns. It is made often
+/// enough that a search ends some tens of microseconds after its deadline.
 class TimeLimit {
  public:
   using Clock = std::chrono::steady_clock;
@@ -25,9 +25,9 @@ class TimeLimit {
   /// To be called before so many pieces of work of some hundred nanoseconds each. Throws TimeIsUp.
   void check(std::uint32_t pieces = 1) {
     // A question that double could not decide may take as long as many pieces.
-    constexpr std::uint32_t pieces_a_look = 32;
+    constexpr std::uint32_t pieces_a_check = 32;
     pieces_ += pieces;
-    if (pieces_ < pieces_a_look && count_.exact == exact_seen_) return;
+    if (pieces_ < pieces_a_check && count_.exact == exact_seen_) return;
     pieces_ = 0;
     exact_seen_ = count_.exact;
     check_for({});
@@ -44,7 +44,7 @@ class TimeLimit {
  private:
   Clock::time_point deadline_;
   const DecisionCount& count_;
-  std::uint32_t pieces_ = ~std::uint32_t{0} / 2;  ///< since the last look, of which there was none yet
+  std::uint32_t pieces_ = ~std::uint32_t{0} / 2;  ///< since the last check, of which there was none yet
   std::uint64_t exact_seen_ = 0;
 };
 

@@ -9,8 +9,8 @@
 namespace graze {
 namespace {
 
-ContactName middles_of(const Region& a, const Region& b) {
-  return ContactName::of(vertex_piece(a.middle), vertex_piece(b.middle));
+FeaturePairKey middles_of(const Region& a, const Region& b) {
+  return FeaturePairKey::of(vertex_piece(a.middle), vertex_piece(b.middle));
 }
 
 double epsilon_of(const SurfacePair& pair, const PairQuery& query, const Region& a, const Region& b) {
@@ -20,7 +20,7 @@ double epsilon_of(const SurfacePair& pair, const PairQuery& query, const Region&
   return query.epsilon[std::min(level, last) - 1];
 }
 
-/// What is nearer than the threshold, for a look at pairs of vertices.
+/// The range of a search for pairs of vertices nearer than the threshold.
 struct BelowThreshold {
   double threshold;
 
@@ -32,12 +32,12 @@ struct BelowThreshold {
 class Paper {
  public:
   Paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch, WorkMeter& meter,
-        std::vector<ContactName>& names)
+        std::vector<FeaturePairKey>& keys)
       : pair_(pair),
         query_(query),
         scratch_(scratch),
         meter_(meter),
-        names_(names),
+        keys_(keys),
         bounds_(pair.a, pair.b, RefitOf::vertices),
         nearest_(pair, Ties::lowest, scratch.closest) {}
 
@@ -54,8 +54,8 @@ class Paper {
         [&](const RegionPair& leaves, const Region& a, const Region& b) {
           dv({a, pair_.a.vertex_boxes()[leaves.a]}, {b, pair_.b.vertex_boxes()[leaves.b]});
         });
-    std::sort(names_.begin(), names_.end());
-    names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+    std::sort(keys_.begin(), keys_.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
     return found_;
   }
 
@@ -73,45 +73,45 @@ class Paper {
   /// shrinks.
   void dv(const LeafOf& leaf_a, const LeafOf& leaf_b) {
     ++meter_.counters().leaf_pairs_tested;
-    ContactName name = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaves, scratch_.leaf_closest);
-    nearest_.offer(name);
-    found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(name.a().feature.index),
-                                                         pair_.b.position(name.b().feature.index)));
+    FeaturePairKey key = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaves, scratch_.leaf_closest);
+    nearest_.offer(key);
+    found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(key.a().feature.index),
+                                                         pair_.b.position(key.b().feature.index)));
     if (query_.detail == ContactDetail::vertices) return add_close_vertices(leaf_a, leaf_b);
-    while (step_to_neighbour(name)) {
+    while (step_to_neighbour(key)) {
     }
-    nearest_.offer(name);
-    if (is_closer_than(pair_, name, query_.threshold)) names_.push_back(name);
+    nearest_.offer(key);
+    if (is_closer_than(pair_, key, query_.threshold)) keys_.push_back(key);
   }
 
   void add_close_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b) {
     const BelowThreshold range{query_.threshold};
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch_.leaves, range,
                          [&](std::uint32_t a, std::uint32_t b) {
-                           const auto name = ContactName::of(vertex_piece(a), vertex_piece(b));
-                           if (is_closer_than(pair_, name, query_.threshold)) names_.push_back(name);
+                           const auto key = FeaturePairKey::of(vertex_piece(a), vertex_piece(b));
+                           if (is_closer_than(pair_, key, query_.threshold)) keys_.push_back(key);
                          });
   }
 
   /// Moves both ends to the nearest of their neighbours and themselves; false where nothing is nearer.
-  bool step_to_neighbour(ContactName& name) {
+  bool step_to_neighbour(FeaturePairKey& key) {
     scratch_.leaf_closest.clear();
     ClosestSet around(pair_, Ties::lowest, scratch_.leaf_closest);
-    around.offer(name);
-    const std::uint32_t a = name.a().feature.index;
-    const std::uint32_t b = name.b().feature.index;
+    around.offer(key);
+    const std::uint32_t a = key.a().feature.index;
+    const std::uint32_t b = key.b().feature.index;
     const auto offer = [&](std::uint32_t to_a, std::uint32_t to_b) {
       if (lower_distance(pair_.a.position(to_a), pair_.b.position(to_b)) <= around.upper())
-        around.offer(ContactName::of(vertex_piece(to_a), vertex_piece(to_b)));
+        around.offer(FeaturePairKey::of(vertex_piece(to_a), vertex_piece(to_b)));
     };
     for (const std::uint32_t to_a : pair_.a.mesh().vertex_neighbours(a)) {
       offer(to_a, b);
       for (const std::uint32_t to_b : pair_.b.mesh().vertex_neighbours(b)) offer(to_a, to_b);
     }
     for (const std::uint32_t to_b : pair_.b.mesh().vertex_neighbours(b)) offer(a, to_b);
-    const ContactName nearest = around.front();
-    if (compare_distances(pair_, nearest, name) >= 0) return false;
-    name = nearest;
+    const FeaturePairKey nearest = around.front();
+    if (compare_distances(pair_, nearest, key) >= 0) return false;
+    key = nearest;
     return true;
   }
 
@@ -119,7 +119,7 @@ class Paper {
   const PairQuery& query_;
   PaperScratch& scratch_;
   WorkMeter& meter_;
-  std::vector<ContactName>& names_;
+  std::vector<FeaturePairKey>& keys_;
   RegionBounds bounds_;
   ClosestSet nearest_;
   PaperFound found_;
@@ -132,8 +132,8 @@ bool passes_as_in_paper(const SurfacePair& pair, const PairQuery& query, const R
 }
 
 PaperFound find_as_in_paper(const SurfacePair& pair, const PairQuery& query, PaperScratch& scratch,
-                            WorkMeter& meter, std::vector<ContactName>& names) {
-  return Paper(pair, query, scratch, meter, names).run();
+                            WorkMeter& meter, std::vector<FeaturePairKey>& keys) {
+  return Paper(pair, query, scratch, meter, keys).run();
 }
 
 }  // namespace graze

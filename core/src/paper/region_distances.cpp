@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "core/base/cut_by_work.hpp"
 #include "core/mesh/pair_room.hpp"
-#include "names/contact_name.hpp"
 #include "pair/bounds.hpp"
 #include "paper/paper.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 /// Pairs tested by a slice, some tens of microseconds of work.
 constexpr std::size_t pairs_each = 256;
 
-/// The regions that take a region's place one level down: a leaf stays.
+/// The regions that replace a region one level down: a leaf stays.
 struct Below {
   Below(const Region& region, std::uint32_t index)
       : first(region.is_leaf() ? index : region.first_child),
@@ -26,7 +26,7 @@ struct Below {
 
 }  // namespace
 
-/// One thread's look at the pairs below others.
+/// The test by one thread of the pairs below others.
 class RegionDistances::Test {
  public:
   explicit Test(const RegionDistances& walk)
@@ -80,7 +80,7 @@ class RegionDistances::Test {
   DecisionCount decisions_;
   const SurfacePair pair_;
   const RegionBounds bounds_;
-  const std::size_t room_;  ///< places left when the level was cut
+  const std::size_t room_;  ///< room left when the level was cut
 };
 
 /// The pair of roots is where the walk begins and no distance of its own.
@@ -111,8 +111,8 @@ void RegionDistances::run_slice(std::size_t index) {
   const Test test(*this);
   Slice& slice = slices_[index];
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
-    constexpr std::size_t looks_at_clock_every = 16;
-    if ((i - slice.begin) % looks_at_clock_every == 0 && is_late()) {
+    constexpr std::size_t clock_check_interval = 16;
+    if ((i - slice.begin) % clock_check_interval == 0 && is_late()) {
       slice.left_out += slice.end - i;
       return;
     }
@@ -152,7 +152,7 @@ RegionDistances::Slice& RegionDistances::add_slice(std::size_t begin, std::size_
   return slice;
 }
 
-/// Lists what the slices found, as far as there are places.
+/// Lists the slices' results, as far as there is room.
 void RegionDistances::gather() {
   auto& listed = answer_->region_distances;
   level_begin_ = listed.size();
@@ -175,7 +175,7 @@ void RegionDistances::cut() {
       [&](std::size_t begin, std::size_t end) { add_slice(begin, end); });
 }
 
-/// How many pairs take its place one level down.
+/// How many pairs replace it one level down.
 std::size_t RegionDistances::count_below(const RegionDistance& listed) const {
   const Region& a = a_->mesh().regions().region(listed.region_a);
   const Region& b = b_->mesh().regions().region(listed.region_b);

@@ -9,14 +9,14 @@
 
 namespace graze {
 
-/// The distances of a pair that are alive (the paper's cd, section 3.2): walks the regions level by level and
-/// lists the pairs that pass the mode's test, until there are `query.region_distance_limit`. What lies below
-/// those that have no place is not looked at.
+/// The distances of a pair that are alive (the paper's cd, section 3.2). Walks the regions level by level and
+/// lists the pairs that pass the mode's test, until there are `query.region_distance_limit`. Pairs below
+/// those that find no room are not tested.
 ///
 /// A level is cut into slices by the pairs listed in the level above. A slice tests the pairs below its own
-/// and writes what is alive to its own place, so slices may run on any threads in any order; `advance` lists
-/// it in the slices' order. How a level is cut shows nowhere. What is below those that are listed when the
-/// query's deadline comes is not looked at.
+/// and writes the alive ones to its own memory, so slices may run on any threads in any order. `advance`
+/// lists them in the slices' order. How a level is cut shows nowhere. Pairs below those that are listed when
+/// the query's deadline comes are not tested.
 class RegionDistances {
  public:
   /// Both surfaces are refitted now; what is pointed to stays until all is listed. `sliced`: a level may be
@@ -29,7 +29,7 @@ class RegionDistances {
   [[nodiscard]] std::size_t slice_count() const { return slice_count_; }
   void run_slice(std::size_t index);
 
-  /// Of walks that are not cut.
+  /// Reserves as much as another walk has. Neither is cut into slices.
   void reserve_as(const RegionDistances& other);
   void reserve(const PairRoom& room);
   [[nodiscard]] std::size_t byte_count() const;
@@ -39,7 +39,7 @@ class RegionDistances {
     std::size_t begin = 0;  ///< a range of what is listed
     std::size_t end = 0;
     std::vector<RegionDistance> alive;
-    std::uint64_t left_out = 0;  ///< alive, and certainly without a place
+    std::uint64_t left_out = 0;  ///< alive, and certainly without room
   };
   class Test;
 

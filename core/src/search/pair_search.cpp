@@ -32,7 +32,7 @@ constexpr std::size_t closest_each = 64;
 constexpr std::size_t leaf_pairs_each = 8;
 constexpr std::size_t blocks_each = 64;
 
-/// At least so long a name takes to be found.
+/// At least so long a key takes to be found.
 constexpr std::chrono::nanoseconds to_find_one{5};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -44,20 +44,22 @@ float rounded_down(double lower) {
   return lower < least ? 0 : static_cast<float>(std::min(lower, most) * (1 - 0x1p-23));
 }
 
-/// Takes up what looks into two leaves say of them now, after a motion since they were listed.
+/// Updates the bound of two listed leaves by the result of testing them now, after a motion since they were
+/// listed.
 void raise(ListedLeaves& listed, const LeafPair& now, double motion) {
-  listed.looked =
-      std::max(listed.looked, rounded_down((static_cast<double>(now.looked) + motion) * round_down));
+  listed.feature_lower_bound =
+      std::max(listed.feature_lower_bound,
+               rounded_down((static_cast<double>(now.feature_lower_bound) + motion) * round_down));
 }
 
-/// Of sorted names at distance 0 the first of an edge that pierces a face. At threshold 0 that alone is
-/// contact: what touches there is not below the threshold.
-const ContactName& lowest_piercing(const std::vector<ContactName>& names) {
-  return *std::find_if(names.begin(), names.end(), is_edge_through_face);
+/// Returns the first of some sorted keys at distance 0 whose edge pierces a face. At threshold 0 only that is
+/// contact, since touching is not below the threshold.
+const FeaturePairKey& lowest_piercing(const std::vector<FeaturePairKey>& keys) {
+  return *std::find_if(keys.begin(), keys.end(), is_edge_through_face);
 }
 
-/// Puts the leaf pairs that are not further than a distance first, by their lower bounds, and returns how
-/// many they are; the others are not looked into, and stay in no order.
+/// Puts the leaf pairs that are not further than a distance first, sorted by their lower bounds, and returns
+/// how many they are. The others are not tested, and stay in no order.
 std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance, const TouchingOrder& order) {
   const auto rest = std::partition(leaves.begin(), leaves.end(),
                                    [&](const LeafPair& each) { return each.lower <= distance; });
@@ -107,7 +109,7 @@ void PairSearch::go_on(Worker& worker) {
 void PairSearch::run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters) {
   Worker worker(*this, scratch, counters);
   bool& complete = stage_ == Stage::ordered ? stretches_[index].complete : slices_[index].complete;
-  // Of those that come too late none need be begun, and none throws.
+  // A slice that comes too late is not begun, so that it does not throw either.
   complete = !worker.time.is_set() || worker.time.left() > std::chrono::nanoseconds(0);
   if (!complete) return;
   try {
@@ -154,35 +156,35 @@ void PairSearch::next_stage(Worker& worker) {
 
 void PairSearch::run(Slice& slice, Worker& worker) {
   if (!sliced_) {
-    reserve_until_deadline(slice.names, to_find_one, worker.pair.time);
+    reserve_until_deadline(slice.keys, to_find_one, worker.pair.time);
     if (is_listing_) reserve_until_deadline(slice.near, to_find_one, worker.pair.time);
   }
   switch (stage_) {
     case Stage::listed:
       run_listed(slice, worker);
-      return bin_names(slice, worker);
+      return bin_keys(slice, worker);
     case Stage::reach:
       return run_reach(slice, worker);
     case Stage::contacts:
       run_contacts(slice, worker);
-      return bin_names(slice, worker);
+      return bin_keys(slice, worker);
     case Stage::vertices:
       run_vertices(slice, worker);
-      return bin_names(slice, worker);
+      return bin_keys(slice, worker);
     case Stage::measured:
       return run_measured(slice, worker);
     case Stage::approach:
       return run_approach(slice, worker);
     case Stage::closest:
       seed(slice);
-      slice.complete = look_into(slice.begin, slice.end, slice.closest, worker);
+      slice.complete = test_leaves(slice.begin, slice.end, slice.closest, worker);
       return;
     default:
       return;
   }
 }
 
-/// What is swapped with each other has the same room, so that it does not matter how often.
+/// Lists that are swapped with each other get the same room, so that it does not matter how often they are.
 void PairSearch::reserve_as(const PairSearch& other) {
   if (other.slices_.empty()) return;
   if (slices_.empty()) slices_.emplace_back();
@@ -191,11 +193,11 @@ void PairSearch::reserve_as(const PairSearch& other) {
   found_.leaves.reserve(leaves);
   slices_.front().found.leaves.reserve(leaves);
   graze::reserve_as(slices_.front().near, other.slices_.front().near);
-  const std::size_t names = std::max(other.names_.capacity(), other.slices_.front().names.capacity());
-  names_.reserve(names);
-  slices_.front().names.reserve(names);
+  const std::size_t keys = std::max(other.keys_.capacity(), other.slices_.front().keys.capacity());
+  keys_.reserve(keys);
+  slices_.front().keys.reserve(keys);
   stretches_.reserve(1);
-  nearest_names_.reserve_as(other.nearest_names_);
+  nearest_keys_.reserve_as(other.nearest_keys_);
   graze::reserve_as(near_blocks_, other.near_blocks_);
   graze::reserve_as(closest_.closest, other.closest_.closest);
 }
@@ -203,20 +205,19 @@ void PairSearch::reserve_as(const PairSearch& other) {
 void PairSearch::reserve(const PairRoom& room) {
   if (slices_.empty()) slices_.emplace_back();
   for (auto* const leaves : {&found_.leaves, &slices_.front().found.leaves}) leaves->reserve(room.leaf_pairs);
-  for (auto* const names : {&names_, &slices_.front().names})
-    names->reserve(names_of_contact * room.contacts);
-  slices_.front().near.reserve(names_of_contact * room.contacts);
+  for (auto* const keys : {&keys_, &slices_.front().keys}) keys->reserve(keys_of_contact * room.contacts);
+  slices_.front().near.reserve(keys_of_contact * room.contacts);
   stretches_.reserve(1);
   graze::reserve(near_blocks_, room);
   graze::reserve(closest_.closest, room);
 }
 
 std::size_t PairSearch::byte_count() const {
-  std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(names_) +
+  std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves) + bytes_of(keys_) +
                       bytes_of(stretches_) + bytes_of(runs_) + bytes_of(near_blocks_) +
-                      bytes_of(closest_.closest) + nearest_names_.byte_count();
+                      bytes_of(closest_.closest) + nearest_keys_.byte_count();
   for (const Slice& slice : slices_)
-    bytes += bytes_of(slice.found.leaves) + bytes_of(slice.near) + bytes_of(slice.names) +
+    bytes += bytes_of(slice.found.leaves) + bytes_of(slice.near) + bytes_of(slice.keys) +
              bytes_of(slice.runs) + bytes_of(slice.closest.closest);
   return bytes;
 }
@@ -231,7 +232,7 @@ PairSearch::Slice& PairSearch::add_slice() {
   slice.complete = true;
   slice.found.clear();
   slice.near.clear();
-  slice.names.clear();
+  slice.keys.clear();
   slice.near_is_too_long = false;
   slice.closest.clear();
   return slice;
@@ -261,9 +262,9 @@ void PairSearch::slice_front() {
   add_slices_of(0, front_->leaves.size(), front_pairs_each);
 }
 
-/// What a slice of the front has that is not further than a distance.
+/// Selects from a slice of the front the pairs that are not further than a distance.
 void PairSearch::take_front(Slice& slice, double distance, Worker& worker) const {
-  worker.leaf_pairs.take(*front_, slice.begin, slice.end, distance, certainly_apart_, slice.found);
+  worker.leaf_pairs.select_from(*front_, slice.begin, slice.end, distance, certainly_apart_, slice.found);
 }
 
 /// Walks until there is enough for many slices; what was found on the way is that of the first slice.
@@ -291,12 +292,12 @@ void PairSearch::gather_found() {
   for (std::size_t i = 0; i < slice_count_; ++i) {
     const LeafPairList& found = slices_[i].found;
     found_.leaves.insert(found_.leaves.end(), found.leaves.begin(), found.leaves.end());
-    found_.beyond = std::min(found_.beyond, found.beyond);
+    found_.unlisted_lower_bound = std::min(found_.unlisted_lower_bound, found.unlisted_lower_bound);
   }
 }
 
-/// After a walk: makes its leaf pairs the front, but for those that do not matter before the surfaces have
-/// moved by the slack, where what is looked for is nearer than `wanted`.
+/// Makes the leaf pairs of a walk the front. Leaves out those that do not matter before the surfaces have
+/// moved by the slack, for a search within `wanted`.
 void PairSearch::remember(double wanted, Worker& worker) {
   front_->forget_leaves();
   front_->reached_bits = static_cast<std::uint8_t>(std::bit_width(found_.leaves.size()));
@@ -311,11 +312,11 @@ void PairSearch::remember(double wanted, Worker& worker) {
   reserve_for_one_of_many(front_->leaves, count, query_.front_limit);
   for (const LeafPair& leaves : found_.leaves) {
     if (is_listed(leaves))
-      front_->leaves.push_back({leaves.pair, rounded_down(leaves.lower), leaves.looked});
+      front_->leaves.push_back({leaves.pair, rounded_down(leaves.lower), leaves.feature_lower_bound});
     else
-      found_.beyond = std::min(found_.beyond, leaves.lower);
+      found_.unlisted_lower_bound = std::min(found_.unlisted_lower_bound, leaves.lower);
   }
-  front_->beyond = found_.beyond;
+  front_->unlisted_lower_bound = found_.unlisted_lower_bound;
   front_->apart = 0;
   front_->travel_a = a_->travel();
   front_->travel_b = b_->travel();
@@ -327,31 +328,31 @@ void PairSearch::give_up() {
   PairDetector::outer_bounds(*a_, *b_, query_, *answer_);
 }
 
-void PairSearch::set_distance(Worker& worker, const ContactName& nearest) {
+void PairSearch::set_distance(Worker& worker, const FeaturePairKey& nearest) {
   answer_->distance = rounded_distance(worker.pair, nearest);
   answer_->witness = witness_of(measure_without_sides(worker.pair, nearest));
 }
 
 // ---- All contacts of a detail; where there are none, the closest points
 
-/// Whether pairs of leaves this far apart can have a contact, or what is to be listed; surfaces pierce each
+/// Whether pairs of leaves this far apart can have a contact, or features to be listed. Surfaces pierce each
 /// other at every threshold.
 bool PairSearch::may_touch(double lower) const {
   return lower < wanted_ || (query_.detail == ContactDetail::features && lower == 0);
 }
 
-/// The same of what comes nearer by the slack that a walk asks about.
+/// As `may_touch`, for pairs that may come nearer by the slack that a walk asks about.
 auto PairSearch::may_touch_within_slack() const {
   return [this](double lower, double slack) { return may_touch(std::max(0.0, lower - slack)); };
 }
 
 void PairSearch::begin_contact(Worker& worker) {
-  if (is_limited()) nearest_names_.begin(query_.contact_limit);
+  if (is_limited()) nearest_keys_.begin(query_.contact_limit);
   begin_listing();
   if (stage_ == Stage::listed) return;
   if (query_.detail == ContactDetail::vertices) return begin_vertices(worker);
   stage_ = Stage::reach;
-  from_front_ = front_->beyond_now(*a_, *b_) > wanted_;
+  from_front_ = front_->unlisted_lower_bound_now(*a_, *b_) > wanted_;
   if (from_front_) return slice_front();
   slice_walk(worker, may_touch_within_slack(), [](const RegionPair&) {});
 }
@@ -370,8 +371,8 @@ void PairSearch::run_vertices(Slice& slice, Worker& worker) {
   NearVertices vertices(worker.pair, wanted_, near_blocks_, worker.scratch.vertices);
   const std::size_t each = is_limited() ? 1 : slice.end - slice.begin;
   for (std::size_t begin = slice.begin; begin < slice.end && slice.complete; begin += each) {
-    slice.complete = vertices.name(begin, begin + each, threshold_now(worker), worker.meter, slice.names,
-                                   listing_in(slice));
+    slice.complete =
+        vertices.key(begin, begin + each, threshold_now(worker), worker.meter, slice.keys, listing_in(slice));
     hand_over_if_many(slice, worker);
   }
 }
@@ -397,7 +398,7 @@ void PairSearch::begin_contacts(Worker& worker) {
   slice_leaves_in_contact();
 }
 
-/// Cuts the leaf pairs found so that every slice has as many to look into.
+/// Cuts the leaf pairs found so that every slice has as many to test.
 void PairSearch::slice_leaves_in_contact() {
   const auto& leaves = found_.leaves;
   if (!sliced_) return add_slices_of(0, leaves.size(), leaves.size());
@@ -408,7 +409,7 @@ void PairSearch::slice_leaves_in_contact() {
 
 void PairSearch::run_contacts(Slice& slice, Worker& worker) {
   worker.begin_leaves(found_);
-  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names,
+  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.keys,
                          listing_in(slice));
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = found_.leaves[i];
@@ -434,19 +435,19 @@ void PairSearch::run_contacts(Slice& slice, Worker& worker) {
 
 void PairSearch::add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const {
   SearchScratch& scratch = worker.scratch;
-  const ContactName name = closest_vertices(worker.pair, a, b, scratch.features, scratch.nearest_of_leaves);
-  if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
+  const FeaturePairKey key = closest_vertices(worker.pair, a, b, scratch.features, scratch.nearest_of_leaves);
+  if (is_closer_than(worker.pair, key, query_.threshold)) slice.keys.push_back(key);
 }
 
 // ---- The closest points
 
-/// ContactDetail::closest wants all names at the least distance; the distance alone needs one.
+/// ContactDetail::closest wants all keys at the least distance; the distance alone needs one.
 Ties PairSearch::ties() const {
   return query_.detail == ContactDetail::closest ? Ties::all : Ties::lowest;
 }
 
-/// Surfaces that touched mostly still do, and then one place where they do is enough: that is looked for
-/// first, with nothing else to be near.
+/// Surfaces that touched mostly still do, and then one point where they do is enough. That is searched for
+/// first, alone.
 void PairSearch::begin_approach(Worker& worker) {
   answer_->contacts.clear();
   if (query_.detail == ContactDetail::vertices) return approach_vertices(worker);
@@ -466,16 +467,16 @@ void PairSearch::approach_vertices(Worker& worker) {
   if (!vertices.offer(worker.meter, range)) return give_up();
   slice_count_ = 0;
   stage_ = Stage::done;
-  if (!closest_.closest.names.empty()) report_closest(worker);
+  if (!closest_.closest.keys.empty()) report_closest(worker);
 }
 
 void PairSearch::begin_search(Worker& worker) {
-  beyond_front_ = front_->beyond_now(*a_, *b_);
-  from_front_ = beyond_front_ > 0;
+  unlisted_lower_bound_ = front_->unlisted_lower_bound_now(*a_, *b_);
+  from_front_ = unlisted_lower_bound_ > 0;
   certainly_apart_ = from_front_ && static_cast<double>(front_->apart) > front_->motion_now(*a_, *b_);
   found_.clear();
   closest_.clear();
-  if (only_touching_) return look_for_touching(worker);
+  if (only_touching_) return find_touching(worker);
   ClosestRange range(worker.pair, query_, ties(), closest_);
   range.offer_middles({});
   const double of_roots = closest_.closest.upper;
@@ -491,7 +492,7 @@ auto PairSearch::offering_middles(ClosestRange& range) const {
   };
 }
 
-/// Finds the pairs of leaves to look into.
+/// Finds the pairs of leaves to test.
 void PairSearch::approach(Worker& worker) {
   stage_ = Stage::approach;
   if (from_front_) return slice_front();
@@ -503,7 +504,7 @@ void PairSearch::approach(Worker& worker) {
 /// A slice goes on from what was known when it was cut, not from what others find meanwhile.
 void PairSearch::seed(Slice& slice) const {
   slice.closest.clear();
-  if (!closest_.closest.names.empty()) slice.closest.closest.names.assign(closest_.closest.names.front());
+  if (!closest_.closest.keys.empty()) slice.closest.closest.keys.assign(closest_.closest.keys.front());
   slice.closest.closest.upper = closest_.closest.upper;
 }
 
@@ -519,13 +520,13 @@ void PairSearch::run_approach(Slice& slice, Worker& worker) {
 
 void PairSearch::take_up_closest(Worker& worker) {
   ClosestSet set(worker.pair, ties(), closest_.closest);
-  for (std::size_t i = 0; i < slice_count_ && !set.is_settled(query_.threshold); ++i) {
+  for (std::size_t i = 0; i < slice_count_ && !set.is_decided(query_.threshold); ++i) {
     const ClosestFound& found = slices_[i].closest;
-    for (const ContactName& name : found.closest.names.names()) set.offer(name);
+    for (const FeaturePairKey& key : found.closest.keys.keys()) set.offer(key);
     closest_.closest.pierced = closest_.closest.pierced || found.closest.pierced;
     closest_.lower = std::min(closest_.lower, found.lower);
   }
-  set.settle();
+  set.merge_runs();
 }
 
 void PairSearch::begin_closest(Worker& worker) {
@@ -536,31 +537,31 @@ void PairSearch::begin_closest(Worker& worker) {
   auto& leaves = found_.leaves;
   const std::size_t near = sort_near_first(leaves, closest_.closest.upper, touching_order());
   const std::size_t first = sliced_ ? std::min(near, closest_first) : near;
-  if (!look_into(0, first, closest_, worker)) return give_up();
+  if (!test_leaves(0, first, closest_, worker)) return give_up();
   // Leaf pairs are kept or not by their lower bounds alone, which ascend.
   ClosestRange range(worker.pair, query_, ties(), closest_);
   std::size_t end = first;
-  while (end < near && !range.is_settled() && range.keep(leaves[end].lower)) ++end;
+  while (end < near && !range.is_decided() && range.keep(leaves[end].lower)) ++end;
   add_slices_of(first, end, closest_each);
 }
 
-/// Looks into a range of the leaf pairs found, as far as need be; false when the budget ran out.
+/// Tests a range of the leaf pairs found, as far as need be; false when the budget ran out.
 ///
-/// Leaf pairs whose boxes overlap now are the same ones, in the same order, whatever was known of earlier
-/// steps, so a witness at distance 0 does not depend on those either.
-bool PairSearch::look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) {
+/// Leaf pairs whose boxes overlap now are always these, in this order, whatever was known of earlier steps.
+/// So a witness at distance 0 does not depend on those either.
+bool PairSearch::test_leaves(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker) {
   worker.begin_leaves(found_);
   ClosestRange range(worker.pair, query_, ties(), found, !certainly_apart_);
-  for (std::size_t i = begin; i < end && !range.is_settled(); ++i) {
+  for (std::size_t i = begin; i < end && !range.is_decided(); ++i) {
     LeafPair& leaves = found_.leaves[i];
     if (!range.keep(leaves.lower)) continue;
-    if (!look_into(leaves, range, worker)) return false;
+    if (!test_leaves(leaves, range, worker)) return false;
   }
   return true;
 }
 
-/// Looks into two leaves, and says of them what is known then; false when the budget ran out.
-bool PairSearch::look_into(LeafPair& leaves, ClosestRange& range, Worker& worker) const {
+/// Tests two leaves, and updates their bounds; false when the budget ran out.
+bool PairSearch::test_leaves(LeafPair& leaves, ClosestRange& range, Worker& worker) const {
   if (!worker.meter.spend()) return false;
   ++worker.meter.counters().leaf_pairs_tested;
   const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
@@ -568,20 +569,20 @@ bool PairSearch::look_into(LeafPair& leaves, ClosestRange& range, Worker& worker
   if (about_vertices())
     range.offer_vertices(a, b, worker.scratch.features);
   else
-    leaves.looked = rounded_down(range.offer_features(a, b, worker.scratch.features));
+    leaves.feature_lower_bound = rounded_down(range.offer_features(a, b, worker.scratch.features));
   return true;
 }
 
 void PairSearch::finish_closest(Worker& worker) {
   take_up_closest(worker);
   slice_count_ = 0;
-  if (closest_.closest.names.empty()) {
+  if (closest_.closest.keys.empty()) {
     only_touching_ = false;
     return begin_search(worker);
   }
   if (from_front_) {
-    // Settled, unless something outside the front may be as near as what is in it.
-    if (ClosestRange(worker.pair, query_, ties(), closest_).keep(beyond_front_)) {
+    // The answer is decided, unless something outside the front may be as near as the nearest in it.
+    if (ClosestRange(worker.pair, query_, ties(), closest_).keep(unlisted_lower_bound_)) {
       from_front_ = certainly_apart_ = false;
       closest_.lower = infinity;
       return approach(worker);
@@ -604,7 +605,7 @@ void PairSearch::set_apart() {
 }
 
 void PairSearch::report_closest(Worker& worker) {
-  const ContactName& nearest = closest_.closest.names.front();
+  const FeaturePairKey& nearest = closest_.closest.keys.front();
   const bool is_below = is_closer_than(worker.pair, nearest, query_.threshold);
   answer_->in_contact = is_below || (!about_vertices() && closest_.closest.pierced);
   const bool in_reach = closest_.lower < query_.reach || is_closer_than(worker.pair, nearest, query_.reach);
@@ -616,9 +617,9 @@ void PairSearch::report_closest(Worker& worker) {
   front_->witness = last_witness_of(worker.pair, nearest, answer_->witness.point_a, answer_->witness.point_b);
   answer_->distance.lower = std::min(answer_->distance.lower, closest_.lower);
   if (query_.detail != ContactDetail::closest || !answer_->in_contact) return;
-  const auto& names = closest_.closest.names.names();
-  answer_->contacts.push_back(is_below ? closest_contact(worker.pair, names, worker.scratch.parallel)
-                                       : measure(worker.pair, lowest_piercing(names)));
+  const auto& keys = closest_.closest.keys.keys();
+  answer_->contacts.push_back(is_below ? closest_contact(worker.pair, keys, worker.scratch.parallel)
+                                       : measure(worker.pair, lowest_piercing(keys)));
   answer_->witness = witness_of(answer_->contacts.front());
 }
 
@@ -626,23 +627,23 @@ void PairSearch::report_closest(Worker& worker) {
 
 void PairSearch::as_in_paper(Worker& worker) {
   answer_->contacts.clear();
-  names_.clear();
-  const PaperFound found = find_as_in_paper(worker.pair, query_, worker.scratch.paper, worker.meter, names_);
+  keys_.clear();
+  const PaperFound found = find_as_in_paper(worker.pair, query_, worker.scratch.paper, worker.meter, keys_);
   if (!found.complete) return give_up();
   stage_ = Stage::done;
   if (is_limited()) {
-    nearest_names_.begin(query_.contact_limit);
-    nearest_names_.add(worker.pair, names_, worker.scratch.measure, worker.scratch.nearest_names);
-    nearest_names_.finish(worker.pair, names_, worker.scratch.lowest);
-    answer_->cut = nearest_names_.is_cut();
+    nearest_keys_.begin(query_.contact_limit);
+    nearest_keys_.add(worker.pair, keys_, worker.scratch.measure, worker.scratch.nearest_keys);
+    nearest_keys_.finish(worker.pair, keys_, worker.scratch.lowest);
+    answer_->cut = nearest_keys_.is_cut();
   }
-  for (const ContactName& name : names_) {
+  for (const FeaturePairKey& key : keys_) {
     worker.pair.check_time();
-    answer_->contacts.push_back(measure(worker.pair, name));
+    answer_->contacts.push_back(measure(worker.pair, key));
   }
-  set_distance(worker, worker.scratch.paper.closest.names.front());
+  set_distance(worker, worker.scratch.paper.closest.keys.front());
   answer_->distance.lower = std::min(answer_->distance.lower, found.lower);
-  answer_->in_contact = !names_.empty();
+  answer_->in_contact = !keys_.empty();
   answer_->listed = answer_->in_contact || answer_->distance.lower < query_.reach;
 }
 

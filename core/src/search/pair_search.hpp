@@ -3,17 +3,17 @@
 #include <span>
 #include <vector>
 
+#include "closest_features/feature_pair_key.hpp"
+#include "closest_features/key_bins.hpp"
+#include "closest_features/key_order.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/pair/pair_answer.hpp"
 #include "core/pair/pair_counters.hpp"
 #include "core/pair/pair_query.hpp"
-#include "leaves/leaf_names.hpp"
+#include "leaves/leaf_feature_pairs.hpp"
 #include "measure/measure_batch.hpp"
-#include "measure/nearest_names.hpp"
+#include "measure/nearest_keys.hpp"
 #include "measure/parallel.hpp"
-#include "names/contact_name.hpp"
-#include "names/name_bins.hpp"
-#include "names/name_order.hpp"
 #include "pair/near_listing.hpp"
 #include "paper/paper.hpp"
 #include "vertices/near_vertices.hpp"
@@ -32,25 +32,26 @@ struct SearchScratch {
   PaperScratch paper;
   Closest lowest;
   ParallelScratch parallel;
-  NameBinning binning;
-  NameOrder order;
+  KeyBinning binning;
+  KeyOrder order;
   MeasureScratch measure;
-  NearestNamesScratch nearest_names;
+  NearestKeysScratch nearest_keys;
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_leaves, self.paper,
-                    self.lowest, self.parallel, self.binning, self.order, self.measure, self.nearest_names);
+                    self.lowest, self.parallel, self.binning, self.order, self.measure, self.nearest_keys);
   }
 };
 
 /// One query about one pair of surfaces: DMV, DV and contact determination, as stages of slices. A slice
-/// reads what the stage has in common and writes its own place, so slices may run on any threads in any
-/// order; between stages `advance` puts the slices' results together in their order. How a stage is cut
+/// reads what the stage has in common and writes its own results, so slices may run on any threads in any
+/// order. Between stages `advance` puts the slices' results together in their order. How a stage is cut
 /// depends on the surfaces and the query only, so the answer does not depend on who ran what.
 class PairSearch {
  public:
-  /// What is pointed to stays until the query is answered. `sliced`: a stage may be of many slices.
+  /// Begins a query. The arguments that are pointed to have to stay until it is answered. `sliced`: a stage
+  /// may be cut into many slices.
   void begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front, PairAnswer& answer,
              bool sliced);
 
@@ -62,20 +63,20 @@ class PairSearch {
   }
   void run_slice(std::size_t index, SearchScratch& scratch, PairCounters& counters);
 
-  /// Of searches that are not cut.
+  /// Reserves as much as another search has. Neither is cut into slices.
   void reserve_as(const PairSearch& other);
   void reserve(const PairRoom& room);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// What the slices that were made last are for.
+  /// The purpose of the slices that were made last.
   enum class Stage : std::uint8_t {
     start,
-    listed,    ///< the names of all contacts among features that an earlier query listed
+    listed,    ///< the keys of all contacts among features that an earlier query listed
     reach,     ///< pairs of leaves that may be in contact
-    contacts,  ///< the names of all contacts in them
-    vertices,  ///< the names of all pairs of vertices in blocks that may be near
-    ordered,   ///< all names sorted, each once: one of the stretches that bins were cut into
+    contacts,  ///< the keys of all contacts in them
+    vertices,  ///< the keys of all pairs of vertices in blocks that may be near
+    ordered,   ///< all keys sorted, each once: one of the stretches that bins were cut into
     measured,  ///< the contacts themselves
     approach,  ///< pairs of leaves where the closest points may be
     closest,   ///< the closest points in them
@@ -83,19 +84,19 @@ class PairSearch {
   };
   struct Slice {
     std::span<const RegionPair> start;  ///< where to walk from
-    std::size_t begin = 0;              ///< a range of a front, a list, of leaf pairs, of blocks or of names
+    std::size_t begin = 0;              ///< a range of a front, a list, of leaf pairs, of blocks or of keys
     std::size_t end = 0;
-    std::size_t first_contact = 0;  ///< where those of a range of names begin
+    std::size_t first_contact = 0;  ///< where those of a range of keys begin
     bool complete = true;
     LeafPairList found;
-    std::vector<NearParts> near;
+    std::vector<FeaturePair> near;
     bool near_is_too_long = false;  ///< and was forgotten
-    std::vector<ContactName> names;
-    std::vector<BinRun> runs;  ///< of `names`, where there are many slices
+    std::vector<FeaturePairKey> keys;
+    std::vector<BinRun> runs;  ///< of `keys`, where there are many slices
     double nearest = 0;        ///< of the contacts that were measured
     ClosestFound closest;
   };
-  /// A range of all names, and from where they come; sorted those that are contacts.
+  /// A range of all keys, and from where they come; sorted those that are contacts.
   struct Stretch {
     std::size_t begin;
     std::size_t end;
@@ -131,36 +132,36 @@ class PairSearch {
   void run_contacts(Slice& slice, Worker& worker);
   void add_closest_vertices(const LeafOf& a, const LeafOf& b, Slice& slice, Worker& worker) const;
   void finish_contacts(Worker& worker);
-  void bin_names(Slice& slice, Worker& worker);
+  void bin_keys(Slice& slice, Worker& worker);
   void finish_nearest(Worker& worker);
   void begin_ordering();
   void order(Stretch& stretch, Worker& worker);
-  [[nodiscard]] std::size_t sort_names(std::span<ContactName> names, Worker& worker) const;
+  [[nodiscard]] std::size_t sort_keys(std::span<FeaturePairKey> keys, Worker& worker) const;
   void begin_measuring(Worker& worker);
   void keep_time_back(std::size_t contacts, Worker& worker);
   void run_measured(Slice& slice, Worker& worker);
   void finish_measuring(Worker& worker);
-  [[nodiscard]] std::span<const ContactName> names_of(const Slice& slice) const;
+  [[nodiscard]] std::span<const FeaturePairKey> keys_of(const Slice& slice) const;
   [[nodiscard]] std::span<Contact> contacts_of(const Slice& slice) const;
-  [[nodiscard]] ContactName lowest_measured(Worker& worker) const;
+  [[nodiscard]] FeaturePairKey lowest_measured(Worker& worker) const;
   [[nodiscard]] bool may_touch(double lower) const;
   [[nodiscard]] auto may_touch_within_slack() const;
 
   void begin_approach(Worker& worker);
   void approach_vertices(Worker& worker);
   void begin_search(Worker& worker);
-  void look_for_touching(Worker& worker);
-  void look_in_front(Worker& worker);
-  void look_in_turn(Worker& worker);
-  [[nodiscard]] bool look_into_overlapping(const RegionPair& start, const TouchingOrder& order,
-                                           ClosestRange& range, Worker& worker);
+  void find_touching(Worker& worker);
+  void test_front(Worker& worker);
+  void walk_touching(Worker& worker);
+  [[nodiscard]] bool test_overlapping(const RegionPair& start, const TouchingOrder& order,
+                                      ClosestRange& range, Worker& worker);
   [[nodiscard]] TouchingOrder touching_order() const;
   [[nodiscard]] auto offering_middles(ClosestRange& range) const;
   void approach(Worker& worker);
   void run_approach(Slice& slice, Worker& worker);
   void begin_closest(Worker& worker);
-  bool look_into(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker);
-  bool look_into(LeafPair& leaves, ClosestRange& range, Worker& worker) const;
+  bool test_leaves(std::size_t begin, std::size_t end, ClosestFound& found, Worker& worker);
+  bool test_leaves(LeafPair& leaves, ClosestRange& range, Worker& worker) const;
   void take_up_closest(Worker& worker);
   void finish_closest(Worker& worker);
   void set_apart();
@@ -178,7 +179,7 @@ class PairSearch {
   void gather_found();
   void remember(double wanted, Worker& worker);
   void sort_front();
-  void set_distance(Worker& worker, const ContactName& nearest);
+  void set_distance(Worker& worker, const FeaturePairKey& nearest);
   [[nodiscard]] Ties ties() const;
   [[nodiscard]] bool about_vertices() const { return is_about_vertices(query_.detail); }
 
@@ -192,7 +193,7 @@ class PairSearch {
   bool is_listing_ = false;       ///< all that is as near
   bool from_front_ = false;       ///< the slices begin at the last query's front
   bool certainly_apart_ = false;  ///< by that front, in a search for the closest points
-  double beyond_front_ = -1;
+  double unlisted_lower_bound_ = -1;
   bool is_bounded_ = false;     ///< by the last answer, so that middle vertices need not be asked
   bool only_touching_ = false;  ///< the search for the closest points is for those at distance 0
 
@@ -202,11 +203,11 @@ class PairSearch {
   std::vector<RegionPair> roots_;  ///< where the slices walk from
   LeafPairList found_;
   NearBlocks near_blocks_;
-  std::vector<ContactName> names_;
-  NearestNames nearest_names_;                      ///< of all slices, where contacts are limited
-  ContactName lowest_;                              ///< likewise, the nearest of all
-  std::vector<Stretch> stretches_;                  ///< of these
-  std::vector<std::span<const ContactName>> runs_;  ///< of the slices' names, by bins
+  std::vector<FeaturePairKey> keys_;
+  NearestKeys nearest_keys_;                           ///< of all slices, where contacts are limited
+  FeaturePairKey lowest_;                              ///< the nearest of all, where contacts are limited
+  std::vector<Stretch> stretches_;                     ///< of these
+  std::vector<std::span<const FeaturePairKey>> runs_;  ///< of the slices' keys, by bins
   ClosestFound closest_;
 };
 

@@ -13,15 +13,15 @@ namespace graze {
 namespace {
 
 constexpr std::size_t listed_each = 1024;
-/// Of what is listed so many are one unit of the budget, as a look into two leaves is.
+/// How many listed pairs cost one unit of the budget. Testing two leaves costs one as well.
 constexpr std::size_t listed_in_one = 64;
-/// So many are put into a pair's list between looks at the clock.
+/// How many pairs are put into a pair's list between two checks of the clock.
 constexpr std::size_t kept_at_once = 1024;
 
 }  // namespace
 
-/// Goes by the list of an earlier query where that is still all that can be in contact; otherwise, where the
-/// surfaces move little, a new one is made on the way.
+/// Uses the list of an earlier query where it still has all that can be in contact. Otherwise, where the
+/// surfaces move little, a new list is made on the way.
 void PairSearch::begin_listing() {
   wanted_ = query_.threshold;
   is_listing_ = false;
@@ -47,15 +47,15 @@ void PairSearch::run_listed(Slice& slice, Worker& worker) {
     slice.complete = worker.meter.spend();
   if (!slice.complete) return;
   if (query_.detail == ContactDetail::vertices) {
-    for (const NearParts& parts : listed) {
-      const ContactName name = ContactName::of(vertex_piece(parts.a.index), vertex_piece(parts.b.index));
+    for (const FeaturePair& parts : listed) {
+      const FeaturePairKey key = FeaturePairKey::of(vertex_piece(parts.a.index), vertex_piece(parts.b.index));
       worker.pair.check_time();
-      if (is_closer_than(worker.pair, name, query_.threshold)) slice.names.push_back(name);
+      if (is_closer_than(worker.pair, key, query_.threshold)) slice.keys.push_back(key);
     }
     return;
   }
   worker.begin_listed();
-  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.names);
+  CloseFeatures features(worker.pair, query_.threshold, worker.scratch.features, slice.keys);
   const std::size_t each = is_limited() ? listed_each : std::max<std::size_t>(1, listed.size());
   for (std::size_t begin = 0; begin < listed.size(); begin += each) {
     features.add_listed(listed.subspan(begin, std::min(each, listed.size() - begin)));
@@ -88,7 +88,7 @@ void PairSearch::keep_list(Worker& worker) {
       near.pairs.insert(near.pairs.end(), some.begin(),
                         some.begin() + static_cast<std::ptrdiff_t>(std::min(some.size(), kept_at_once)));
     }
-  near.beyond = wanted_ * round_down;
+  near.unlisted_lower_bound = wanted_ * round_down;
   near.slack = query_.list_slack;
   near.travel_a = a_->travel();
   near.travel_b = b_->travel();

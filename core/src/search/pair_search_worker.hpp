@@ -20,7 +20,7 @@ class PairSearch::Worker {
         leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {
     scratch.features.begin();
   }
-  /// Before looking into some of the leaf pairs found: all slices see them in one frame.
+  /// Call it before testing some of the leaf pairs found: all slices see them in one frame.
   void begin_leaves(const LeafPairList& found) {
     if (!found.leaves.empty()) begin_leaves(found.leaves.front().pair);
   }

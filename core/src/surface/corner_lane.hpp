@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// Puts a vertex's position in a lane of what a kernel works on.
+/// Puts a vertex's position in a lane of a kernel's batch.
 inline void put_corner(const Surface& surface, std::uint32_t vertex, kernels::Points& points,
                        std::size_t lane) {
   const Eigen::Vector3d position = surface.position(vertex);

@@ -4,12 +4,12 @@
 #include <tuple>
 
 #include "core/surface/surface.hpp"
-#include "surface/made_of_leaves.hpp"
+#include "surface/per_leaf_cache.hpp"
 
 namespace graze {
 
-/// The boxes of one surface's leaves where it is now: those of its refit where that is of now, otherwise made
-/// here when asked for, rather than by a refit of all.
+/// The present boxes of one surface's leaves. They are those of its refit if that is of now. Otherwise they
+/// are made here when asked for, rather than by a refit of all.
 class LeafBoxes {
  public:
   /// For one query; `surface` does not change meanwhile.
@@ -41,7 +41,7 @@ class LeafBoxes {
   const Surface* surface_ = nullptr;
   RefitOf what_ = RefitOf::faces;
   std::span<const Box> fitted_;
-  MadeOfLeaves<Box> made_;
+  PerLeafCache<Box> made_;
 };
 
 }  // namespace graze

@@ -9,8 +9,8 @@
 
 namespace graze {
 
-/// What holds a leaf of a surface tightly where that is nearly flat: a cylinder between two planes, about the
-/// leaf's middle vertex. In float, since a query keeps many.
+/// A tight bound of a leaf that is nearly flat: a cylinder between two planes, about the leaf's middle
+/// vertex. It is in float, since a query keeps many.
 struct LeafSlab {
   static constexpr float beyond = std::numeric_limits<float>::infinity();
 
@@ -27,12 +27,12 @@ struct LeafSlab {
 /// The slab of the corners of a leaf's features.
 LeafSlab slab_of(const Surface& surface, const Region& leaf);
 
-/// Whether what is in two slabs is certainly further apart than a distance; `between` is the way from a's
-/// middle vertex to b's.
+/// Whether the contents of two slabs are certainly further apart than a distance; `between` is the way from
+/// a's middle vertex to b's.
 bool are_apart(const LeafSlab& a, const LeafSlab& b, const Eigen::Vector3d& between, double distance);
 
-/// Whether slabs may say more than boxes about what is within a distance: they do not where that is as large
-/// as a leaf.
+/// Whether slabs may say more than boxes about pairs within a distance: they do not where that is as large as
+/// a leaf.
 inline bool are_worth_slabs(const Box& a, const Box& b, double distance) {
   const double size = std::min((a.max - a.min).maxCoeff(), (b.max - b.min).maxCoeff());
   return distance < size;

@@ -78,7 +78,7 @@ void Surface::PartSeen::add(const PartSeen& later) {
 }
 
 template <typename PositionOf>
-Surface::PartSeen Surface::look(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const {
+Surface::PartSeen Surface::scan(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const {
   PartSeen part;
   Box box;  // these three stay in registers, which `part` does not
   double furthest_squared = 0;
@@ -125,7 +125,7 @@ Surface::ReadResult Surface::result_of(const PartSeen& all) const {
   return result;
 }
 
-/// Of good positions.
+/// Counts a read of good positions.
 void Surface::count_read(const ReadResult& result, const Box& now) {
   is_behind_ = false;
   displacement_ = result.displacement;
@@ -134,7 +134,7 @@ void Surface::count_read(const ReadResult& result, const Box& now) {
     count_motion(result.displacement * round_up + lost_to_underflow, std::exchange(box_, now));
 }
 
-Surface::ReadResult Surface::take(const PartSeen& all) {
+Surface::ReadResult Surface::accept(const PartSeen& all) {
   const ReadResult result = result_of(all);
   if (result.changed) own_positions(all.in_double);
   if (result.taken()) count_read(result, all.box);
@@ -179,7 +179,7 @@ void Surface::view(const PositionView& view, const Box& box) {
   count_motion(displacement_, std::exchange(box_, box));
 }
 
-/// A motion beyond the object's size is a jump: what was known before it is of no use, and the sum of all
+/// A motion beyond the object's size is a jump. Everything known before it is of no use, and the sum of all
 /// motions would stay too coarse for the small ones that follow.
 void Surface::count_motion(double displacement, const Box& before) {
   ++version_;
@@ -210,7 +210,7 @@ double Surface::leaf_size() const {
 }
 
 Surface::ReadResult Surface::set_positions(const PositionView& view) {
-  ReadResult result = take(look_at_positions(view, 0, mesh_->vertex_count()));
+  ReadResult result = accept(scan_positions(view, 0, mesh_->vertex_count()));
   if (result.changed) write_positions(view, 0, mesh_->vertex_count());
   return result;
 }
@@ -234,7 +234,7 @@ Box box_of(const kernels::PositionsSeen<Number>& seen) {
   return box;
 }
 
-/// What fast passes see of packed positions; nothing where one of them is bad.
+/// Surveys packed positions by fast passes; nothing where one of them is bad.
 template <typename Number>
 std::optional<Surface::PartSeen> seen_in_survey(const void* now, std::uint32_t begin, std::uint32_t end) {
   kernels::PositionsSeen<Number> seen{};
@@ -252,7 +252,8 @@ std::optional<Surface::PartSeen> seen_in_survey(const PositionView& view, std::u
                           : seen_in_survey<float>(view.data(), begin, end);
 }
 
-/// The same of what comes in another precision than before, as at first: that it may be anywhere else.
+/// Surveys positions that come in another precision than before, or first of all. They count as moved by any
+/// distance.
 std::optional<Surface::PartSeen> seen_as_jump(const PositionView& view, std::uint32_t begin,
                                               std::uint32_t end) {
   auto part = seen_in_survey(view, begin, end);
@@ -262,7 +263,7 @@ std::optional<Surface::PartSeen> seen_as_jump(const PositionView& view, std::uin
   return part;
 }
 
-/// What is seen in a survey of any positions, one by one.
+/// Surveys any positions, one by one.
 Surface::PartSeen seen_one_by_one(const IndexedMesh& mesh, const PositionView& view, std::uint32_t begin,
                                   std::uint32_t end) {
   Surface::PartSeen part;
@@ -279,8 +280,8 @@ Surface::PartSeen seen_one_by_one(const IndexedMesh& mesh, const PositionView& v
   return part;
 }
 
-/// What fast passes see of positions that lie as the ones before do, compared with them; nothing where one of
-/// them is bad.
+/// Compares positions by fast passes with those before, which lie in the same way; nothing where one of them
+/// is bad.
 template <typename Number>
 std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* before, std::uint32_t begin,
                                                 std::uint32_t end, Surface::Displacement displacement) {
@@ -322,8 +323,8 @@ bool Surface::can_view(const PositionView& view) const {
   return is_packed(*mesh_, view);
 }
 
-Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
-                                             Displacement displacement) const {
+Surface::PartSeen Surface::scan_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
+                                          Displacement displacement) const {
   std::optional<PartSeen> part;
   const void* const before = positions().data();
   if (begin < end && is_laid_out_like(view))
@@ -331,7 +332,7 @@ Surface::PartSeen Surface::look_at_positions(const PositionView& view, std::uint
                             : seen_in_passes<float>(view.data(), before, begin, end, displacement);
   else if (begin < end && displacement == Displacement::bound && is_packed(*mesh_, view))
     part = seen_as_jump(view, begin, end);
-  if (!part) part = look(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
+  if (!part) part = scan(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
   part->in_double = view.is_double();
   return *part;
 }
@@ -344,15 +345,16 @@ Surface::PartSeen Surface::survey(const IndexedMesh& mesh, const PositionView& v
   return *part;
 }
 
-Surface::PartSeen Surface::look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
-                                        std::uint32_t end) const {
-  return look(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
+Surface::PartSeen Surface::scan_pose(const std::array<double, 12>& rows, std::uint32_t begin,
+                                     std::uint32_t end) const {
+  return scan(begin, end, [&](std::uint32_t vertex) { return posed(rows, mesh_->rest()[vertex]); });
 }
 
 namespace {
 
-/// The same as `posed` of each point, x and y at once.
-void place(const std::array<double, 12>& rows, std::span<const Eigen::Vector3d> rest, Eigen::Vector3d* now) {
+/// Computes `posed` of each point, x and y at once.
+void pose_vertices(const std::array<double, 12>& rows, std::span<const Eigen::Vector3d> rest,
+                   Eigen::Vector3d* now) {
   using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
   const auto column = [&](std::size_t number) { return Two{rows[number], rows[4 + number]}; };
   const Two first = column(0), second = column(1), third = column(2), by = column(3);
@@ -378,13 +380,13 @@ Surface::ReadResult Surface::set_pose(const std::array<double, 12>& rows) {
   const Box box = mesh_->rest_reach().box_at(rows);
   const bool is_good = graze::is_within_limits(box.min) && graze::is_within_limits(box.max);
   if (pose_ && is_good && mesh_->uses_all_vertices()) return take_pose(rows);
-  ReadResult result = take(look_at_pose(rows, 0, mesh_->vertex_count()));
+  ReadResult result = accept(scan_pose(rows, 0, mesh_->vertex_count()));
   if (result.changed) write_pose(rows, 0, mesh_->vertex_count());
   if (result.taken()) pose_ = rows;
   return result;
 }
 
-/// All vertices are known to be good, and so is how far they move: none of their old places is looked at.
+/// All vertices are known to be good, and so is how far they move: none of their old positions is read.
 Surface::ReadResult Surface::take_pose(const std::array<double, 12>& rows) {
   constexpr std::uint32_t each = 64;  // vertices that stay in a cache until their box is made
   ReadResult result;
@@ -400,7 +402,7 @@ Surface::ReadResult Surface::take_pose(const std::array<double, 12>& rows) {
   const std::uint32_t count = mesh_->vertex_count();
   for (std::uint32_t begin = 0; begin < count; begin += each) {
     const std::uint32_t end = std::min(begin + each, count);
-    place(rows, mesh_->rest().subspan(begin, end - begin), in_double_.data() + begin);
+    pose_vertices(rows, mesh_->rest().subspan(begin, end - begin), in_double_.data() + begin);
     all.add(survey(*mesh_, in_double_, begin, end));
   }
   count_read(result, all.box);

@@ -36,12 +36,12 @@ void validate_blocks(const Surface& surface, const VertexBlocks& blocks) {
     const VertexBlocks::Level level = blocks.level(index);
     for (std::uint32_t block = 0; block < blocks.level(0).count; ++block)
       for (const std::uint32_t vertex : blocks.vertices(block)) {
-        const Eigen::Array3d place = surface.position(vertex) - blocks.origin();
-        const Eigen::Array3d slack = place.abs() * 0x1p-23 + 0x1p-140;
+        const Eigen::Array3d offset = surface.position(vertex) - blocks.origin();
+        const Eigen::Array3d slack = offset.abs() * 0x1p-23 + 0x1p-140;
         for (int axis = 0; axis < 3; ++axis) {
           const float* const row =
               level.rows + static_cast<std::size_t>(axis) * level.stride + block / blocks_each;
-          require(row[0] <= place[axis] + slack[axis] && row[3 * level.stride] >= place[axis] - slack[axis],
+          require(row[0] <= offset[axis] + slack[axis] && row[3 * level.stride] >= offset[axis] - slack[axis],
                   "a vertex is outside its block's box", vertex);
         }
       }

@@ -12,7 +12,7 @@ namespace {
 
 static_assert(VertexBlocks::block_size == kernels::block_size);
 
-/// So many groups are gone through as quickly as another level would be.
+/// A level of so many groups is tested as quickly as another level would be made.
 constexpr std::size_t few_groups = 8;
 
 }  // namespace
@@ -31,19 +31,19 @@ template <typename Number>
 void VertexBlocks::box_blocks(const PositionView& positions) {
   const Eigen::Matrix<Number, 3, 1> about = origin_.cast<Number>();  // exact: it is one of their coordinates
   passes_for<Number>().box_blocks(points_of<Number>(positions), order_.data(), order_.size(), about.data(),
-                                  boxes_.data(), places_[0].stride);
+                                  boxes_.data(), levels_[0].stride);
 }
 
-/// Boxes behind the last of a level stay NaN, so that they meet nothing, not even what has no end; they are
-/// made so when the number of blocks changes: once.
+/// Boxes behind the last of a level stay NaN, so that they meet nothing, not even an infinite box. They are
+/// made so once, when the number of blocks changes.
 void VertexBlocks::lay_out_levels() {
   std::size_t count = (order_.size() + block_size - 1) / block_size;
-  if (level_count_ > 0 && places_[0].count == count) return;
+  if (level_count_ > 0 && levels_[0].count == count) return;
   level_count_ = 0;
   std::size_t first = 0;
   while (true) {
     const std::size_t stride = in_whole_groups(count);
-    places_[level_count_++] = {first, stride, count};
+    levels_[level_count_++] = {first, stride, count};
     first += 6 * stride;
     if (stride / group_size <= few_groups) break;
     count = stride / group_size;
@@ -60,12 +60,12 @@ void VertexBlocks::reserve(std::size_t vertices) {
 
 /// A group's first box is there, so that one that is not is never the least or the greatest.
 void VertexBlocks::box_level(std::size_t level) {
-  const Place& below = places_[level - 1];
-  const Place& place = places_[level];
+  const LevelLayout& below = levels_[level - 1];
+  const LevelLayout& layout = levels_[level];
   for (std::size_t row = 0; row < 6; ++row) {
     const float* const from = boxes_.data() + below.first + row * below.stride;
-    float* const to = boxes_.data() + place.first + row * place.stride;
-    for (std::size_t i = 0; i < place.count; ++i) {
+    float* const to = boxes_.data() + layout.first + row * layout.stride;
+    for (std::size_t i = 0; i < layout.count; ++i) {
       const std::span<const float> group(from + i * group_size, group_size);
       to[i] = row < 3 ? *std::min_element(group.begin(), group.end())
                       : *std::max_element(group.begin(), group.end());
@@ -74,13 +74,13 @@ void VertexBlocks::box_level(std::size_t level) {
 }
 
 VertexBlocks::Level VertexBlocks::level(std::size_t index) const {
-  const Place& place = places_[index];
-  return {boxes_.data() + place.first, place.stride, place.count};
+  const LevelLayout& layout = levels_[index];
+  return {boxes_.data() + layout.first, layout.stride, layout.count};
 }
 
 std::array<float, 6> VertexBlocks::box(std::uint32_t block) const {
   std::array<float, 6> box;
-  for (std::size_t row = 0; row < 6; ++row) box[row] = boxes_[row * places_[0].stride + block];
+  for (std::size_t row = 0; row < 6; ++row) box[row] = boxes_[row * levels_[0].stride + block];
   return box;
 }
 

@@ -39,14 +39,14 @@ kernels::Block rows_of(const VertexStretches& stretches) {
   return {stretches.rows(), stretches.stride(), stretches.stride()};
 }
 
-void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> places, BoxRows& boxes) {
-  boxes.stride = VertexBlocks::in_whole_groups(places.size());
+void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> indices, BoxRows& boxes) {
+  boxes.stride = VertexBlocks::in_whole_groups(indices.size());
   if (boxes.rows.size() < 6 * boxes.stride) boxes.rows.resize(6 * boxes.stride);
   for (std::size_t row = 0; row < 6; ++row) {
     float* const to = boxes.rows.data() + row * boxes.stride;
     const float* const of_row = from.data + row * from.stride;
-    for (std::size_t i = 0; i < places.size(); ++i) to[i] = of_row[places[i]];
-    std::fill(to + places.size(), to + boxes.stride, std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < indices.size(); ++i) to[i] = of_row[indices[i]];
+    std::fill(to + indices.size(), to + boxes.stride, std::numeric_limits<float>::quiet_NaN());
   }
 }
 

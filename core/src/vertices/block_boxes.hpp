@@ -52,19 +52,18 @@ struct BoxRows {
   void reserve(std::size_t most) { rows.resize(std::max(rows.size(), 6 * most)); }
 };
 
-/// How much nearer boxes of blocks may seem in float, relative to the numbers that say where they are: half
-/// of a unit of 2^-23 each for two coordinates about their origins, for where these are to each other, for
-/// what is looked for, and for three sums of them. A coordinate that is far from those it is compared with
-/// may lose more, and is as far on.
+/// How much nearer boxes of blocks may seem in float, relative to their coordinates. The bound is half a unit
+/// of 2^-23 for each of these: two coordinates about their origins, their offset, the reach, and three sums
+/// of them. A coordinate that is far from those it is compared with may lose more, and is as far on.
 inline constexpr float box_margin = 0x1p-20F;
-/// What small numbers lose in float.
+/// The loss of small numbers in float.
 inline constexpr float box_lost = 0x1p-140F;
 
 inline kernels::BoxInFrame in_frame(const std::array<float, 6>& box) {
   return {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
 }
 
-/// What boxes are compared with in place of a box that is elsewhere: it is `by` from there, and grown.
+/// Moves a box by `by` and grows it, so that boxes elsewhere can be compared with it.
 inline kernels::BoxInFrame moved(const kernels::BoxInFrame& box, const Eigen::Vector3f& by, float grown) {
   kernels::BoxInFrame moved{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -95,13 +94,13 @@ inline double lower_distance(const std::array<float, 6>& box, const kernels::Box
 kernels::Block rows_of(const VertexBlocks::Level& level);
 kernels::Block rows_of(const BoxRows& boxes);
 kernels::Block rows_of(const VertexStretches& stretches);
-/// Boxes put side by side, those of some places.
-void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> places, BoxRows& boxes);
+/// Gathers the boxes with some indices, side by side.
+void gather_boxes(const kernels::Block& from, std::span<const std::uint32_t> indices, BoxRows& boxes);
 /// The blocks whose boxes meet another one, ascending: level by level, from the last down. There is room for
 /// all in both lists, whatever is found, so that the same surfaces never take more.
 void find_meeting(const VertexBlocks& blocks, const kernels::BoxInFrame& box, IndexList& groups,
                   IndexList& found);
-/// Lists which of such boxes meet another one, by their places.
+/// Lists the indices of those boxes that meet another one.
 void find_meeting(const BoxRows& boxes, const kernels::BoxInFrame& box, IndexList& found);
 
 }  // namespace graze

@@ -12,7 +12,8 @@
 
 namespace graze {
 
-/// Blocks of what of a surface may be near something, where it has no blocks of all its vertices.
+/// Blocks of that part of a surface that may be near something, where the surface has no blocks of all its
+/// vertices.
 struct NearPart {
   VertexBlocks blocks;
   std::vector<std::uint32_t> order;   ///< of their vertices

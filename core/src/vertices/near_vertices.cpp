@@ -17,15 +17,16 @@ namespace {
 constexpr std::size_t block_size = VertexBlocks::block_size;
 constexpr std::size_t group_size = VertexBlocks::group_size;
 
-/// So many blocks of b are looked at one after the other, beside each block of a; of more by their levels.
-constexpr std::size_t few_blocks = 8 * group_size;
-/// So many boxes of b are gone through for a block of a as quickly as they are sorted out for several before.
-constexpr std::size_t few_at_once = 4 * group_size;
-/// So many blocks of a in one group of sixteen are worth it.
+/// Up to so many blocks of b are tested in a line beside each block of a; more are tested by their levels.
+constexpr std::size_t most_blocks_to_scan = 8 * group_size;
+/// Up to so many boxes of b are tested for a block of a as quickly as they are sorted out for several blocks
+/// before.
+constexpr std::size_t most_boxes_at_once = 4 * group_size;
+/// The least number of blocks of a in one group of sixteen that are worth it.
 constexpr std::size_t least_run = 4;
-/// Blocks of b among which there are too few pairs within the limit to look for the nearest first.
-constexpr std::size_t few_beside = 4;
-/// Pairs of points are visited so many at a time, between looks at the clock.
+/// Up to so many blocks of b have too few pairs within the limit to find the nearest first.
+constexpr std::size_t most_blocks_beside = 4;
+/// How many pairs of points are visited between two checks of the clock.
 constexpr std::size_t visited_each = 256;
 /// Blocks of b whose points are compared at once.
 constexpr std::size_t blocks_at_once = 128;
@@ -35,7 +36,7 @@ float as_float(double value) {
   return value > most ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
 }
 
-/// What the squared distance of two points within a limit comes to in Number at most.
+/// The largest squared distance, as computed in Number, of two points within a limit.
 template <typename Number>
 Number squared_reach(double limit) {
   return static_cast<Number>(limit * limit * (1 + 8 * double{std::numeric_limits<Number>::epsilon()}) +
@@ -46,12 +47,12 @@ bool are_floats(const SurfacePair& pair) {
   return !pair.a.positions().is_double() && !pair.b.positions().is_double();
 }
 
-/// Whether squares of what is about as near as a limit are ordinary floats.
+/// Whether squares of distances near a limit are ordinary floats.
 bool suits_float(double limit) {
   return limit > 0x1p-50 && limit < 0x1p50;
 }
 
-/// More than a distance, so that what is that far is looked for too.
+/// Slightly more than a distance, so that a search includes points that far apart.
 double above(double distance) {
   return std::nextafter(distance * round_up, std::numeric_limits<double>::infinity());
 }
@@ -88,7 +89,7 @@ NearVertices::NearVertices(const SurfacePair& pair, double limit, NearBlocks& ne
       near_(near),
       scratch_(scratch) {}
 
-void NearVertices::look_within(double limit) {
+void NearVertices::set_limit(double limit) {
   limit_ = limit;
   near_.reach = as_float(limit);
 }
@@ -96,7 +97,7 @@ void NearVertices::look_within(double limit) {
 void NearVertices::find_blocks() {
   near_.a.count = near_.b.count = 0;
   if (!(limit_ > 0)) return;
-  look_within(limit_);
+  set_limit(limit_);
   if (!make_parts()) return;
   validate_blocks(pair_.a, of_a_);
   validate_blocks(pair_.b, of_b_);
@@ -105,13 +106,13 @@ void NearVertices::find_blocks() {
   if (near_.a.count == 0) return;
   find_meeting(of_b_, moved(around_all(of_a_, near_.a.listed()), near_.shift, near_.reach), scratch_.groups,
                near_.b);
-  near_.few = near_.b.count <= few_blocks;
-  if (near_.few) tighten();
+  near_.is_linear_scan = near_.b.count <= most_blocks_to_scan;
+  if (near_.is_linear_scan) tighten();
   if (near_.a.count > 0) lay_out_blocks_of_b();
 }
 
-/// Blocks of what each surface has in the other's box, where it has none of all; false where it has nothing
-/// there.
+/// Makes blocks of the part of each surface in the other's box, where it has no blocks of all; false where it
+/// has nothing there.
 bool NearVertices::make_parts() {
   const auto make = [&](const Surface& surface, const Surface& other, NearPart& part) {
     if (surface.has_blocks()) return true;
@@ -121,7 +122,8 @@ bool NearVertices::make_parts() {
   return make(pair_.a, pair_.b, near_.part_a) && make(pair_.b, pair_.a, near_.part_b);
 }
 
-/// Of a those that are near the few of b together, whose boxes are put side by side.
+/// Keeps the blocks of a that are near all listed blocks of b together, which are few, and puts their boxes
+/// side by side.
 void NearVertices::tighten() {
   find_meeting(of_a_, moved(around_all(of_b_, near_.b.listed()), -near_.shift, near_.reach), scratch_.groups,
                near_.a);
@@ -130,11 +132,11 @@ void NearVertices::tighten() {
 
 void NearVertices::lay_out_blocks_of_b() {
   const auto lay_out = [&]<typename Number>(std::vector<Number>& blocks) {
-    const std::size_t count = near_.few ? near_.b.count : of_b_.level(0).count;
+    const std::size_t count = near_.is_linear_scan ? near_.b.count : of_b_.level(0).count;
     if (blocks.size() < count * numbers_of_block) blocks.resize(count * numbers_of_block);
     for (std::size_t i = 0; i < near_.b.count; ++i) {
-      const std::size_t place = near_.few ? i : near_.b.room[i];
-      lay_out_block(pair_.b.positions(), of_b_.vertices(near_.b.room[i]), &blocks[place * numbers_of_block]);
+      const std::size_t slot = near_.is_linear_scan ? i : near_.b.room[i];
+      lay_out_block(pair_.b.positions(), of_b_.vertices(near_.b.room[i]), &blocks[slot * numbers_of_block]);
     }
   };
   in_float_ ? lay_out(near_.floats) : lay_out(near_.doubles);
@@ -152,18 +154,18 @@ void NearVertices::for_each_near(std::uint32_t block_of_a, const Visit& visit) {
     for (std::size_t i = 0; i < found; ++i) {
       if (i % visited_each == 0) pair_.check_time(visited_each / 8);
       const std::uint32_t near_b = scratch_.near_b.room[i];
-      const std::uint32_t place = some[near_b / block_size];
-      const auto vertices_b = of_b_.vertices(near_.few ? near_.b.room[place] : place);
-      visit(ContactName::of(vertex_piece(vertices_a[scratch_.near_a.room[i]]),
-                            vertex_piece(vertices_b[near_b % block_size])));
+      const std::uint32_t slot = some[near_b / block_size];
+      const auto vertices_b = of_b_.vertices(near_.is_linear_scan ? near_.b.room[slot] : slot);
+      visit(FeaturePairKey::of(vertex_piece(vertices_a[scratch_.near_a.room[i]]),
+                               vertex_piece(vertices_b[near_b % block_size])));
     }
   }
 }
 
-bool NearVertices::name(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
-                        std::vector<ContactName>& names, const NearListing& listing) {
+bool NearVertices::key(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
+                       std::vector<FeaturePairKey>& keys, const NearListing& listing) {
   const auto listed = near_.a.listed();
-  const bool are_many = !near_.few || near_.boxes.stride > few_at_once;
+  const bool are_many = !near_.is_linear_scan || near_.boxes.stride > most_boxes_at_once;
   while (begin < end) {
     std::size_t next = begin + 1;
     while (next < end && listed[next] / group_size == listed[begin] / group_size) ++next;
@@ -172,9 +174,9 @@ bool NearVertices::name(std::size_t begin, std::size_t end, double threshold, Wo
     for (; begin < next; ++begin) {
       if (!meter.spend()) return false;
       is_run ? find_beside_in_around(listed[begin]) : find_beside(listed[begin]);
-      for_each_near(listed[begin], [&](const ContactName& name) {
-        listing.add({Part::vertex, name.index_a()}, {Part::vertex, name.index_b()});
-        if (is_closer_than(pair_, name, threshold)) names.push_back(name);
+      for_each_near(listed[begin], [&](const FeaturePairKey& key) {
+        listing.add({FeatureRefKind::vertex, key.index_a()}, {FeatureRefKind::vertex, key.index_b()});
+        if (is_closer_than(pair_, key, threshold)) keys.push_back(key);
       });
     }
   }
@@ -193,15 +195,15 @@ bool NearVertices::offer(WorkMeter& meter, ClosestRange& nearest) {
     near_first.pop_back();
     if (!nearest.keep(lower)) break;  // and none of the rest
     if (!meter.spend()) return false;
-    look_within(std::min(most, above(nearest.limit())));
+    set_limit(std::min(most, above(nearest.limit())));
     find_beside(block);
-    if (is_first && scratch_.beside.count > few_beside)
-      look_within(std::min(limit_, in_float_ ? upper_distance_beside(block, near_.floats)
-                                             : upper_distance_beside(block, near_.doubles)));
-    for_each_near(block, [&](const ContactName& name) {
+    if (is_first && scratch_.beside.count > most_blocks_beside)
+      set_limit(std::min(limit_, in_float_ ? upper_distance_beside(block, near_.floats)
+                                           : upper_distance_beside(block, near_.doubles)));
+    for_each_near(block, [&](const FeaturePairKey& key) {
       const SquaredRange squared =
-          squared_range(pair_.a.position(name.a().feature.index), pair_.b.position(name.b().feature.index));
-      if (!squared.is_beyond(nearest.upper())) nearest.offer(name);
+          squared_range(pair_.a.position(key.a().feature.index), pair_.b.position(key.b().feature.index));
+      if (!squared.is_beyond(nearest.upper())) nearest.offer(key);
     });
     nearest.left_out(limit_);
   }
@@ -227,25 +229,25 @@ kernels::BoxInFrame NearVertices::box_around(std::uint32_t block_of_a) const {
 /// use.
 bool NearVertices::find_around(std::span<const std::uint32_t> blocks_of_a) {
   const kernels::BoxInFrame box = moved(around_all(of_a_, blocks_of_a), near_.shift, near_.reach);
-  if (near_.few)
+  if (near_.is_linear_scan)
     find_meeting(near_.boxes, box, scratch_.around);
   else
     find_meeting(of_b_, box, scratch_.groups, scratch_.around);
   const auto around = scratch_.around.listed();
-  if (around.size() > few_at_once) return false;
-  gather_boxes(near_.few ? rows_of(near_.boxes) : rows_of(of_b_.level(0)), around, scratch_.boxes);
+  if (around.size() > most_boxes_at_once) return false;
+  gather_boxes(near_.is_linear_scan ? rows_of(near_.boxes) : rows_of(of_b_.level(0)), around, scratch_.boxes);
   return true;
 }
 
 /// The blocks of b whose boxes are near one of a.
 void NearVertices::find_beside(std::uint32_t block_of_a) {
-  if (near_.few)
+  if (near_.is_linear_scan)
     find_meeting(near_.boxes, box_around(block_of_a), scratch_.beside);
   else
     find_meeting(of_b_, box_around(block_of_a), scratch_.groups, scratch_.beside);
 }
 
-/// The same of one of those that were asked about together.
+/// Finds the blocks of b near one block of a, among those found for several blocks together.
 void NearVertices::find_beside_in_around(std::uint32_t block_of_a) {
   IndexList& found = scratch_.beside;
   find_meeting(scratch_.boxes, box_around(block_of_a), found);
@@ -282,7 +284,7 @@ void NearBlocks::reserve(const PairRoom& room) {
   const std::size_t blocks = room.vertices / block_size + 1;
   a.reserve(blocks + group_size);
   b.reserve(blocks + group_size);
-  boxes.reserve(few_blocks);
+  boxes.reserve(most_blocks_to_scan);
   floats.resize(std::max(floats.size(), blocks * numbers_of_block));
   doubles.resize(std::max(doubles.size(), blocks * numbers_of_block));
 }

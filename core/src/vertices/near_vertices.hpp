@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/working_memory.hpp"
+#include "closest_features/feature_pair_key.hpp"
 #include "core/surface/surface.hpp"
-#include "names/contact_name.hpp"
 #include "pair/near_listing.hpp"
 #include "vertices/block_boxes.hpp"
 #include "vertices/near_part.hpp"
@@ -16,23 +16,24 @@
 
 namespace graze {
 
-/// What is left of two surfaces' blocks where either may be near the other, for all slices of a search. Boxes
-/// are seen about the origin of b's.
+/// The blocks of two surfaces that may be near the other surface, for all slices of a search. Boxes are
+/// relative to the origin of b's.
 struct NearBlocks {
-  /// The blocks themselves, of a surface that has stretches in their place.
+  /// The blocks themselves, of a surface that has stretches instead.
   NearPart part_a;
   NearPart part_b;
   IndexList a;  ///< ascending
   IndexList b;
-  /// Whether those of b are so few that they are looked at one after the other, by their places in the list.
-  /// Of more all levels are, and they have their places among all blocks of b.
-  bool few = false;
+  /// Whether b has so few blocks left that they are tested in a line, by their index in the list. If there
+  /// are more, all levels are used, and blocks have their index among all blocks of b.
+  bool is_linear_scan = false;
   BoxRows boxes;  ///< of the few
-  // The points of each block of b in its place, in one of the two.
+  // The points of each block of b at its index, in one of the two.
   std::vector<float> floats;
   std::vector<double> doubles;
   Eigen::Vector3f shift;  ///< from the origin of a's
-  float reach = 0;  ///< what is no nearer along an axis, in float, is certainly not nearer than looked for
+  float reach =
+      0;  ///< points no nearer than this along an axis, in float, are certainly not within the limit
 
   template <typename Self>
   static auto parts(Self& self) {
@@ -44,7 +45,7 @@ struct NearBlocks {
 /// Working memory of one thread.
 struct NearVerticesScratch {
   IndexList groups;
-  IndexList around;                                          ///< places of blocks of b near some blocks of a
+  IndexList around;                                          ///< indices of blocks of b near some blocks of a
   BoxRows boxes;                                             ///< of these
   IndexList beside;                                          ///< of these those near one of them
   IndexList near_a;                                          ///< points of a block of a
@@ -59,8 +60,8 @@ struct NearVerticesScratch {
   void reserve(const PairRoom& room);
 };
 
-/// Finds all pairs of vertices that are nearer than a limit, from the blocks of both surfaces: those
-/// in each other's box, of these those whose boxes are near each other, and of these the points.
+/// Finds all pairs of vertices that are nearer than a limit, from the blocks of both surfaces. It goes from
+/// blocks in each other's box to those whose boxes are near each other, and from these to the points.
 class NearVertices {
  public:
   /// Both surfaces have their blocks, or stretches.
@@ -68,18 +69,19 @@ class NearVertices {
 
   /// Lists the blocks that may have such a pair; none of a where there is none.
   void find_blocks();
-  /// Appends those pairs of some of the listed blocks of a that are nearer than a threshold, in their order,
-  /// by the points of a and then of b, and lists all that are not certainly further than the limit; false
-  /// when the budget ran out. Reads the lists of blocks alone, so that several threads may at once.
-  bool name(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
-            std::vector<ContactName>& names, const NearListing& listing);
-  /// Offers the nearest pairs of all listed blocks, and what comes before them; false when the budget ran
-  /// out. What is of no use any more beside the nearest so far is not looked for.
+  /// Appends the pairs of some of the listed blocks of a that are nearer than a threshold, in their order, by
+  /// the points of a and then of b. Lists all pairs that are not certainly further than the limit. Returns
+  /// false when the budget ran out. Reads the lists of blocks alone, so that several threads may call it at
+  /// once.
+  bool key(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
+           std::vector<FeaturePairKey>& keys, const NearListing& listing);
+  /// Offers the nearest pairs of all listed blocks, and those met before them; false when the budget ran out.
+  /// Does not search where pairs would be of no use beside the nearest so far.
   bool offer(WorkMeter& meter, ClosestRange& nearest);
 
  private:
   [[nodiscard]] bool make_parts();
-  void look_within(double limit);
+  void set_limit(double limit);
   void tighten();
   void lay_out_blocks_of_b();
   void order_near_first();
@@ -93,7 +95,7 @@ class NearVertices {
   template <typename Number>
   std::size_t compare(std::uint32_t block_of_a, std::span<const std::uint32_t> beside,
                       const std::vector<Number>& blocks_of_b);
-  /// Calls `visit(name)` for all pairs of a block of a and those found beside it that are not certainly too
+  /// Calls `visit(key)` for all pairs of a block of a and those found beside it that are not certainly too
   /// far.
   template <typename Visit>
   void for_each_near(std::uint32_t block_of_a, const Visit& visit);

@@ -15,9 +15,9 @@ void validate_near_part(const Surface& surface, const Box& box, double reach,
   std::vector<bool> is_listed(surface.mesh().vertex_count());
   for (const std::uint32_t vertex : listed) is_listed[vertex] = true;
   for (std::uint32_t vertex = 0; vertex < surface.mesh().vertex_count(); ++vertex) {
-    const Eigen::Vector3d place = surface.position(vertex);
-    const double beyond = std::max((box.min - place).maxCoeff(), (place - box.max).maxCoeff());
-    require(is_listed[vertex] || beyond >= reach, "a vertex is near and not listed", vertex);
+    const Eigen::Vector3d position = surface.position(vertex);
+    const double outside = std::max((box.min - position).maxCoeff(), (position - box.max).maxCoeff());
+    require(is_listed[vertex] || outside >= reach, "a vertex is near and not listed", vertex);
   }
 }
 

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closest_features/closest_set.hpp"
 #include "core/pair/pair_query.hpp"
-#include "leaves/leaf_names.hpp"
+#include "leaves/leaf_feature_pairs.hpp"
 #include "leaves/leaf_vertex_pairs.hpp"
-#include "names/closest_set.hpp"
 #include "walk/leaf_pairs.hpp"
 
 namespace graze {
 
-/// What a search for the closest points has found so far.
+/// The result of a search for the closest points so far.
 struct ClosestFound {
   Closest closest;
-  /// Nothing was left out that is nearer than this, but for the names found.
+  /// Nothing was left out that is nearer than this, but for the keys found.
   double lower = std::numeric_limits<double>::infinity();
 
   void clear() {
@@ -23,9 +23,9 @@ struct ClosestFound {
   }
 };
 
-/// Branch and bound over pairs of regions: middle vertices give an upper bound, boxes a lower one. What is
-/// certainly not below the reach is not looked at, and in AccuracyMode::within nothing that is neither below
-/// the threshold nor more than the tolerance nearer than what is known.
+/// Branch and bound over pairs of regions: middle vertices give an upper bound, boxes a lower one. Pairs
+/// certainly not below the reach are not tested. In AccuracyMode::within a pair is tested only if it is below
+/// the threshold, or more than the tolerance nearer than the nearest so far.
 class ClosestRange {
  public:
   /// Goes on from `found`.
@@ -38,8 +38,8 @@ class ClosestRange {
         leaf_test_slack_(query.mode == AccuracyMode::exact ? query.leaf_test_slack : 0),
         may_pierce_(may_pierce) {}
 
-  /// Whether something this near could still matter, now or before the surfaces have moved by `slack`; what
-  /// is left out bounds the answer from below.
+  /// Whether a pair this near could still matter, now or before the surfaces have moved by `slack`. A pair
+  /// that is left out bounds the answer from below.
   bool keep(double lower_bound, double slack = 0) {
     const double nearest = std::max(0.0, lower_bound - slack);
     seen_ = std::min(seen_, lower_bound);
@@ -52,36 +52,36 @@ class ClosestRange {
     return false;
   }
 
-  /// What is certainly further than this does not matter now; in units of the scene.
+  /// The distance, in units of the scene, from which on a pair certainly does not matter now.
   [[nodiscard]] double limit() const {
     const double reached = std::min(set_.upper(), query_.reach) + leaf_test_slack_;
     if (query_.mode != AccuracyMode::within) return reached;
     return std::min(reached, std::max(query_.threshold, set_.upper() - query_.tolerance));
   }
-  /// Names are wanted with the range of their distance.
-  [[nodiscard]] static double names_below() { return 0; }
+  /// Keys are wanted with the range of their distance.
+  [[nodiscard]] static double keys_only_below() { return 0; }
   /// Something was left out that is further than an earlier or the present limit.
   void left_out(double limit) {
     if (limit < set_.upper()) found_.lower = std::min(found_.lower, limit);
   }
 
-  /// Whether nothing can come nearer, and what is nearest need not be looked for among others: surfaces that
-  /// pierce each other do so in many places, any of which is a witness.
-  [[nodiscard]] bool is_settled() const { return set_.is_settled(query_.threshold); }
+  /// Whether nothing can come nearer, and the search may stop. Surfaces that pierce each other do so at many
+  /// points, any of which is a witness.
+  [[nodiscard]] bool is_decided() const { return set_.is_decided(query_.threshold); }
 
   /// Nothing further than this is nearest.
   [[nodiscard]] double upper() const { return set_.upper(); }
-  void offer(const ContactName& name) { set_.offer(name); }
+  void offer(const FeaturePairKey& key) { set_.offer(key); }
   void offer_middles(const RegionPair& regions) {
     const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;
     const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
     // Not at 0: whether a walk came by must not show in the witness.
     const double upper = upper_distance(pair_.a.position(a), pair_.b.position(b));
     if (may_be_apart(upper) && upper < set_.upper())
-      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+      set_.offer(FeaturePairKey::of(vertex_piece(a), vertex_piece(b)));
   }
-  /// Where points of both surfaces are this far apart. Not at 0, as with middles; and not where a name must
-  /// be that near, since a search to a tolerance may leave it out.
+  /// Tells that points of both surfaces are this far apart. It does not count at 0, as with middle vertices.
+  /// Nor does it count where a key must be that near, since a search to a tolerance may leave it out.
   void at_most(double upper) {
     if (may_be_apart(upper) && query_.mode == AccuracyMode::exact) set_.at_most(upper);
   }
@@ -89,26 +89,26 @@ class ClosestRange {
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }
   [[nodiscard]] static double touching() { return 0; }
   [[nodiscard]] static bool is_listing() { return false; }
-  static void found(const PartOf& /*a*/, const PartOf& /*b*/) {}
+  static void found(const FeatureRef& /*a*/, const FeatureRef& /*b*/) {}
   /// Returns a lower bound of the distance of each vertex and face, and of each two edges of the two leaves.
   double offer_features(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     seen_ = std::numeric_limits<double>::infinity();
     double squared_seen = seen_;
-    const auto offer = [&](const ContactName& name, const SquaredRange& squared) {
+    const auto offer = [&](const FeaturePairKey& key, const SquaredRange& squared) {
       pair_.check_time();
       squared_seen = std::min(squared_seen, squared.low);
-      if (!squared.is_beyond(set_.upper())) set_.offer(name);
+      if (!squared.is_beyond(set_.upper())) set_.offer(key);
     };
-    if (scratch.take(pair_, leaf_a, leaf_b, *this)) {
-      LeafNames names(pair_, scratch, *this, offer);
-      names.add_taken();
-      names.finish();
+    if (scratch.select_near(pair_, leaf_a, leaf_b, *this)) {
+      LeafFeaturePairs keys(pair_, scratch, *this, offer);
+      keys.add_selected();
+      keys.finish();
     }
     return std::min({limit(), seen_, std::sqrt(squared_seen) * round_down});
   }
   void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {
-      set_.offer(ContactName::of(vertex_piece(a), vertex_piece(b)));
+      set_.offer(FeaturePairKey::of(vertex_piece(a), vertex_piece(b)));
     });
   }
 
@@ -119,7 +119,7 @@ class ClosestRange {
   ClosestSet set_;
   double leaf_test_slack_;
   bool may_pierce_;
-  double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a look into two leaves began
+  double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a test of two leaves began
 };
 
 }  // namespace graze

@@ -27,7 +27,7 @@ struct DmvScratch {
     return std::tie(self.front, self.next);
   }
   void reserve(const PairRoom& room) {
-    // Of the pairs of a level only some are near.
+    // Only some of the pairs of a level are near.
     constexpr std::size_t tested_for_one = 16;
     front.reserve(tested_for_one * room.leaf_pairs);
     next.reserve(tested_for_one * room.leaf_pairs);
@@ -67,11 +67,13 @@ struct Expansion {
 };
 
 /// DMV (paper, figure 3): walks the pairs of regions of two trees breadth first, from those in
-/// `scratch.front`; leaves the rest there where a level has more than `most`.
+/// `scratch.front`. It stops where a level has more than `most` pairs, and leaves these there. Returns false
+/// when the budget ran out on the way.
+///
 /// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf; neither
-/// ends it there. A leaf stays what it is. Where both make way, a child that `may_meet` finds to be far from
-/// the whole of the other region is left out. `leaves(pair, a, b)` takes each pair of leaves that is reached.
-/// False when the budget ran out on the way.
+/// ends the walk there. A leaf is never expanded. Where both are, a child that `may_meet` finds to be far
+/// from the whole of the other region is left out. `leaves(pair, a, b)` takes each pair of leaves that is
+/// reached.
 template <typename Expand, typename MayMeet, typename Leaves>
 bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch, WorkMeter& meter,
          const Expand& expand, const MayMeet& may_meet, const Leaves& leaves,

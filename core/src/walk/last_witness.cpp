@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "names/naming.hpp"
+#include "closest_features/closest_features.hpp"
 #include "pair/bounds.hpp"
 
 namespace graze {
@@ -41,8 +41,8 @@ SurfacePoint surface_point(const Surface& surface, const FeaturePiece& piece, co
   return on;
 }
 
-/// The way from a point's first corner to it now, and how far the other corners are, which its rounding and
-/// that of the shares is relative to.
+/// The way from a point's first corner to it now, and how far the other corners are. Its rounding and that of
+/// the shares are relative to the latter.
 struct Offset {
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   double size = 0;
@@ -60,7 +60,7 @@ Offset offset_now(const Surface& surface, const SurfacePoint& on) {
 
 }  // namespace
 
-LastWitness last_witness_of(const SurfacePair& pair, const ContactName& nearest,
+LastWitness last_witness_of(const SurfacePair& pair, const FeaturePairKey& nearest,
                             const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b) {
   return {surface_point(pair.a, nearest.a(), point_a), surface_point(pair.b, nearest.b(), point_b)};
 }

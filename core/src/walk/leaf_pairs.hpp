@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "closest_features/feature_pair_key.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/pair/leaf_front.hpp"
 #include "core/pair/pair_query.hpp"
 #include "leaves/leaf_features.hpp"
-#include "names/contact_name.hpp"
 #include "pair/bounds.hpp"
 #include "surface/leaf_boxes.hpp"
 #include "walk/dmv.hpp"
@@ -21,34 +21,34 @@ namespace graze {
 struct LeafPair {
   double lower = 0;
   RegionPair pair;
-  std::uint32_t listed = 0;  ///< its place in the front that it was taken from
-  float looked = 0;          ///< as ListedLeaves has it, now
+  std::uint32_t listed = 0;       ///< its index in the front that it was selected from
+  float feature_lower_bound = 0;  ///< as ListedLeaves has it, now
 };
 
-/// Places in a front.
-class ListedPlaces {
+/// Indices into a front.
+class ListedIndices {
  public:
   /// Room for so many, whatever they are.
   std::uint32_t* room_for(std::size_t count) {
-    if (places_.size() < count) places_.resize(count);
-    return places_.data();
+    if (indices_.size() < count) indices_.resize(count);
+    return indices_.data();
   }
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.places_);
+    return std::tie(self.indices_);
   }
-  void reserve(const PairRoom& room) { places_.reserve(room.leaf_pairs); }
+  void reserve(const PairRoom& room) { indices_.reserve(room.leaf_pairs); }
 
  private:
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> indices_;
 };
 
 struct LeafPairScratch {
   DmvScratch dmv;
   LeafBoxes boxes_a;
   LeafBoxes boxes_b;
-  ListedPlaces listed;
+  ListedIndices listed;
 
   template <typename Self>
   static auto parts(Self& self) {
@@ -56,15 +56,15 @@ struct LeafPairScratch {
   }
 };
 
-/// Pairs of leaves that a query looks into, and how near what it does not can be.
+/// The pairs of leaves that a query tests, and a lower bound for the others.
 struct LeafPairList {
   std::vector<LeafPair> leaves;
   /// No pair of leaves that was left out on the way is nearer.
-  double beyond = std::numeric_limits<double>::infinity();
+  double unlisted_lower_bound = std::numeric_limits<double>::infinity();
 
   void clear() {
     leaves.clear();
-    beyond = std::numeric_limits<double>::infinity();
+    unlisted_lower_bound = std::numeric_limits<double>::infinity();
   }
 };
 
@@ -81,19 +81,23 @@ class LeafPairs {
     scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
   }
 
-  /// Appends those leaf pairs of a part of a front that are not further than a distance; where the surfaces
-  /// are `certainly_apart`, by what looks into them said, too. Without a branch, since which are is as good
-  /// as random; of most what was known when they were listed is enough, and no box is looked at.
-  void take(const LeafFront& front, std::size_t begin, std::size_t end, double distance, bool certainly_apart,
-            LeafPairList& found) {
+  /// Appends those leaf pairs of a part of a front that are not further than a distance. Where the surfaces
+  /// are `certainly_apart`, their feature bounds count, too. It has no branch, since which pairs these are is
+  /// as good as random. For most of them the bounds from when they were listed are enough, and no box is
+  /// read.
+  void select_from(const LeafFront& front, std::size_t begin, std::size_t end, double distance,
+                   bool certainly_apart, LeafPairList& found) {
     std::uint32_t* const listed = scratch_.listed.room_for(end - begin);
     const double most = (distance + front.motion_now(pair_.a, pair_.b)) * round_up;
-    const float of_looks = certainly_apart ? 1.0F : 0.0F;
+    const float use_feature_bounds = certainly_apart ? 1.0F : 0.0F;
     std::size_t taken = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const ListedLeaves& leaves = front.leaves[i];
       listed[taken] = static_cast<std::uint32_t>(i);
-      taken += static_cast<double>(std::max(leaves.lower, of_looks * leaves.looked)) <= most ? 1U : 0U;
+      taken +=
+          static_cast<double>(std::max(leaves.lower, use_feature_bounds * leaves.feature_lower_bound)) <= most
+              ? 1U
+              : 0U;
     }
     std::size_t count = found.leaves.size();
     found.leaves.resize(count + taken);
@@ -106,17 +110,17 @@ class LeafPairs {
     found.leaves.resize(count);
   }
 
-  /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds: whether something
-  /// that is at least `lower` apart may come to matter before the surfaces have moved by `slack`.
-  /// `meet(pair)` is called for every pair of regions. Stops where a level has more than `most` pairs: those
-  /// are then `front()`. False when the budget ran out.
+  /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds. That says whether
+  /// a pair at least `lower` apart may come to matter before the surfaces have moved by `slack`. `meet(pair)`
+  /// is called for every pair of regions. The walk stops where a level has more than `most` pairs: those are
+  /// then `front()`. Returns false when the budget ran out.
   template <typename Keep, typename Meet>
   bool walk(std::span<const RegionPair> start, const Keep& keep, const Meet& meet, LeafPairList& found,
             std::size_t most = std::numeric_limits<std::size_t>::max()) {
     scratch_.dmv.front.assign(start.begin(), start.end());
     const auto keeps = [&](double lower) {
       if (keep(lower, query_.slack)) return true;
-      found.beyond = std::min(found.beyond, lower);
+      found.unlisted_lower_bound = std::min(found.unlisted_lower_bound, lower);
       return false;
     };
     return dmv(
@@ -137,7 +141,7 @@ class LeafPairs {
   double lower_of_leaves(const RegionPair& leaves) {
     return lower_distance(scratch_.boxes_a.of(leaves.a), scratch_.boxes_b.of(leaves.b));
   }
-  /// Where the last walk stopped.
+  /// The pairs at which the last walk stopped.
   [[nodiscard]] std::span<const RegionPair> front() const { return scratch_.dmv.front; }
 
   [[nodiscard]] LeafOf leaf_a(const RegionPair& leaves) {
@@ -148,8 +152,8 @@ class LeafPairs {
   }
 
  private:
-  /// Of two regions of very different size the larger alone is expanded: of a pebble and a planet one way
-  /// down the planet is walked, not one for each part of the pebble. Otherwise both are, as in the paper.
+  /// Expands only the larger of two regions of very different size: with a pebble and a planet one way down
+  /// the planet is walked, not one for each part of the pebble. Otherwise expands both, as in the paper.
   [[nodiscard]] Expansion expansion_of(const RegionPair& regions, const Region& a, const Region& b) const {
     constexpr double very_different = 4;
     const double size_a = bounds_.size_a(regions);

@@ -8,38 +8,38 @@
 
 namespace graze {
 
-/// The order in which pairs of leaves are asked whether they touch: one leaf of the surface that has fewer
-/// regions after the other, where those that follow one another are far apart, and with each those of the
-/// other surface by their numbers. Leaves that follow one another by number are neighbours, and where boxes
-/// overlap but surfaces do not touch they would all be in the way. It depends on the two meshes alone.
+/// The order in which pairs of leaves are tested for touching. It takes one leaf of the surface with fewer
+/// regions after the other, scattered, and with each the leaves of the other surface by their numbers. Leaves
+/// that follow one another by number are neighbours. Where boxes overlap but surfaces do not touch they would
+/// all be in the way. The order depends on the two meshes alone.
 class TouchingOrder {
  public:
   TouchingOrder(const RegionTree& a, const RegionTree& b)
       : scatters_a_(a.region_count() < b.region_count()),
         count_(scatters_a_ ? a.region_count() : b.region_count()),
-        places_(std::bit_ceil(count_)) {
-    // Steps of the golden ratio of all places; odd, so that every place is another number.
+        slot_count_(std::bit_ceil(count_)) {
+    // Steps of the golden ratio of all slots. The step is odd, so that every slot gets another number.
     constexpr std::uint64_t golden = 0x9e3779b9;
-    step_ = static_cast<std::uint32_t>(golden * places_ >> 32U) | 1U;
+    step_ = static_cast<std::uint32_t>(golden * slot_count_ >> 32U) | 1U;
     // Newton's iteration: three bits of an odd number's inverse are those of the number.
-    place_step_ = step_;
-    for (int i = 0; i < 4; ++i) place_step_ *= 2 - step_ * place_step_;
+    slot_step_ = step_;
+    for (int i = 0; i < 4; ++i) slot_step_ *= 2 - step_ * slot_step_;
   }
 
   [[nodiscard]] std::uint64_t of(const RegionPair& pair) const {
     const std::uint32_t scattered = scatters_a_ ? pair.a : pair.b;
-    const std::uint32_t place = scattered * place_step_ & (places_ - 1);
-    return std::uint64_t{place} << 32U | (scatters_a_ ? pair.b : pair.a);
+    const std::uint32_t slot = scattered * slot_step_ & (slot_count_ - 1);
+    return std::uint64_t{slot} << 32U | (scatters_a_ ? pair.b : pair.a);
   }
-  /// Whether one of two that name a pair of leaves comes before the other.
+  /// Whether one of two that identify a pair of leaves comes before the other.
   template <typename Named>
   bool operator()(const Named& left, const Named& right) const {
     return of(left.pair) < of(right.pair);
   }
-  /// How many places regions are scattered over.
-  [[nodiscard]] std::uint32_t place_count() const { return places_; }
-  /// The number of the region at a place; none has it where it is not below `region_count`.
-  [[nodiscard]] std::uint32_t region_at(std::uint32_t place) const { return place * step_ & (places_ - 1); }
+  /// How many slots regions are scattered over.
+  [[nodiscard]] std::uint32_t slot_count() const { return slot_count_; }
+  /// The number of the region at a slot. A slot is empty where this is not below `region_count`.
+  [[nodiscard]] std::uint32_t region_at(std::uint32_t slot) const { return slot * step_ & (slot_count_ - 1); }
   [[nodiscard]] std::uint32_t region_count() const { return count_; }
   [[nodiscard]] bool scatters_a() const { return scatters_a_; }
   /// All of the other surface with a region of the one that is scattered.
@@ -50,9 +50,9 @@ class TouchingOrder {
  private:
   bool scatters_a_;
   std::uint32_t count_;
-  std::uint32_t places_;
+  std::uint32_t slot_count_;
   std::uint32_t step_ = 1;
-  std::uint32_t place_step_ = 1;
+  std::uint32_t slot_step_ = 1;
 };
 
 }  // namespace graze

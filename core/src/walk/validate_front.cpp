@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Where vertices are now, each once.
+/// The present positions of some vertices, each once.
 Points points_of(const Surface& surface, std::vector<std::uint32_t> vertices) {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -25,7 +25,7 @@ Points points_of(const Surface& surface, std::vector<std::uint32_t> vertices) {
   return points;
 }
 
-/// What a leaf owns, by its corners.
+/// The features that a leaf owns, by their corners.
 struct CornersOf {
   Points vertices;
   Points faces;
@@ -59,8 +59,8 @@ void require_apart(const CornersOf& a, const CornersOf& b, double lower, const c
       require_apart(*of_a, *of_b, lower, what, index);
 }
 
-/// Of each vertex and face and each two edges: of two corners that neither leaf owns it is another pair of
-/// leaves that is looked into.
+/// Checks each vertex with each face and each two edges. Two corners that neither leaf owns belong to another
+/// pair of leaves, which is tested itself.
 void require_features_apart(const CornersOf& a, const CornersOf& b, double lower, const char* what,
                             std::size_t index) {
   require_apart(a.vertices, b.faces, lower, what, index);
@@ -77,24 +77,26 @@ void validate_listed(const ListedLeaves& listed, const LeafFront& front, const S
   const Region& leaf_b = b.mesh().regions().region(listed.pair.b);
   const double motion = front.motion_now(a, b);
   const double lower = static_cast<double>(listed.lower) - motion;
-  const double looked =
-      static_cast<double>(front.apart) > motion ? static_cast<double>(listed.looked) - motion : 0;
-  if (lower_now(a, leaf_a, b, leaf_b) >= std::max(lower, looked)) return;
+  const double feature_lower_bound = static_cast<double>(front.apart) > motion
+                                         ? static_cast<double>(listed.feature_lower_bound) - motion
+                                         : 0;
+  if (lower_now(a, leaf_a, b, leaf_b) >= std::max(lower, feature_lower_bound)) return;
   const CornersOf of_a(a, leaf_a);
   const CornersOf of_b(b, leaf_b);
   require_apart(of_a, of_b, lower, "listed leaves are nearer than their bound", listed.pair.a);
-  require_features_apart(of_a, of_b, looked, "listed leaves are nearer than looks said", listed.pair.a);
+  require_features_apart(of_a, of_b, feature_lower_bound, "listed leaves are nearer than looks said",
+                         listed.pair.a);
 }
 
 }  // namespace
 
-/// By the leaves' own points where boxes do not settle it: a front may be made by boxes of an earlier refit,
-/// and neither those nor the boxes of now always give the greater bound.
+/// Uses the leaves' own points where boxes do not decide it. A front may be made by boxes of an earlier
+/// refit, and neither those nor the present boxes always give the greater bound.
 void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   const auto regions_a = a.mesh().regions().regions();
   const auto regions_b = b.mesh().regions().regions();
-  const double beyond = front.beyond_now(a, b);
-  if (!(beyond > 0) || regions_a.size() * regions_b.size() > 4096) return;
+  const double unlisted_lower_bound = front.unlisted_lower_bound_now(a, b);
+  if (!(unlisted_lower_bound > 0) || regions_a.size() * regions_b.size() > 4096) return;
   std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
   for (const ListedLeaves& leaves : front.leaves) {
     listed.insert({leaves.pair.a, leaves.pair.b});
@@ -103,9 +105,9 @@ void validate(const LeafFront& front, const Surface& a, const Surface& b) {
   for (std::uint32_t i = 0; i < regions_a.size(); ++i)
     for (std::uint32_t j = 0; j < regions_b.size(); ++j) {
       if (!regions_a[i].is_leaf() || !regions_b[j].is_leaf() || listed.contains({i, j})) continue;
-      if (lower_now(a, regions_a[i], b, regions_b[j]) >= beyond) continue;
-      require_apart(CornersOf(a, regions_a[i]), CornersOf(b, regions_b[j]), beyond, "a front misses leaves",
-                    i);
+      if (lower_now(a, regions_a[i], b, regions_b[j]) >= unlisted_lower_bound) continue;
+      require_apart(CornersOf(a, regions_a[i]), CornersOf(b, regions_b[j]), unlisted_lower_bound,
+                    "a front misses leaves", i);
     }
 }
 

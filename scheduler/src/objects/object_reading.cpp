@@ -122,7 +122,7 @@ Looked refuse_pose(Object& object, std::uint32_t vertex, const Eigen::Vector3d& 
 Looked survey_pose(Object& object) {
   Box box = object.mesh->rest_reach().box_at(*object.pose);
   if (!Surface::is_within_limits(box.min) || !Surface::is_within_limits(box.max)) {
-    const auto all = object.surface().look_at_pose(*object.pose, 0, object.mesh->vertex_count());
+    const auto all = object.surface().scan_pose(*object.pose, 0, object.mesh->vertex_count());
     if (all.bad_vertex != Surface::ReadResult::no_vertex)
       return refuse_pose(object, all.bad_vertex, all.bad_position);
     box = all.box;
@@ -222,12 +222,12 @@ bool has_known_box(const Object& object) {
 
 Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
   const Surface& surface = object.surface();
-  if (is_posed(object)) return surface.look_at_pose(pose_of(object), begin, end);
+  if (is_posed(object)) return surface.scan_pose(pose_of(object), begin, end);
   if (object.to_survey) return Surface::survey(*object.mesh, *object.bound, begin, end);
   // A promise is held against what moved furthest, not against a bound of it.
   const bool is_held = object.has_surface && std::isfinite(object.promised);
   const auto displacement = is_held ? Surface::Displacement::exact : Surface::Displacement::bound;
-  return surface.look_at_positions(positions_of(object), begin, end, displacement);
+  return surface.scan_positions(positions_of(object), begin, end, displacement);
 }
 
 Looked take_seen(Object& object, const Surface::PartSeen& all) {

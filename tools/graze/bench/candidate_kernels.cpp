@@ -6,12 +6,12 @@
 #include <span>
 #include <utility>
 
+#include "closest_features/key_order.hpp"
 #include "core/surface/surface.hpp"
 #include "leaves/feature_pairs.hpp"
 #include "leaves/leaf_scratch.hpp"
 #include "leaves/listed_vertices.hpp"
 #include "measure/measure_batch.hpp"
-#include "names/name_order.hpp"
 
 namespace graze::bench {
 namespace {
@@ -197,8 +197,8 @@ class CandidateKernels final : public Contender {
   Belonging others_;
   LeafScratch scratch_;
   DecisionCount count_;
-  std::vector<ContactName> names_;
-  NameOrder order_;
+  std::vector<FeaturePairKey> names_;
+  KeyOrder order_;
   MeasureScratch measuring_;
   std::vector<Contact> contacts_;
   std::vector<Answer> answers_;

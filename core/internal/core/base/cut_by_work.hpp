@@ -6,14 +6,14 @@ namespace graze {
 
 /// Cuts `begin` … `end` - 1 into ranges, each as short as has `each` of work in it; the last may have less.
 /// Calls `take(begin, end)` for every range, in order.
-template <typename WorkOf, typename Take>
+template <typename WorkOf, typename AddRange>
 void cut_by_work(std::size_t begin, std::size_t end, std::size_t each, const WorkOf& work_of,
-                 const Take& take) {
+                 const AddRange& add_range) {
   std::size_t work = 0;
   for (std::size_t i = begin; i < end; ++i) {
     work += work_of(i);
     if (work < each && i + 1 < end) continue;
-    take(begin, i + 1);
+    add_range(begin, i + 1);
     begin = i + 1;
     work = 0;
   }

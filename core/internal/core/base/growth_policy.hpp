@@ -6,9 +6,9 @@
 
 namespace graze {
 
-/// How many elements to take memory for where `count` have none: half as many again, so that a number that
-/// rises a little from step to step takes memory a few times only. What is to spare costs addresses; memory
-/// that nobody has written to is not there yet.
+/// How many elements to reserve where `count` do not fit: half as many again. So a number that rises a little
+/// from step to step takes memory a few times only. The rest costs addresses, since memory that nobody has
+/// written to does not exist yet.
 constexpr std::size_t with_growth_room(std::size_t count) {
   return count + count / 2;
 }
@@ -22,8 +22,8 @@ void reserve_to_overwrite(std::vector<Element>& elements, std::size_t room) {
   elements.reserve(room);
 }
 
-/// The same for a list that one object has of many that have others, about as long: room enough for most of
-/// them from the first time on, but no more than it may ever need.
+/// As the function above, for a list that one object has and many others have about as long. From the first
+/// time on it reserves enough for most of them, but never more than the list may ever need.
 template <typename Element>
 void reserve_for_one_of_many(std::vector<Element>& elements, std::size_t count, std::size_t most) {
   constexpr std::size_t least = 64;

@@ -15,8 +15,8 @@
 
 namespace graze {
 
-/// What a Mesh holds: topology and rest shape, the octree of regions, and lists that queries need. Immutable.
-/// Members that Mesh has as well say the same here.
+/// The data behind a Mesh: topology, rest shape, the octree of regions, and lists that queries need. It is
+/// immutable. Members that Mesh also has mean the same here.
 class GRAZE_API IndexedMesh {
  public:
   static constexpr std::uint32_t no_edge = Mesh::no_edge;
@@ -44,8 +44,8 @@ class GRAZE_API IndexedMesh {
   /// An edge's two vertices, the lower first.
   [[nodiscard]] std::array<std::uint32_t, 2> edge(std::uint32_t index) const { return edges_[index]; }
 
-  // The lists that follow are each made as a whole when one of them is first asked for, by any thread, since
-  // few uses of a mesh need all of them.
+  // Each of the lists below is made as a whole when one of them is first asked for, by any thread. Few uses
+  // of a mesh need all of them.
 
   /// The vertices that share an edge with `vertex`, ascending.
   [[nodiscard]] std::span<const std::uint32_t> vertex_neighbours(std::uint32_t vertex) const {
@@ -66,8 +66,8 @@ class GRAZE_API IndexedMesh {
   [[nodiscard]] std::span<const std::uint32_t> vertex_fans(std::uint32_t vertex) const {
     return fans().row(vertex);
   }
-  /// The used vertices in an order in which each eight of them are near each other at rest: halved along the
-  /// longest side of their box, and the halves again, with whole eights on either side.
+  /// The used vertices, ordered so that each eight of them are near each other at rest. The order halves
+  /// their box along its longest side, then halves the halves, with whole eights on either side.
   [[nodiscard]] std::span<const std::uint32_t> block_order() const { return blocks().order; }
   /// Which groups of sixteen blocks the vertices of a stretch (VertexStretches) are in, ascending.
   [[nodiscard]] std::span<const std::uint32_t> stretch_groups(std::uint32_t stretch) const {
@@ -126,7 +126,7 @@ class GRAZE_API IndexedMesh {
   }
   void take_faces(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> corner_counts);
   void check_faces() const;
-  void look_for_unused();
+  void find_unused();
   void check_rest() const;
   void number_edges();
   [[nodiscard]] const Rows& neighbours() const;

@@ -36,10 +36,10 @@ struct Region {
 /// children of one parent together, so every child has a higher number than its parent.
 ///
 /// The root box is the box of the used vertices' rest positions. A region of more than `leaf_capacity`
-/// vertices is cut into 8 equal boxes about its centre, computed relative to the root box's minimum; a vertex
-/// on a cut goes to the upper side; empty children are dropped; coincident vertices or depth `max_level` end
-/// it. A face belongs to the region of its first corner, an edge to that of its lower vertex, so that every
-/// feature has one owner.
+/// vertices is cut into 8 equal boxes about its centre. The centre is computed relative to the root box's
+/// minimum. A vertex on a cut goes to the upper side, and empty children are dropped. Coincident vertices or
+/// depth `max_level` end the cutting. A face belongs to the region of its first corner, an edge to that of
+/// its lower vertex, so that every feature has one owner.
 class GRAZE_API RegionTree {
  public:
   static constexpr std::uint32_t leaf_capacity = 30;
@@ -81,15 +81,17 @@ class GRAZE_API RegionTree {
   [[nodiscard]] std::span<const std::uint32_t> border(const Region& leaf) const {
     return std::span(border_).subspan(leaf.first_border, leaf.border_count);
   }
-  /// The ends of a leaf's edges and the corners of its triangles (a quad's are (0,1,2) and (0,2,3)), in the
-  /// order of `edges(leaf)` and `faces(leaf)`, each as a place in the list of `vertices(leaf)` and then
-  /// `border(leaf)`. What follows in memory up to a multiple of 4 edges or triangles is a place there, too.
+  /// The ends of a leaf's edges and the corners of its triangles, in the order of `edges(leaf)` and
+  /// `faces(leaf)`. A quad's triangles are (0,1,2) and (0,2,3). Each number is an index into `vertices(leaf)`
+  /// followed by `border(leaf)`. The memory behind the lists, up to a multiple of 4 edges or triangles, holds
+  /// valid indices, too.
   [[nodiscard]] std::span<const std::uint32_t> edge_ends(const Region& leaf) const {
-    return std::span(places_).subspan(place_begin_[number(leaf)].ends, 2 * std::size_t{leaf.edge_count});
+    return std::span(local_indices_)
+        .subspan(local_begin_[number(leaf)].ends, 2 * std::size_t{leaf.edge_count});
   }
   [[nodiscard]] std::span<const std::uint32_t> triangle_corners(const Region& leaf) const {
-    const PlaceBegin& begin = place_begin_[number(leaf)];
-    return std::span(places_).subspan(begin.corners, begin.corner_count);
+    const LocalBegin& begin = local_begin_[number(leaf)];
+    return std::span(local_indices_).subspan(begin.corners, begin.corner_count);
   }
 
   /// Three corners of a leaf's features that are far apart at rest: about its plane, where it is nearly flat.
@@ -101,8 +103,8 @@ class GRAZE_API RegionTree {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// Where a leaf's lists begin in `places_`.
-  struct PlaceBegin {
+  /// The positions in `local_indices_` where a leaf's lists begin.
+  struct LocalBegin {
     std::uint32_t ends = 0;
     std::uint32_t corners = 0;
     std::uint32_t corner_count = 0;
@@ -119,8 +121,8 @@ class GRAZE_API RegionTree {
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> edges_;
   std::vector<std::uint32_t> border_;
-  std::vector<std::uint32_t> places_;
-  std::vector<PlaceBegin> place_begin_;               ///< by region; of leaves
+  std::vector<std::uint32_t> local_indices_;
+  std::vector<LocalBegin> local_begin_;               ///< by region; of leaves
   std::vector<std::array<std::uint32_t, 3>> spread_;  ///< by region; of leaves
 };
 

@@ -16,15 +16,16 @@ class IndexedMesh;
 /// vertices.
 ///
 /// The reach in a direction is the largest dot product of it and a vertex. It is convex and grows with the
-/// direction's length, so that in w0·p0 + w1·p1 + w2·p2, with weights above zero, it is at most the same sum
-/// of the reaches in p0, p1 and p2. These are listed for directions on the faces of a cube, eight squares
-/// along each edge. For a sphere the bound is at most a hundredth of the radius too large.
+/// direction's length. So in w0·p0 + w1·p1 + w2·p2, with weights above zero, it is at most the same sum of
+/// the reaches in p0, p1 and p2. These are listed for directions on the faces of a cube, eight squares along
+/// each edge. For a sphere the bound is at most a hundredth of the radius too large.
 class GRAZE_API RestReach {
  public:
   explicit RestReach(const IndexedMesh& mesh);
 
-  /// A box of all used vertices at ((r0·x + r1·y) + r2·z) + t as doubles round it, for the rows
-  /// (r0, r1, r2, t) of any finite matrix; infinite where they may be beyond the range of double.
+  /// A box of all used vertices at ((r0·x + r1·y) + r2·z) + t as doubles round it, for the rows (r0, r1, r2,
+  /// t). The matrix may be any finite one. The box is infinite where vertices may be beyond the range of
+  /// double.
   [[nodiscard]] Box box_at(const std::array<double, 12>& rows) const;
 
   /// At least how far any used vertex is at one matrix from where it is at another, both as doubles round it.

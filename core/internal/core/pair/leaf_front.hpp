@@ -19,13 +19,13 @@ struct RegionPair {
   std::uint32_t b = 0;
 };
 
-/// A pair of leaves, and lower bounds of how far apart they were when they were listed: of all they have, and
-/// by looks into them, of each vertex and face and each two edges, but not of an edge that comes to pierce a
-/// face.
+/// A pair of leaves, and two lower bounds of their distance when they were listed. `lower` bounds all
+/// features that they have; `feature_lower_bound` comes from a test of the leaves. The test bounds each
+/// vertex with each face and each two edges, but not an edge that comes to pierce a face.
 struct ListedLeaves {
   RegionPair pair;
   float lower = 0;
-  float looked = 0;
+  float feature_lower_bound = 0;
 };
 
 /// A point of a surface that moves with it: of a vertex, an edge, a fold or a triangle, by its corners.
@@ -43,25 +43,27 @@ struct LastWitness {
   [[nodiscard]] bool is_known() const { return on_a.size > 0; }
 };
 
-/// Where DMV stopped for one pair of surfaces: every pair of leaves that may have been near, so that the next
-/// query, of a detail that is about surfaces or vertices as this one's was, can start there. It stays good
-/// while the surfaces move less than it was made loose. And what is known of features, of which the same
-/// holds.
+/// The pairs of leaves where DMV stopped for one pair of surfaces: every pair that may have been near. The
+/// next query can start there if its detail is about surfaces, or about vertices, as this one's was. The
+/// front stays good while the surfaces move less than the slack that it was made with. The list of near
+/// features below stays good in the same way.
 struct LeafFront {
   std::vector<ListedLeaves> leaves;  ///< in the order in which they are asked, where `touched`
-  /// Every pair of leaves that is not listed was at least this far apart, at the two marks; negative where
-  /// nothing is known.
-  double beyond = -1;
+  /// A lower bound of the distance, at the two marks, of every pair of leaves that is not listed. It is
+  /// negative where nothing is known.
+  double unlisted_lower_bound = -1;
   Travel travel_a;
   Travel travel_b;
-  /// Where they are now they say how far apart the surfaces are at most, whatever has moved.
+  /// The nearest points of the last answer. At the present positions they give an upper bound of the
+  /// surfaces' distance, whatever has moved.
   LastWitness witness;
-  /// What a query for contacts asks in place of leaves, by marks of its own; null before the first.
+  /// The list that a query for contacts uses instead of leaves, with marks of its own. It is null before the
+  /// first such query.
   std::unique_ptr<NearList> near;
-  /// At least how far apart the surfaces were at the two marks. While they have not moved as much since, no
-  /// edge pierces a face, and what looks into leaves said of the rest is all that counts.
+  /// A lower bound of the surfaces' distance at the two marks. While they have moved less than that, no edge
+  /// pierces a face, and `feature_lower_bound` covers everything that counts.
   float apart = 0;
-  /// Whether the surfaces were at distance 0 when a query looked for the closest points last.
+  /// Whether the surfaces were at distance 0 when a query last searched for the closest points.
   bool touched = false;
   /// How many pairs of leaves the last walk reached, as the number of its bits.
   std::uint8_t reached_bits = 0;
@@ -81,7 +83,7 @@ struct LeafFront {
   void forget_leaves() {
     leaves.clear();
     reached_bits = 0;
-    beyond = -1;
+    unlisted_lower_bound = -1;
     apart = 0;
     witness = {};
     touched = false;
@@ -94,10 +96,10 @@ struct LeafFront {
     return bytes_of(leaves) + (near == nullptr ? 0 : sizeof(NearList) + bytes_of(near->pairs));
   }
   /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
-  [[nodiscard]] double beyond_now(const Surface& a, const Surface& b) const {
-    if (!(beyond > 0)) return -1;
-    if (beyond == std::numeric_limits<double>::infinity()) return beyond;
-    return (beyond - motion_now(a, b)) * round_down;
+  [[nodiscard]] double unlisted_lower_bound_now(const Surface& a, const Surface& b) const {
+    if (!(unlisted_lower_bound > 0)) return -1;
+    if (unlisted_lower_bound == std::numeric_limits<double>::infinity()) return unlisted_lower_bound;
+    return (unlisted_lower_bound - motion_now(a, b)) * round_down;
   }
   /// Pairs of leaves are at most this much nearer to each other than they were at the two marks.
   [[nodiscard]] double motion_now(const Surface& a, const Surface& b) const {

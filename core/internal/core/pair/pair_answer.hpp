@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// What is known of one pair of objects, but for its lists.
+/// The result for one pair of objects, without its lists.
 struct PairFinding {
   bool in_contact = false;
   bool listed = false;   ///< in contact, or nearer than the reach; otherwise nothing below means anything

@@ -12,7 +12,7 @@
 
 namespace graze {
 
-/// What is asked of one pair of objects.
+/// The question about one pair of objects.
 struct PairQuery {
   ContactDetail detail = ContactDetail::features;
   AccuracyMode mode = AccuracyMode::exact;
@@ -21,18 +21,18 @@ struct PairQuery {
   double tolerance = 0;  ///< of AccuracyMode::within
   /// How far the surfaces may move until a front found now is of no more use; 0: none is kept.
   double slack = 0;
-  /// Where the closest points are looked for, leaves are looked into for what is this much further than need
-  /// be, so that it is known for some steps which of them have nothing as near as that.
+  /// The extra distance within which a search for the closest points tests leaves. It gives lower bounds that
+  /// tell for some steps which leaves have nothing near enough.
   double leaf_test_slack = 0;
-  /// Where all contacts are looked for, features that are this much further than the threshold are listed, so
-  /// that for some steps no others need be asked; 0: none are.
+  /// The extra distance above the threshold within which a search for all contacts lists features. For some
+  /// steps no other features need be tested. 0: none are listed.
   double list_slack = 0;
   /// A front of more pairs of leaves than this is not kept, nor a list of more pairs of features.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
-  /// The most contacts that an answer keeps: the nearest, and of those that are as near the lowest names. 0:
-  /// all. Where more are found, no features are listed for the next steps.
+  /// The most contacts that an answer keeps: the nearest, and of those at one distance those with the lowest
+  /// keys. 0: all. Where more are found, no features are listed for the next steps.
   std::size_t contact_limit = 0;
-  /// How many distances of regions are listed at most; 0: none are looked for.
+  /// How many distances of regions are listed at most; 0: none.
   std::size_t region_distance_limit = 0;
   /// Regions are listed that may be nearer than this; in AccuracyMode::paper, those that pass its test.
   double region_distance_reach = 0;

@@ -13,10 +13,10 @@
 
 namespace graze {
 
-/// A query about one pair of large surfaces, cut into slices that any threads may run at once. The answer is
-/// that of PairDetector::detect, and where PairQuery::region_distance_limit asks for distances of regions
-/// also of PairDetector::region_distances, bit for bit; how it is cut depends on the surfaces and the query
-/// only.
+/// A query about one pair of large surfaces, cut into slices that any threads may run at once. Its answer is
+/// that of PairDetector::detect, bit for bit. Where PairQuery::region_distance_limit asks for distances of
+/// regions, these are those of PairDetector::region_distances. How it is cut depends on the surfaces and the
+/// query only.
 ///
 ///     large.begin(a, b, query, front, answer);
 ///     while (!large.advance(detector, counters))
@@ -34,10 +34,11 @@ class GRAZE_API LargePair {
   LargePair(LargePair&&) noexcept;
   LargePair& operator=(LargePair&&) noexcept;
 
-  /// As PairDetector::detect and region_distances; what is referred to stays until the query is answered.
+  /// Begins a query as of PairDetector::detect and region_distances. The arguments that are referred to have
+  /// to stay until it is answered.
   void begin(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
              PairAnswer& answer);
-  /// Does what is not cut. True: the answer is there. False: there are slices to be run.
+  /// Does the work that is not cut. True: the answer is there. False: there are slices to be run.
   bool advance(PairDetector& detector, PairCounters& counters);
   [[nodiscard]] std::size_t slice_count() const;
   void run_slice(std::size_t index, PairDetector& detector, PairCounters& counters);

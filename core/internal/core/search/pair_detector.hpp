@@ -29,11 +29,12 @@ class GRAZE_API PairDetector {
   /// `make_stretches`.
   /// `answer` is overwritten, its memory used again; the work is added to `counters`.
   ///
-  /// `front` is the same pair's of an earlier query, or a new one, and is brought up to date. It saves work
-  /// and changes nothing in the answer, but in AccuracyMode::within which of the allowed bounds are given.
+  /// `front` is that of an earlier query about this pair, or a new one, and is updated. It saves work and
+  /// does not change the answer. Only in AccuracyMode::within it may change which of the allowed bounds are
+  /// given.
   void detect(const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front,
               PairAnswer& answer, PairCounters& counters);
-  /// The same without a front.
+  /// Detects without a front to start from or to keep.
   void detect(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer,
               PairCounters& counters);
 

@@ -42,7 +42,7 @@ class GRAZE_API Surface {
 
   [[nodiscard]] const IndexedMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const std::shared_ptr<const IndexedMesh>& shared_mesh() const { return mesh_; }
-  /// That of an unused vertex means nothing.
+  /// The position of a vertex; that of an unused one means nothing.
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t vertex) const {
     if (viewed_.data() != nullptr) return viewed_[vertex];
     if (in_double_.empty()) return in_float_[vertex].cast<double>();
@@ -59,7 +59,7 @@ class GRAZE_API Surface {
   /// Whether a position can be worked with: finite, and no coordinate beyond 2^120.
   [[nodiscard]] static bool is_within_limits(const Eigen::Vector3d& position);
 
-  /// What came of reading positions.
+  /// The result of reading positions.
   struct ReadResult {
     static constexpr std::uint32_t no_vertex = IndexedMesh::no_edge;
     /// The first used vertex that is not finite or has a coordinate beyond 2^120; then nothing was taken.
@@ -72,20 +72,20 @@ class GRAZE_API Surface {
 
     [[nodiscard]] bool taken() const { return bad_vertex == no_vertex; }
   };
-  /// How ReadResult::displacement is found: a bound of the sort takes one quick pass, and is at most √3 times
-  /// too large, or infinite where positions come in another precision than before.
+  /// How ReadResult::displacement is found. A bound takes one quick pass and is at most √3 times too large.
+  /// It is infinite where positions come in another precision than before.
   enum class Displacement : std::uint8_t { exact, bound };
   /// Takes all of `view`, which has one position for each vertex, or nothing, also where there is no memory
   /// for it (std::bad_alloc). Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
-  /// Places the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
+  /// Poses the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
   /// From one pose to another the displacement is a bound, by the corners of the rest shape's box, and
   /// another pose is a change.
   ReadResult set_pose(const std::array<double, 12>& rows);
 
-  /// What looking at some of the new positions found.
+  /// The result of scanning some of the new positions.
   struct PartSeen {
-    /// The first, as in ReadResult; nothing after it was looked at.
+    /// The first bad vertex, as in ReadResult; no vertex after it was scanned.
     std::uint32_t bad_vertex = ReadResult::no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
     double furthest_squared = 0;
@@ -97,15 +97,16 @@ class GRAZE_API Surface {
     /// Adds what was found in the vertices that come after.
     void add(const PartSeen& later);
   };
-  /// The same in parts. First look at the vertices from `begin` to `end`, then `take` what all parts found
-  /// together, then, where it says that something changed, write them; before that the surface's positions
-  /// are not to be asked for. Several threads may look or write at once, at parts that do not overlap.
-  [[nodiscard]] PartSeen look_at_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
-                                           Displacement displacement = Displacement::exact) const;
-  [[nodiscard]] PartSeen look_at_pose(const std::array<double, 12>& rows, std::uint32_t begin,
-                                      std::uint32_t end) const;
-  ReadResult take(const PartSeen& all);
-  /// Takes positions where they lie, which are this surface's until it is given others; none is to be
+  /// Reading by several threads has three phases. First scan the vertices from `begin` to `end`; several
+  /// threads may scan ranges that do not overlap. Then `accept` what all scans found together. If that says
+  /// that something changed, write the positions, again by ranges. Between `accept` and the last write the
+  /// surface's positions must not be read.
+  [[nodiscard]] PartSeen scan_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end,
+                                        Displacement displacement = Displacement::exact) const;
+  [[nodiscard]] PartSeen scan_pose(const std::array<double, 12>& rows, std::uint32_t begin,
+                                   std::uint32_t end) const;
+  ReadResult accept(const PartSeen& all);
+  /// Uses positions where they lie. They are this surface's until it is given others, and none is to be
   /// written.
   ReadResult take_in_place(const PartSeen& all, const PositionView& view);
   void write_positions(const PositionView& view, std::uint32_t begin, std::uint32_t end);
@@ -117,11 +118,11 @@ class GRAZE_API Surface {
   [[nodiscard]] static PartSeen survey(const IndexedMesh& mesh, const PositionView& view, std::uint32_t begin,
                                        std::uint32_t end);
 
-  /// Whether positions can be looked at where they are: one beside the other, all of them used.
+  /// Whether positions can be viewed where they are: one beside the other, all of them used.
   [[nodiscard]] bool can_view(const PositionView& view) const;
-  /// Looks at positions where they are, which a survey found good, in that box, in place of reading them:
-  /// they are this surface's until `end_view`, and how far they moved is not known. After that its positions
-  /// are of no use before it is read again or has another view.
+  /// Views positions where they are, instead of reading them. A survey has found them good, in that box. They
+  /// are this surface's until `end_view`, and how far they moved is not known. After that its positions are
+  /// of no use before it is read again or has another view.
   void view(const PositionView& view, const Box& box);
   void end_view();
   /// Whether it has had a view since it was read.
@@ -144,13 +145,13 @@ class GRAZE_API Surface {
   void refit(RefitOf what);
   void refit_vertices() { refit(RefitOf::vertices); }
   void refit_faces() { refit(RefitOf::faces); }
-  /// The same in parts: `begin_refit`, then ranges of regions that do not overlap and are all of them
-  /// together, by several threads at once if need be, then `finish_refit`.
+  /// A refit by several threads: `begin_refit`, then `refit_regions` for ranges that do not overlap and
+  /// together are all regions, then `finish_refit`.
   void begin_refit(RefitOf what);
   void refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end);
   void finish_refit(RefitOf what);
-  /// At least how far any used vertex is from where the last refit saw it: 0 where the bounds are those of
-  /// the present positions, infinite before the first refit and after a jump.
+  /// A bound of how far any used vertex is from where the last refit saw it. It is 0 where the bounds are
+  /// those of the present positions, and infinite before the first refit and after a jump.
   [[nodiscard]] double motion_since_vertex_refit() const { return motion_since_refit(RefitOf::vertices); }
   [[nodiscard]] double motion_since_face_refit() const { return motion_since_refit(RefitOf::faces); }
   [[nodiscard]] double motion_since_refit(RefitOf what) const;
@@ -163,8 +164,8 @@ class GRAZE_API Surface {
   [[nodiscard]] const VertexBlocks& blocks() const { return blocks_; }
   /// Whether they are those of now.
   [[nodiscard]] bool has_blocks() const { return blocks_version_ == version_; }
-  /// The same of stretches, of a mesh that has them: enough in place of blocks, where few pairs look at the
-  /// surface and each at a part of it.
+  /// Makes stretches at the present positions, for a mesh that has them. They suffice instead of blocks where
+  /// few pairs test the surface, each a part of it.
   void make_stretches();
   [[nodiscard]] const VertexStretches& stretches() const { return stretches_; }
   [[nodiscard]] bool has_stretches() const { return stretches_version_ == version_; }
@@ -172,7 +173,7 @@ class GRAZE_API Surface {
   /// Lets go of all bounds, blocks and stretches, and of their memory: those of now are made anew.
   void forget_bounds() noexcept;
 
-  /// Of the last refits, one for each region.
+  /// The boxes of the last refits, one for each region.
   [[nodiscard]] std::span<const Box> vertex_boxes() const { return vertex_boxes_; }
   [[nodiscard]] std::span<const Box> face_boxes() const { return face_boxes_; }
   [[nodiscard]] std::span<const Box> boxes(RefitOf what) const {
@@ -195,7 +196,7 @@ class GRAZE_API Surface {
   };
 
   template <typename PositionOf>
-  [[nodiscard]] PartSeen look(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const;
+  [[nodiscard]] PartSeen scan(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of) const;
   template <typename PositionOf>
   void write(std::uint32_t begin, std::uint32_t end, const PositionOf& position_of);
   ReadResult take_pose(const std::array<double, 12>& rows);
@@ -219,7 +220,7 @@ class GRAZE_API Surface {
   std::vector<Eigen::Vector3d> in_double_;
   std::optional<std::array<double, 12>>
       pose_;                ///< by which they are those of the rest shape, where it is known
-  PositionView viewed_;     ///< in place of these, where there is one; as long as both are empty always
+  PositionView viewed_;     ///< used instead of these, where there is one; always while both are empty
   bool is_behind_ = false;  ///< there has been one since they were written
   Box box_;
   std::vector<double> radii_;

@@ -14,15 +14,15 @@
 namespace graze {
 
 /// A surface's used vertices, or those of a part of it, eight at a time in the order of
-/// IndexedMesh::block_order, and a box of each such block; of sixteen boxes one again, and so on. Made anew
-/// wherever the surface moved: for vertices that costs less than what a hierarchy that is kept from step to
-/// step would save.
+/// IndexedMesh::block_order. Each such block has a box, each sixteen boxes have one again, and so on. They
+/// are made anew wherever the surface moved. For vertices that costs less than a hierarchy that is kept from
+/// step to step would save.
 class VertexBlocks {
  public:
   static constexpr std::uint32_t block_size = vertices_per_block;  ///< vertices
   static constexpr std::uint32_t group_size = boxes_per_group;     ///< boxes
   static constexpr std::uint32_t group_vertices = vertices_per_group;
-  /// So many boxes with those behind the last, so that they are whole groups.
+  /// Returns the number of boxes, rounded up to whole groups.
   static constexpr std::size_t in_whole_groups(std::size_t count) {
     return (count + group_size - 1) / group_size * group_size;
   }
@@ -34,15 +34,16 @@ class VertexBlocks {
     std::size_t count = 0;
   };
 
-  /// Of positions that lie one beside the other, those in `order`: all of IndexedMesh::block_order, or whole
-  /// groups of it. It is kept as a view.
+  /// Makes the blocks from positions that lie one beside the other. `order` is all of
+  /// IndexedMesh::block_order, or whole groups of it, and is kept as a view.
   void make(std::span<const std::uint32_t> order, const PositionView& positions);
   /// Makes room for so many vertices.
   void reserve(std::size_t vertices);
 
-  /// The place that boxes are about, amid most vertices.
+  /// The point that boxes are relative to, amid most vertices.
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
-  /// Of blocks first, and then of sixteen of the level before; the last has a few groups.
+  /// How many levels there are. Level 0 has a box for each block, and each further level one for sixteen
+  /// boxes of the level before. The last level has a few groups.
   [[nodiscard]] std::size_t level_count() const { return level_count_; }
   [[nodiscard]] Level level(std::size_t index) const;
   /// The box of one block about the origin: least x, y, z and greatest.
@@ -66,9 +67,9 @@ class VertexBlocks {
   void lay_out_levels();
   void box_level(std::size_t level);
 
-  /// Of 2^32 vertices.
+  /// Enough for 2^32 vertices.
   static constexpr std::size_t most_levels = 8;
-  struct Place {
+  struct LevelLayout {
     std::size_t first = 0;  ///< in `boxes_`
     std::size_t stride = 0;
     std::size_t count = 0;
@@ -77,7 +78,7 @@ class VertexBlocks {
   std::span<const std::uint32_t> order_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<float> boxes_;
-  std::array<Place, most_levels> places_;
+  std::array<LevelLayout, most_levels> levels_;
   std::size_t level_count_ = 0;
 };
 

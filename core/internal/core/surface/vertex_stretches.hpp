@@ -10,16 +10,16 @@
 
 namespace graze {
 
-/// Boxes of a surface's vertices as they lie in memory, 64 each: what of it may be near another surface,
-/// for less than the blocks of all its vertices cost (docs/method.md, section 2).
+/// Boxes of a surface's vertices as they lie in memory, 64 each. They tell which vertices may be near another
+/// surface, for less than the blocks of all its vertices cost (docs/method.md, section 2).
 class VertexStretches {
  public:
   static constexpr std::uint32_t stretch_size = vertices_per_stretch;  ///< vertices
 
-  /// Of positions that lie one beside the other.
+  /// Makes the stretches from positions that lie one beside the other.
   void make(const PositionView& positions);
 
-  /// The place that boxes are about, amid most vertices.
+  /// The point that boxes are relative to, amid most vertices.
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
   /// Boxes as VertexBlocks::Level has them.
   [[nodiscard]] const float* rows() const { return boxes_.data(); }

@@ -1,0 +1,82 @@
+#include "closest_features/piercing.hpp"
+
+#include "arithmetic/certain.hpp"
+
+namespace graze {
+namespace {
+
+/// How a segment crosses a triangle.
+enum class Crossing : std::uint8_t { none, inside, on_side };
+
+/// A segment that ends at a corner of a triangle has that end in its plane.
+bool share_a_corner(const Simplex& segment, const Simplex& triangle) {
+  for (std::size_t end = 0; end < 2; ++end)
+    for (const Eigen::Vector3d& corner : triangle.point)
+      if (segment.point[end] == corner) return true;
+  return false;
+}
+
+/// `open_side` is the side (0-1, 1-2, 2-0) that counts as inside, a quad's fold; 3 for none.
+Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t open_side,
+                  DecisionCount& count) {
+  const Eigen::Vector3d& p = segment.point[0];
+  const Eigen::Vector3d& q = segment.point[1];
+  const auto& corner = triangle.point;
+  const auto side_of_plane = [&](const Eigen::Vector3d& end) {
+    return decide_sign(count, [&]<typename Number>() {
+      const Vector<Number> normal =
+          cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
+      return dot(normal, difference<Number>(end, corner[0]));
+    });
+  };
+  const int side_p = side_of_plane(p);
+  if (side_p == 0) return Crossing::none;
+  const int side_q = side_of_plane(q);
+  if (side_p * side_q != -1) return Crossing::none;
+  Crossing result = Crossing::inside;
+  for (std::size_t side = 0; side < 3; ++side) {
+    const int turn = decide_sign(count, [&]<typename Number>() {
+      return dot(difference<Number>(q, p),
+                 cross(difference<Number>(corner[side], p), difference<Number>(corner[(side + 1) % 3], p)));
+    });
+    if (turn == 0 && side == open_side)
+      result = Crossing::on_side;
+    else if (turn != side_q)
+      return Crossing::none;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeaturePiece& segment,
+                                          const Surface& other, std::uint32_t face, DecisionCount& count) {
+  const Simplex ends = simplex_of(surface, segment);
+  const bool is_quad = triangle_count(other.mesh(), face) == 2;
+  const bool has_fold = is_quad && diagonal_of(other.mesh(), face).feature.kind == FeatureKind::face;
+  const auto cross_triangle = [&](Piece piece, std::size_t open_side) {
+    const Simplex triangle = simplex_of(other, face_piece(face, piece));
+    if (share_a_corner(ends, triangle)) return Crossing::none;
+    const Passing passing = certain_passing({ends.point[0], ends.point[1]}, triangle.point);
+    if (passing != Passing::unsure) {
+      ++count.in_double;
+      return passing == Passing::yes ? Crossing::inside : Crossing::none;
+    }
+    return crossing(ends, triangle, open_side, count);
+  };
+  // The fold is side 2-0 of the first triangle and side 0-1 of the second.
+  const bool first = cross_triangle(Piece::first, has_fold ? 2 : 3) != Crossing::none;
+  const bool second = is_quad && cross_triangle(Piece::second, has_fold ? 0 : 3) != Crossing::none;
+  if (!first && !second) return std::nullopt;
+  if (!second) return face_piece(face, Piece::first);
+  if (!first) return face_piece(face, Piece::second);
+  const Simplex first_triangle = simplex_of(other, face_piece(face, Piece::first));
+  const Simplex second_triangle = simplex_of(other, face_piece(face, Piece::second));
+  const int order = decide(count, [&]<typename Number>(bool& unsure) {
+    return compare(crossing_parameter<Number>(ends, first_triangle, unsure),
+                   crossing_parameter<Number>(ends, second_triangle, unsure), unsure);
+  });
+  return face_piece(face, order <= 0 ? Piece::first : Piece::second);
+}
+
+}  // namespace graze

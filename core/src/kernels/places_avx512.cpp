@@ -1,2 +1,0 @@
-#define GRAZE_KERNEL_SET avx512
-#include "kernels/places_kernels.inc"

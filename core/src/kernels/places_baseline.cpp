@@ -1,2 +1,0 @@
-#define GRAZE_KERNEL_SET baseline
-#include "kernels/places_kernels.inc"

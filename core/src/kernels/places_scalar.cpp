@@ -1,2 +1,0 @@
-#define GRAZE_KERNEL_SET scalar
-#include "kernels/places_kernels.inc"

@@ -1,0 +1,2 @@
+#define GRAZE_KERNEL_SET scalar
+#include "kernels/voronoi_kernels.inc"
