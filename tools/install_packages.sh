@@ -6,7 +6,7 @@ set -eu
 
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
   libtinyobjloader-dev nlohmann-json3-dev libcli11-dev libpng-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
-  libmd4c-html0-dev libmd4c-dev"
+  libmd4c-html0-dev libmd4c-dev python3"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
   libbenchmark-dev valgrind doxygen doxygen-awesome-css"
 
