@@ -194,18 +194,18 @@ bool ReportReader::State::read_line(Read read) {
   std::string line;
   if (!std::getline(stream, line)) return false;
   ++line_number;
-  const std::string place = path + ": line " + std::to_string(line_number) + ": ";
+  const std::string where = path + ": line " + std::to_string(line_number) + ": ";
   const std::string remedy = "; write the report again with this version of graze";
   try {
     read(json::parse(line));
   } catch (const json::parse_error&) {
-    throw InputError(place + "not valid JSON, the file may be cut off" + remedy);
+    throw InputError(where + "not valid JSON, the file may be cut off" + remedy);
   } catch (const json::exception&) {
-    throw InputError(place + "a key is missing or of another type" + remedy);
+    throw InputError(where + "a key is missing or of another type" + remedy);
   } catch (const BadLine& error) {
-    throw InputError(place + error.what() + remedy);
+    throw InputError(where + error.what() + remedy);
   } catch (const Error& error) {
-    throw InputError(place + error.what() + remedy);
+    throw InputError(where + error.what() + remedy);
   }
   return true;
 }

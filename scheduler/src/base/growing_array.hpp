@@ -24,24 +24,24 @@ class GrowingArray {
 
   /// The element, or null where it was not made yet. Any index, any thread.
   [[nodiscard]] Element* find(std::uint32_t index) const noexcept {
-    const Place place = place_of(index);
+    const Location location = location_of(index);
     // Acquire: the chunk's elements were constructed before it was put here.
-    Element* const chunk = chunks_[place.chunk].load(std::memory_order_acquire);
-    return chunk == nullptr ? nullptr : chunk + place.offset;
+    Element* const chunk = chunks_[location.chunk].load(std::memory_order_acquire);
+    return chunk == nullptr ? nullptr : chunk + location.offset;
   }
   /// An element that was made.
   [[nodiscard]] Element& operator[](std::uint32_t index) const noexcept { return *find(index); }
 
   /// Makes the element and those before it in its chunk, unless they are there.
   Element& make(std::uint32_t index) {
-    const Place place = place_of(index);
-    std::atomic<Element*>& chunk = chunks_[place.chunk];
-    if (Element* const made = chunk.load(std::memory_order_acquire)) return made[place.offset];
-    auto fresh = std::make_unique<Element[]>(first_chunk << place.chunk);
+    const Location location = location_of(index);
+    std::atomic<Element*>& chunk = chunks_[location.chunk];
+    if (Element* const made = chunk.load(std::memory_order_acquire)) return made[location.offset];
+    auto fresh = std::make_unique<Element[]>(first_chunk << location.chunk);
     Element* made = nullptr;
     // Of several threads that make the same chunk one puts its own here; the others take that one.
     if (chunk.compare_exchange_strong(made, fresh.get(), std::memory_order_acq_rel)) made = fresh.release();
-    return made[place.offset];
+    return made[location.offset];
   }
 
   /// Bytes of the elements made; not what they hold themselves.
@@ -56,12 +56,12 @@ class GrowingArray {
  private:
   static constexpr std::size_t first_chunk = 64;
   static constexpr std::size_t chunk_count = 27;  ///< for every 32-bit index
-  struct Place {
+  struct Location {
     std::size_t chunk;
     std::size_t offset;
   };
   /// Chunk c begins at first_chunk (2^c - 1).
-  static Place place_of(std::uint32_t index) noexcept {
+  static Location location_of(std::uint32_t index) noexcept {
     const std::size_t units = index / first_chunk + 1;
     const auto chunk = static_cast<std::size_t>(std::bit_width(units / 2));  // the logarithm, rounded down
     return {chunk, index - first_chunk * ((std::size_t{1} << chunk) - 1)};

@@ -63,14 +63,14 @@ class SparePositions {
 
   SparePositions() = default;
   ~SparePositions() {
-    for (std::atomic<CopiedPositions*>& place : places_) delete place.load(std::memory_order_acquire);
+    for (std::atomic<CopiedPositions*>& slot : slots_) delete slot.load(std::memory_order_acquire);
   }
   SparePositions(const SparePositions&) = delete;
   SparePositions& operator=(const SparePositions&) = delete;
 
   /// A buffer of `count` positions, of whatever it held last.
   [[nodiscard]] Loan lend(std::size_t count, bool in_double, ByteCount& byte_count) {
-    Loan loan(take(byte_count), {this, &byte_count});
+    Loan loan(acquire(byte_count), {this, &byte_count});
     const std::size_t before = loan->byte_count();
     loan->resize(count, in_double);
     const std::size_t now = loan->byte_count();
@@ -78,24 +78,24 @@ class SparePositions {
     return loan;
   }
   void clear(ByteCount& byte_count) noexcept {
-    for (std::atomic<CopiedPositions*>& place : places_)
-      free(place.exchange(nullptr, std::memory_order_acquire), byte_count);
+    for (std::atomic<CopiedPositions*>& slot : slots_)
+      free(slot.exchange(nullptr, std::memory_order_acquire), byte_count);
   }
 
  private:
-  CopiedPositions* take(ByteCount& byte_count) {
-    // A place is emptied by an exchange, so a buffer has one holder. Acquire: the last one has done with it.
-    for (std::atomic<CopiedPositions*>& place : places_)
-      if (CopiedPositions* const kept = place.exchange(nullptr, std::memory_order_acquire)) return kept;
+  CopiedPositions* acquire(ByteCount& byte_count) {
+    // A slot is emptied by an exchange, so a buffer has one holder. Acquire: the last one has done with it.
+    for (std::atomic<CopiedPositions*>& slot : slots_)
+      if (CopiedPositions* const kept = slot.exchange(nullptr, std::memory_order_acquire)) return kept;
     auto fresh = std::make_unique<CopiedPositions>();
     byte_count.fetch_add(fresh->byte_count(), std::memory_order_relaxed);
     return fresh.release();
   }
   void keep(CopiedPositions* positions, ByteCount& byte_count) noexcept {
-    for (std::atomic<CopiedPositions*>& place : places_) {
+    for (std::atomic<CopiedPositions*>& slot : slots_) {
       CopiedPositions* empty = nullptr;
-      if (place.compare_exchange_strong(empty, positions, std::memory_order_release,
-                                        std::memory_order_relaxed))
+      if (slot.compare_exchange_strong(empty, positions, std::memory_order_release,
+                                       std::memory_order_relaxed))
         return;
     }
     free(positions, byte_count);
@@ -107,7 +107,7 @@ class SparePositions {
   }
 
   /// One more for the copy that the object stands at.
-  std::array<std::atomic<CopiedPositions*>, most_waiting + 1> places_{};
+  std::array<std::atomic<CopiedPositions*>, most_waiting + 1> slots_{};
 };
 
 }  // namespace graze

@@ -29,8 +29,8 @@ constexpr std::size_t few = 8;
 /// Making a new order takes about as long as this many tests for each object.
 constexpr double tests_of_ordering = 64;
 
-/// A tree with more slots wants a new order.
-constexpr std::size_t most_slots(std::size_t objects) {
+/// A tree with more leaves wants a new order.
+constexpr std::size_t most_leaves(std::size_t objects) {
   return 2 * objects + 64;
 }
 
@@ -60,12 +60,12 @@ bool is_too_loose(const Box& loose, const Box& needed) {
 
 }  // namespace
 
-std::span<const PlacePair> BroadPhase::find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
-                                            TaskPool& tasks) {
+std::span<const SlotPair> BroadPhase::find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
+                                           TaskPool& tasks) {
   counters_ = {};
   reaches_changed_ = half_reaches != half_reaches_;
   half_reaches_ = half_reaches;
-  follow(summaries);
+  update_slots(summaries);
   loosen(summaries, tasks);
   if (!left_.empty()) {
     if (left_.size() > loose_.size() / few || wants_new_order())
@@ -79,20 +79,20 @@ std::span<const PlacePair> BroadPhase::find(const ObjectSummaries& summaries, co
 }
 
 /// Takes objects out that are gone, and puts new ones in, which have no loose box yet.
-void BroadPhase::follow(const ObjectSummaries& summaries) {
-  const auto moves = summaries.moves();
-  if (!moves.empty()) {
-    tree_.rename(moves);
+void BroadPhase::update_slots(const ObjectSummaries& summaries) {
+  const auto new_slots = summaries.new_slots();
+  if (!new_slots.empty()) {
+    tree_.rename(new_slots);
     std::size_t count = 0;
-    for (std::size_t place = 0; place < moves.size(); ++place)
-      if (moves[place] != no_place) loose_[count++] = loose_[place];
+    for (std::size_t slot = 0; slot < new_slots.size(); ++slot)
+      if (new_slots[slot] != no_slot) loose_[count++] = loose_[slot];
     loose_.resize(count);
     std::size_t kept = 0;
-    for (const PlacePair pair : pairs_)
-      if (const PlacePair moved = moved_pair(pair, moves); moved != no_pair) pairs_[kept++] = moved;
+    for (const SlotPair pair : pairs_)
+      if (const SlotPair moved = remapped_pair(pair, new_slots); moved != no_pair) pairs_[kept++] = moved;
     pairs_.resize(kept);
   }
-  for (std::size_t place = loose_.size(); place < summaries.all().size(); ++place) {
+  for (std::size_t slot = loose_.size(); slot < summaries.all().size(); ++slot) {
     loose_.emplace_back();
     tree_.add({});
   }
@@ -108,12 +108,12 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
   const auto loosen_slice = [&](unsigned, std::size_t slice) {
     const std::size_t begin = slice * objects_of_slice;
     SliceObjects objects;
-    for (std::size_t place = begin; place < std::min(begin + objects_of_slice, count); ++place) {
-      const ObjectSummary& summary = summaries.all()[place];
-      const bool has_left = leaves(summary, loose_[place]);
-      has_left_[place] = has_left ? 1 : 0;
+    for (std::size_t slot = begin; slot < std::min(begin + objects_of_slice, count); ++slot) {
+      const ObjectSummary& summary = summaries.all()[slot];
+      const bool has_left = renew_if_left(summary, loose_[slot]);
+      has_left_[slot] = has_left ? 1 : 0;
       if (has_left)
-        left_[begin + objects.left++] = static_cast<std::uint32_t>(place);
+        left_[begin + objects.left++] = static_cast<std::uint32_t>(slot);
       else if (summary.moved)
         ++objects.in_slack;
     }
@@ -131,7 +131,7 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
 }
 
 /// Whether an object has left its loose box, which is then a new one.
-bool BroadPhase::leaves(const ObjectSummary& summary, Box& loose) const {
+bool BroadPhase::renew_if_left(const ObjectSummary& summary, Box& loose) const {
   const bool is_new = loose.empty();
   if (!summary.moved && !is_new && !reaches_changed_) return false;
   const Box needed = grown(summary.box, half_reaches_[summary.kind] + summary.margin);
@@ -142,7 +142,7 @@ bool BroadPhase::leaves(const ObjectSummary& summary, Box& loose) const {
 
 bool BroadPhase::wants_new_order() const {
   const std::size_t count = loose_.size();
-  return tree_.slot_count() > most_slots(count) || tree_.unordered_count() > count / few + 64 ||
+  return tree_.leaf_count() > most_leaves(count) || tree_.unordered_count() > count / few + 64 ||
          excess_tests_ > tests_of_ordering * static_cast<double>(count);
 }
 
@@ -193,18 +193,18 @@ void BroadPhase::sort_rows(TaskPool& tasks) {
   const std::size_t objects = loose_.size();
   rows_.assign(objects + 1, 0);
   for (const Slice& slice : slices)
-    for (const PlacePair pair : slice.pairs) ++rows_[first_of(pair) + std::size_t{1}];
-  for (std::size_t place = 0; place < objects; ++place) rows_[place + 1] += rows_[place];
+    for (const SlotPair pair : slice.pairs) ++rows_[first_of(pair) + std::size_t{1}];
+  for (std::size_t slot = 0; slot < objects; ++slot) rows_[slot + 1] += rows_[slot];
   pairs_.resize(rows_[objects]);
   for (const Slice& slice : slices)
-    for (const PlacePair pair : slice.pairs) pairs_[rows_[first_of(pair)]++] = pair;
+    for (const SlotPair pair : slice.pairs) pairs_[rows_[first_of(pair)]++] = pair;
   // Now rows_[i] is where row i ends.
   const auto sort_slice = [&](unsigned, std::size_t index) {
     const std::size_t begin = index * objects_of_slice;
     const std::size_t end = std::min(begin + objects_of_slice, objects);
-    for (std::size_t place = begin; place < end; ++place) {
-      const auto from = static_cast<std::ptrdiff_t>(place == 0 ? 0 : rows_[place - 1]);
-      std::sort(pairs_.begin() + from, pairs_.begin() + static_cast<std::ptrdiff_t>(rows_[place]));
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const auto from = static_cast<std::ptrdiff_t>(slot == 0 ? 0 : rows_[slot - 1]);
+      std::sort(pairs_.begin() + from, pairs_.begin() + static_cast<std::ptrdiff_t>(rows_[slot]));
     }
   };
   tasks.run(slices_of(objects, objects_of_slice), std::ref(sort_slice));
@@ -212,7 +212,7 @@ void BroadPhase::sort_rows(TaskPool& tasks) {
 
 /// Finds the pairs of those few that have left their loose boxes; of the other pairs none has come or gone.
 void BroadPhase::find_left(TaskPool& tasks) {
-  for (const std::uint32_t place : left_) tree_.move(place, loose_[place]);
+  for (const std::uint32_t slot : left_) tree_.move(slot, loose_[slot]);
   const auto slices = begin_slices(slices_of(left_.size(), queries_of_slice));
   const auto find_slice = [&](unsigned, std::size_t index) {
     Slice& slice = slices[index];
@@ -226,13 +226,13 @@ void BroadPhase::find_left(TaskPool& tasks) {
       std::max(0.0, static_cast<double>(sum_tests()) - expected * static_cast<double>(left_.size()));
 }
 
-void BroadPhase::find_one(std::uint32_t place, Slice& slice) const {
+void BroadPhase::find_one(std::uint32_t slot, Slice& slice) const {
   slice.found.clear();
-  slice.boxes_tested += tree_.find(loose_[place], slice.found);
+  slice.boxes_tested += tree_.find(loose_[slot], slice.found);
   for (const std::uint32_t other : slice.found) {
     // Of two that have left, the lower finds the pair.
-    if (other == place || (has_left_[other] != 0 && other < place)) continue;
-    slice.pairs.push_back(pair_of(place, other));
+    if (other == slot || (has_left_[other] != 0 && other < slot)) continue;
+    slice.pairs.push_back(pair_of(slot, other));
   }
 }
 
@@ -244,7 +244,7 @@ void BroadPhase::merge() {
   std::sort(new_pairs_.begin(), new_pairs_.end());
   merged_.clear();
   auto next = new_pairs_.begin();
-  for (const PlacePair pair : pairs_) {
+  for (const SlotPair pair : pairs_) {
     if (has_left_[first_of(pair)] != 0 || has_left_[second_of(pair)] != 0) continue;
     for (; next != new_pairs_.end() && *next < pair; ++next) merged_.push_back(*next);
     merged_.push_back(pair);
@@ -255,9 +255,9 @@ void BroadPhase::merge() {
 
 void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
   constexpr std::size_t most_of_each_slice = 4096;
-  const std::size_t slots = most_slots(objects);
+  const std::size_t leaves = most_leaves(objects);
   loose_.reserve(objects);
-  tree_.reserve(objects, slots);
+  tree_.reserve(objects, leaves);
   left_.reserve(objects);
   has_left_.reserve(objects);
   slice_objects_.reserve(slices_of(objects, objects_of_slice));
@@ -266,7 +266,7 @@ void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
   new_pairs_.reserve(pairs);
   merged_.reserve(pairs);
   pairs_of_each_slice_ = std::max(pairs_of_each_slice_, std::min(pairs, most_of_each_slice));
-  const std::size_t slices = slices_of(slots, std::size_t{BoxOrder::block} * blocks_of_slice);
+  const std::size_t slices = slices_of(leaves, std::size_t{BoxOrder::block} * blocks_of_slice);
   if (slices_.size() < slices) slices_.resize(slices);
   for (Slice& slice : slices_) reserve(slice);
 }

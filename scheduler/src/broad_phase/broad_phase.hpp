@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/place_pair.hpp"
 #include "base/settings_check.hpp"
+#include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "broad_phase/box_tree.hpp"
 #include "core/base/box.hpp"
@@ -27,8 +27,8 @@ class BroadPhase {
 
   /// Every pair whose boxes are within both half reaches and both margins of each other, and some others;
   /// ascending. `summaries` have been refreshed once since the last call. Stands until the next call.
-  std::span<const PlacePair> find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
-                                  TaskPool& tasks);
+  std::span<const SlotPair> find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
+                                 TaskPool& tasks);
 
   /// What the last call did.
   struct Counters {
@@ -36,7 +36,7 @@ class BroadPhase {
     std::uint64_t objects_in_slack = 0;  ///< have moved inside their loose box
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
-  /// By place.
+  /// By slot.
   [[nodiscard]] std::span<const Box> loose_boxes() const { return loose_; }
   /// Makes room for so many objects and pairs, of which any task finds up to 4,096.
   void reserve(std::size_t objects, std::size_t pairs);
@@ -45,7 +45,7 @@ class BroadPhase {
  private:
   /// What one task finds: each has its own.
   struct Slice {
-    std::vector<PlacePair> pairs;
+    std::vector<SlotPair> pairs;
     std::vector<std::uint32_t> found;
     std::uint64_t boxes_tested = 0;
   };
@@ -54,9 +54,9 @@ class BroadPhase {
     std::size_t in_slack = 0;
   };
 
-  void follow(const ObjectSummaries& summaries);
+  void update_slots(const ObjectSummaries& summaries);
   void loosen(const ObjectSummaries& summaries, TaskPool& tasks);
-  bool leaves(const ObjectSummary& summary, Box& loose) const;
+  bool renew_if_left(const ObjectSummary& summary, Box& loose) const;
   [[nodiscard]] bool wants_new_order() const;
   std::span<Slice> begin_slices(std::size_t count);
   void reserve(Slice& slice) const;
@@ -64,23 +64,23 @@ class BroadPhase {
   void find_all(TaskPool& tasks);
   void sort_rows(TaskPool& tasks);
   void find_left(TaskPool& tasks);
-  void find_one(std::uint32_t place, Slice& slice) const;
+  void find_one(std::uint32_t slot, Slice& slice) const;
   void merge();
 
   HalfReaches half_reaches_{};
   bool reaches_changed_ = false;
-  std::vector<Box> loose_;  ///< by place; empty for an object that is new
+  std::vector<Box> loose_;  ///< by slot; empty for an object that is new
   BoxTree tree_;
-  std::vector<PlacePair> pairs_;        ///< ascending
-  std::vector<std::uint32_t> left_;     ///< places that have left their loose boxes, ascending
-  std::vector<std::uint8_t> has_left_;  ///< by place
+  std::vector<SlotPair> pairs_;         ///< ascending
+  std::vector<std::uint32_t> left_;     ///< slots that have left their loose boxes, ascending
+  std::vector<std::uint8_t> has_left_;  ///< by slot
   std::vector<SliceObjects> slice_objects_;
   std::vector<Slice> slices_;
   std::size_t pairs_of_each_slice_ = 0;  ///< that room was reserved for
   std::size_t slice_count_ = 0;          ///< of them in use
   std::vector<std::size_t> rows_;        ///< where in pairs_ those of each first object begin or end
-  std::vector<PlacePair> new_pairs_;
-  std::vector<PlacePair> merged_;
+  std::vector<SlotPair> new_pairs_;
+  std::vector<SlotPair> merged_;
   Counters counters_;
   double tests_when_ordered_ = 0;  ///< boxes tested for one object when the order was new
   double excess_tests_ = 0;        ///< beyond what they would have been with a new order, since it was
@@ -89,6 +89,6 @@ class BroadPhase {
 /// Throws std::logic_error where a loose box does not contain what it must, or `pairs` are not all pairs of
 /// loose boxes that meet (looked at for few objects only). Without GRAZE_VALIDATE it is empty.
 void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& half_reaches,
-              std::span<const Box> loose, std::span<const PlacePair> pairs);
+              std::span<const Box> loose, std::span<const SlotPair> pairs);
 
 }  // namespace graze

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "base/index_pool.hpp"
+#include "base/lock_free_pool.hpp"
 #include "calls/calls.hpp"
 
 namespace graze {
@@ -30,7 +30,7 @@ class CallQueue {
     /// Allocates where more calls wait than ever before, or were reserved. Where it throws nothing was added.
     template <typename OneCall>
     void add(OneCall&& call) {
-      const std::uint32_t added = queue_.calls_.take();
+      const std::uint32_t added = queue_.calls_.acquire();
       queue_.calls_[added] = std::forward<OneCall>(call);
       if (newest_ == none)
         oldest_ = added;
@@ -50,32 +50,32 @@ class CallQueue {
   };
 
   /// Takes the calls that have entered out of the queue. One thread at a time.
-  void take() noexcept {
+  void collect() noexcept {
     // Acquire: the calls and their links were written before they were pushed (pushes are read-modify-writes,
     // which keep each other's release).
     const std::uint32_t newest = newest_.exchange(none, std::memory_order_acquire);
     if (newest == none) return;
     const std::uint32_t oldest = turned_round(newest);
-    if (newest_taken_ == none)
-      oldest_taken_ = oldest;
+    if (newest_collected_ == none)
+      oldest_collected_ = oldest;
     else
-      calls_.link(newest_taken_).store(oldest, std::memory_order_relaxed);
-    newest_taken_ = newest;
+      calls_.link(newest_collected_).store(oldest, std::memory_order_relaxed);
+    newest_collected_ = newest;
   }
   /// Calls `visit` with each call taken and not yet visited, in their order, and forgets it. Where a visit
   /// throws, that call and those after it are the first of the next time. One thread at a time.
   template <typename Visitor>
-  void visit_taken(const Visitor& visit) {
-    Visited visited(calls_, oldest_taken_);
-    while (newest_taken_ != none) {
-      const std::uint32_t call = oldest_taken_;
+  void visit_collected(const Visitor& visit) {
+    Visited visited(calls_, oldest_collected_);
+    while (newest_collected_ != none) {
+      const std::uint32_t call = oldest_collected_;
       std::visit(visit, calls_[call]);
       calls_[call] = RemoveObject{};
       visited.end_at(call);
-      if (call == newest_taken_)
-        newest_taken_ = none;
+      if (call == newest_collected_)
+        newest_collected_ = none;
       else
-        oldest_taken_ = calls_.link(call).load(std::memory_order_relaxed);
+        oldest_collected_ = calls_.link(call).load(std::memory_order_relaxed);
     }
   }
 
@@ -84,21 +84,21 @@ class CallQueue {
   [[nodiscard]] std::size_t byte_count() const noexcept { return calls_.byte_count(); }
 
  private:
-  static constexpr std::uint32_t none = IndexPool<Call>::none;
+  static constexpr std::uint32_t none = LockFreePool<Call>::none;
 
   /// The calls that have been visited, from the first on; gives them back together when it goes.
   class Visited {
    public:
-    Visited(IndexPool<Call>& calls, std::uint32_t first) : calls_(calls), first_(first) {}
+    Visited(LockFreePool<Call>& calls, std::uint32_t first) : calls_(calls), first_(first) {}
     ~Visited() {
-      if (last_ != none) calls_.give_back(first_, last_);
+      if (last_ != none) calls_.release(first_, last_);
     }
     Visited(const Visited&) = delete;
     Visited& operator=(const Visited&) = delete;
     void end_at(std::uint32_t last) { last_ = last; }
 
    private:
-    IndexPool<Call>& calls_;
+    LockFreePool<Call>& calls_;
     std::uint32_t first_;
     std::uint32_t last_ = none;
   };
@@ -122,11 +122,11 @@ class CallQueue {
     return after;
   }
 
-  IndexPool<Call> calls_;
+  LockFreePool<Call> calls_;
   std::atomic<std::uint32_t> newest_{none};
   // A chain from the oldest to the newest: of the thread that takes.
-  std::uint32_t oldest_taken_ = none;
-  std::uint32_t newest_taken_ = none;
+  std::uint32_t oldest_collected_ = none;
+  std::uint32_t newest_collected_ = none;
 };
 
 }  // namespace graze

@@ -125,7 +125,7 @@ Diagnostic Staging::lost_call(ObjectId object) {
 
 void Staging::step_failed() noexcept {
   const std::lock_guard lock(bindings_);
-  ids_.give_lost_back();
+  ids_.return_lost();
   if (failed_ + 1 != steps_) failed_after_ = steps_ - 1;
   failed_ = steps_;
 }
@@ -141,12 +141,12 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   if (const auto problem = problem_of(settings)) throw Error(*problem);
   const FloatingPointScope scope;
   AddObject call{{}, std::make_unique<Surface>(mesh), settings};
-  const ObjectId object = call.object = ids_.give(std::move(mesh), settings);
+  const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
   try {
     calls.add(std::move(call));
   } catch (...) {
-    ids_.take_back(object);
+    ids_.cancel(object);
     throw;
   }
   // The id becomes good when the object's addition is queued, so that nothing said of it comes before.

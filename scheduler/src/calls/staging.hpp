@@ -66,10 +66,10 @@ class Staging {
   [[nodiscard]] std::size_t byte_count() const noexcept { return ids_.byte_count() + queue_.byte_count(); }
 
   /// Takes the calls made so far out of the queue, for a step. Stepping thread only.
-  void take() {
+  void collect() {
     const std::lock_guard lock(bindings_);
-    queue_.take();
-    ids_.take_lost();
+    queue_.collect();
+    ids_.collect_lost();
     ++steps_;
   }
   /// The step that took calls last came to no end. The next one takes up those that it has not visited.
@@ -77,16 +77,17 @@ class Staging {
   /// Calls `visit` with each call taken and not yet visited, in their order. Where a visit throws, that call
   /// is the first of the next time. Stepping thread only.
   template <typename Visitor>
-  void visit_taken(const Visitor& visit) {
-    queue_.visit_taken([&](auto& call) {
+  void visit_collected(const Visitor& visit) {
+    queue_.visit_collected([&](auto& call) {
       // The thread that adds may not have come so far yet; a report that names the object may not go ahead.
       if constexpr (std::is_same_v<decltype(call), AddObject&>) ids_.publish(call.object);
       visit(call);
     });
     ids_.visit_lost([&](ObjectId object, std::uint8_t& lost) { visit_lost(visit, object, lost); });
-    if (unnamed_lost_.load(std::memory_order_relaxed) && unnamed_lost_.exchange(false)) unnamed_taken_ = true;
-    if (unnamed_taken_) visit_made(visit, lost_call({}));
-    unnamed_taken_ = false;
+    if (unnamed_lost_.load(std::memory_order_relaxed) && unnamed_lost_.exchange(false))
+      unnamed_collected_ = true;
+    if (unnamed_collected_) visit_made(visit, lost_call({}));
+    unnamed_collected_ = false;
   }
 
  private:
@@ -165,7 +166,7 @@ class Staging {
   std::uint64_t failed_after_ = 0;
   std::uint64_t failed_ = 0;
   std::atomic<bool> unnamed_lost_{false};  ///< calls about no object
-  bool unnamed_taken_ = false;             ///< and for the step at hand: the stepping thread's
+  bool unnamed_collected_ = false;         ///< and for the step at hand: the stepping thread's
 };
 
 }  // namespace graze

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "base/shared_room.hpp"
+#include "base/shared_buffer.hpp"
 #include "core/pair/pair_answer.hpp"
 
 namespace graze {
@@ -31,22 +31,22 @@ class PairAnswers {
   /// The same of a job that is not looked at, with so many contacts.
   void repeat_without_contacts(std::size_t job, std::size_t contacts);
   /// Says which are kept, for a job of which some are.
-  void take_contacts(std::size_t job, std::span<const Contact> contacts);
+  void set_contacts(std::size_t job, std::span<const Contact> contacts);
   /// Takes an answer whose lists stay where they are.
   void refer_to(std::size_t job, const PairAnswer& answer);
-  /// Of a job that was answered in this step; until `even_out`.
+  /// Of a job that was answered in this step; until `grow_to_demand`.
   [[nodiscard]] const KeptAnswer& operator[](std::size_t job) const { return answers_[job]; }
 
   /// Makes room, so that a step with answers like these takes no memory. All lists are gone then.
-  void even_out();
+  void grow_to_demand();
   /// Makes room for so many answers, and lists of all of them together.
   void reserve(std::size_t answers, std::size_t contacts, std::size_t region_distances);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   std::vector<KeptAnswer> answers_;
-  SharedRoom<Contact> contacts_;
-  SharedRoom<RegionDistance> region_distances_;
+  SharedBuffer<Contact> contacts_;
+  SharedBuffer<RegionDistance> region_distances_;
 };
 
 }  // namespace graze

@@ -50,7 +50,7 @@ constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 constexpr std::size_t reserved_of_pair = 1024;
 
 /// How far two surfaces have come in this step, as far as that tells how far they will in the next: one that
-/// has not moved since the last answer may have come far before that, and so may one that had no place
+/// has not moved since the last answer may have come far before that, and so may one that had no position
 /// before.
 double motion_of(const PairJob& job) {
   constexpr std::uint64_t placed_once = 1;
@@ -131,7 +131,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
   long_jobs_.clear();
   for (std::uint32_t index = 0; index < jobs_.size(); ++index) {
     const PairJob& job = jobs_[index];
-    if (!job.is_looked_at()) continue;
+    if (!job.is_tested()) continue;
     order_.push_back(index);
     if (!settings_.max_contacts && job.last != nullptr && job.last->contact_count >= long_list &&
         !is_large(job))
@@ -165,14 +165,14 @@ void PairJobs::lend_memory(ReportBuilder& report) {
 std::vector<Contact>* PairJobs::longest_list() {
   if (settings_.max_contacts || settings_.time_budget) return nullptr;
   std::vector<Contact>* longest = nullptr;
-  const auto look_at = [&](PairAnswer& answer) {
+  const auto consider = [&](PairAnswer& answer) {
     if (answer.contacts.size() >= (longest == nullptr ? longest_copied : longest->size()))
       longest = &answer.contacts;
   };
-  for (std::size_t i = 0; i < large_answer_count_; ++i) look_at(large_answers_[i]);
-  for (std::size_t i = 0; i < long_jobs_.size(); ++i) look_at(long_answers_[i]);
+  for (std::size_t i = 0; i < large_answer_count_; ++i) consider(large_answers_[i]);
+  for (std::size_t i = 0; i < long_jobs_.size(); ++i) consider(long_answers_[i]);
   for (Worker& worker : workers_)
-    for (PairAnswer& answer : worker.too_long) look_at(answer);
+    for (PairAnswer& answer : worker.too_long) consider(answer);
   return longest;
 }
 
@@ -181,13 +181,13 @@ std::vector<Contact>* PairJobs::longest_list() {
 void PairJobs::share_contacts(const FrameReport& previous) {
   for (std::uint32_t index = 0; index < jobs_.size(); ++index) {
     const PairJob& job = jobs_[index];
-    if (job.is_looked_at()) continue;
+    if (job.is_tested()) continue;
     const auto contacts = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
     answers_.repeat_without_contacts(index, contacts.size());
     nearest_.add(index, contacts);
   }
   nearest_.finish([&](std::uint32_t index, std::span<const Contact> contacts) {
-    answers_.take_contacts(index, contacts);
+    answers_.set_contacts(index, contacts);
   });
   for (std::uint32_t index = 0; index < jobs_.size(); ++index)
     if (answers_[index].contacts_left_out > 0) jobs_[index].memory->version_a = 0;
@@ -201,7 +201,7 @@ bool PairJobs::is_large(const PairJob& job) {
 /// Small pairs in batches and the begin of the large ones side by side, then the slices of the large ones.
 ///
 /// A task writes the answers, fronts and memories of its own jobs, and the detector and counters of its own
-/// worker; a slice writes its own place in its pair. Surfaces are only read. AccessScope holds them to it.
+/// worker; a slice writes its own part of its pair. Surfaces are only read. AccessScope holds them to it.
 void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
   small_jobs_.clear();
   large_count_ = 0;
@@ -229,14 +229,14 @@ void PairJobs::add_large(std::uint32_t index) {
   large_[large_count_++].job = index;
 }
 
-/// The place of its answer, in which it stays until the next step.
-PairAnswer& PairJobs::answer_of_large(std::size_t place) {
-  require_write(StepData::pairs, &jobs_[large_[place].job]);
-  return large_answers_[large_answer_count_ + place];
+/// Where its answer is, and it stays until the next step.
+PairAnswer& PairJobs::answer_of_large(std::size_t index) {
+  require_write(StepData::pairs, &jobs_[large_[index].job]);
+  return large_answers_[large_answer_count_ + index];
 }
 
-void PairJobs::begin_large(std::size_t place, unsigned worker) {
-  LargeJob& large = large_[place];
+void PairJobs::begin_large(std::size_t index, unsigned worker) {
+  LargeJob& large = large_[index];
   const PairJob& job = jobs_[large.job];
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
   const Surface& a = job.a->surface();
@@ -244,7 +244,7 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
   PairQuery query = query_of(job);
   query.deadline = deadline_now();
   query.time_after_contact = after_each_contact;
-  PairAnswer& answer = answer_of_large(place);
+  PairAnswer& answer = answer_of_large(index);
   large.answered = is_late();
   if (large.answered) {
     PairDetector::outer_bounds(a, b, query, answer);
@@ -254,20 +254,20 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
   LeafFront& front = job.memory_to_write().front;
   large.front_bytes = front.byte_count();
   large.pair.begin(a, b, query, front, answer);
-  advance_large(place, worker);
+  advance_large(index, worker);
 }
 
-void PairJobs::advance_large(std::size_t place, unsigned worker) {
-  LargeJob& large = large_[place];
+void PairJobs::advance_large(std::size_t index, unsigned worker) {
+  LargeJob& large = large_[index];
   const PairJob& job = jobs_[large.job];
   Worker& own = workers_[worker];
   large.answered = large.pair.advance(own.detector, own.counters);
   if (!large.answered) return;
-  PairAnswer& answer = answer_of_large(place);
+  PairAnswer& answer = answer_of_large(index);
   if (!make_room_in_report(answer.contacts.size()))
     PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job), answer);
   own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
-  was_detected(job, answer);
+  remember_answer(job, answer);
   refer_to(large.job, answer, worker);
 }
 
@@ -275,19 +275,19 @@ void PairJobs::advance_large(std::size_t place, unsigned worker) {
 void PairJobs::run_rounds_of_slices() {
   while (true) {
     slices_.clear();
-    for (std::uint32_t place = 0; place < large_count_; ++place)
-      if (!large_[place].answered)
-        for (std::uint32_t slice = 0; slice < large_[place].pair.slice_count(); ++slice)
-          slices_.push_back({place, slice});
+    for (std::uint32_t index = 0; index < large_count_; ++index)
+      if (!large_[index].answered)
+        for (std::uint32_t slice = 0; slice < large_[index].pair.slice_count(); ++slice)
+          slices_.push_back({index, slice});
     if (slices_.empty()) return;
     tasks_.run(slices_.size(), [&](unsigned worker, std::size_t item) {
-      const auto [place, slice] = slices_[item];
+      const auto [large, slice] = slices_[item];
       const AccessScope access({AccessRight::read(), {}});
-      large_[place].pair.run_slice(slice, workers_[worker].detector, workers_[worker].counters);
+      large_[large].pair.run_slice(slice, workers_[worker].detector, workers_[worker].counters);
     });
-    tasks_.run(large_count_, [&](unsigned worker, std::size_t place) {
-      const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_[place].job])});
-      if (!large_[place].answered) advance_large(place, worker);
+    tasks_.run(large_count_, [&](unsigned worker, std::size_t index) {
+      const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_[index].job])});
+      if (!large_[index].answered) advance_large(index, worker);
     });
   }
 }
@@ -299,7 +299,7 @@ void PairJobs::keep_time_back(std::size_t last_contacts, ReportBuilder& report) 
   for (const std::uint32_t index : order_)
     if (jobs_[index].last != nullptr) last_contacts -= jobs_[index].last->contact_count;
   deadline_ -= after_all + pair_count_ * after_each_pair + last_contacts * after_each_contact;
-  if (owes_room_) deadline_ -= *settings_.time_budget / part_for_room;
+  if (owes_capacity_) deadline_ -= *settings_.time_budget / part_for_room;
   report_ = &report;
   contacts_with_room_ = last_contacts;
 }
@@ -348,10 +348,10 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
     own.front_bytes += front.byte_count();
     if (!make_room_in_report(answer.contacts.size())) PairDetector::outer_bounds(a, b, query, answer);
     if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, answer);
-    was_detected(job, answer);
+    remember_answer(job, answer);
   }
   require_write(StepData::pairs, &job);
-  take_answer(index, answer, worker);
+  store_answer(index, answer, worker);
 }
 
 /// Where the answer of a small job is to be put.
@@ -368,7 +368,7 @@ void PairJobs::refer_to(std::uint32_t index, const PairAnswer& answer, unsigned 
   answers_.keep_without_contacts(index, answer, worker);
 }
 
-void PairJobs::take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker) {
+void PairJobs::store_answer(std::uint32_t index, PairAnswer& answer, unsigned worker) {
   if (settings_.max_contacts) return refer_to(index, answer, worker);
   Worker& own = workers_[worker];
   if (&answer != &own.answer) return answers_.refer_to(index, answer);
@@ -377,7 +377,7 @@ void PairJobs::take_answer(std::uint32_t index, PairAnswer& answer, unsigned wor
 }
 
 /// Remembers what the answer was about.
-void PairJobs::was_detected(const PairJob& job, const PairAnswer& answer) const {
+void PairJobs::remember_answer(const PairJob& job, const PairAnswer& answer) const {
   const bool whole = answer.complete && job.task == PairJob::Task::detect;
   PairMemory& memory = job.memory_to_write();
   memory.version_a = whole ? job.a->surface().version() : 0;
@@ -428,13 +428,13 @@ PairCounters PairJobs::counters() const {
 // ---- Memory
 
 /// Which worker gets which job is chance; what one has needed all have room for.
-bool PairJobs::even_out_memory(Clock::time_point start) {
-  answers_.even_out();
+bool PairJobs::equalize_capacity(Clock::time_point start) {
+  answers_.grow_to_demand();
   for (Worker& worker : workers_) {
     for (PairAnswer& answer : worker.too_long) long_answers_.push_back(std::move(answer));
     worker.too_long.clear();
   }
-  owes_room_ = true;  // until all is done
+  owes_capacity_ = true;  // until all is done
   const Clock::time_point end = deadline_of(start, settings_.time_budget);
   const auto is_over = [end] { return end != PairQuery::no_deadline && Clock::now() >= end; };
   Worker& first = workers_.front();
@@ -446,8 +446,8 @@ bool PairJobs::even_out_memory(Clock::time_point start) {
     if (is_over()) return false;
     worker.reserve_as(first);
   }
-  owes_room_ = is_over();  // for the reports
-  return !owes_room_;
+  owes_capacity_ = is_over();  // for the reports
+  return !owes_capacity_;
 }
 
 void PairJobs::reserve(std::size_t jobs, std::size_t contacts) {

@@ -33,7 +33,7 @@ class PairJobs {
   void run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
            const FrameReport& previous, ReportBuilder& report);
 
-  /// Of the job at that place, where it is looked at; until `even_out_memory`. Where all contacts are
+  /// Of the job at that index, where it is looked at; until `equalize_capacity`. Where all contacts are
   /// limited, of the others the contacts.
   [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
   /// The longest list of contacts that was not copied, where it is so long that it better never is; otherwise
@@ -44,7 +44,7 @@ class PairJobs {
   /// Makes room, so that a step like the last takes no memory, whichever worker gets what. The answers are
   /// gone then. False where a time budget that began at `start` is over before all is done: the next step
   /// then keeps time back for it.
-  [[nodiscard]] bool even_out_memory(Clock::time_point start);
+  [[nodiscard]] bool equalize_capacity(Clock::time_point start);
   /// Makes room for so many jobs, and contacts of all of them together.
   void reserve(std::size_t jobs, std::size_t contacts);
   /// Makes room for pairs of objects of that mesh.
@@ -85,20 +85,20 @@ class PairJobs {
   void run_group(std::span<const std::uint32_t> jobs);
   void run_rounds_of_slices();
   void add_large(std::uint32_t index);
-  [[nodiscard]] PairAnswer& answer_of_large(std::size_t place);
-  void begin_large(std::size_t place, unsigned worker);
-  void advance_large(std::size_t place, unsigned worker);
+  [[nodiscard]] PairAnswer& answer_of_large(std::size_t index);
+  void begin_large(std::size_t index, unsigned worker);
+  void advance_large(std::size_t index, unsigned worker);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
-  void was_detected(const PairJob& job, const PairAnswer& answer) const;
+  void remember_answer(const PairJob& job, const PairAnswer& answer) const;
   [[nodiscard]] PairAnswer& answer_for(std::uint32_t index, Worker& worker);
-  void take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
+  void store_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
   void lend_memory(ReportBuilder& report);
   void refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker);
   void keep_time_back(std::size_t last_contacts, ReportBuilder& report);
   void share_contacts(const FrameReport& previous);
   [[nodiscard]] bool make_room_in_report(std::size_t contacts);
   [[nodiscard]] Clock::time_point deadline_now() const;
-  bool owes_room_ = false;  ///< the last step had no time to even out memory
+  bool owes_capacity_ = false;  ///< the last step had no time to even out memory
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();
   void run_by_urgency();

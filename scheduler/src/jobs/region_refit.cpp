@@ -61,10 +61,10 @@ RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
     : tasks_(tasks),
       boxes_(boxes_for(settings.detail)),
       with_blocks_(wants_blocks(settings.detail, settings.accuracy.mode())),
-      to_the_letter_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
+      needs_paper_bounds_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
 
 void RegionRefit::run(std::span<const PairJob> jobs) {
-  if (with_blocks_ && !to_the_letter_) {
+  if (with_blocks_ && !needs_paper_bounds_) {
     list_objects(jobs, boxes_);
   } else {
     refit(jobs, boxes_);
@@ -110,7 +110,7 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
   });
 }
 
-void RegionRefit::make_ready(Surface& surface) const {
+void RegionRefit::prepare(Surface& surface) const {
   surface.refit(boxes_);
   if (with_blocks_) surface.make_blocks();
   if (with_blocks_ && surface.mesh().has_stretches()) surface.make_stretches();
@@ -135,7 +135,7 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   ++refits_;
   objects_.clear();
   for (const PairJob& job : jobs)
-    if (job.is_looked_at() && (to_the_letter_ || !is_by_list(job, with_blocks_)))
+    if (job.is_tested() && (needs_paper_bounds_ || !is_by_list(job, with_blocks_)))
       for (const auto& [object, other] : {std::pair(job.a, job.b), {job.b, job.a}})
         count_job(*object, *other, job);
   small_.clear();
@@ -160,7 +160,7 @@ std::size_t RegionRefit::byte_count() const {
 bool RegionRefit::is_stale(const Object& object, RefitOf what) const {
   const Surface& surface = object.surface();
   const double allowed = object.asked.walked ? stale_leaf_sizes : stale_leaf_sizes_unwalked;
-  return surface.motion_since_refit(what) > (to_the_letter_ ? 0 : allowed * surface.leaf_size());
+  return surface.motion_since_refit(what) > (needs_paper_bounds_ ? 0 : allowed * surface.leaf_size());
 }
 
 void RegionRefit::list_parts(Object& object, RefitOf what) {

@@ -21,7 +21,7 @@ class RegionRefit {
   /// Makes room for so many jobs.
   void reserve(std::size_t jobs);
   /// Makes a surface's bounds, so that its first job finds them.
-  void make_ready(Surface& surface) const;
+  void prepare(Surface& surface) const;
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
@@ -33,7 +33,7 @@ class RegionRefit {
   };
 
   void refit(std::span<const PairJob> jobs, RefitOf what);
-  [[nodiscard]] bool with_radii() const { return to_the_letter_ && boxes_ == RefitOf::vertices; }
+  [[nodiscard]] bool with_radii() const { return needs_paper_bounds_ && boxes_ == RefitOf::vertices; }
   void list_objects(std::span<const PairJob> jobs, RefitOf what);
   void count_job(Object& object, const Object& other, const PairJob& job);
   [[nodiscard]] bool is_stale(const Object& object, RefitOf what) const;
@@ -45,7 +45,7 @@ class RegionRefit {
   TaskPool& tasks_;
   RefitOf boxes_;
   bool with_blocks_;              ///< of vertices
-  bool to_the_letter_;            ///< bounds are told of or compared as they are in the paper
+  bool needs_paper_bounds_;       ///< bounds are told of or compared as they are in the paper
   std::uint64_t refits_ = 0;      ///< made so far, by which objects know the one under way
   std::vector<Object*> objects_;  ///< of the jobs, each once
   std::vector<Object*> small_;

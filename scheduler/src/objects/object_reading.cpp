@@ -42,7 +42,7 @@ Diagnostic bad_vertex(const Object& object, std::uint32_t vertex, const Eigen::V
 }
 
 const char* const stands_still = "it stands still until good positions are read";
-const char* const pose_not_taken = "the pose was not taken";
+const char* const pose_refused = "the pose was not taken";
 
 /// Says so where a vertex that moved so far, or further, broke a promise.
 std::optional<Diagnostic> check_promise(const Object& object, double displacement) {
@@ -87,12 +87,12 @@ bool hardly_moves(const Object& object, double motion) {
 }
 
 /// For so many steps after a calm box deceived, an object is not taken to be calm.
-constexpr std::uint8_t steps_until_calm = 16;
+constexpr std::uint8_t static_cooldown = 16;
 
 /// Of an object that is looked at, by its box.
-bool seems_calm(Object& object, const Box& now) {
-  if (object.restless_steps == 0) return hardly_moves(object, motion_between(object.box, now));
-  --object.restless_steps;
+bool seems_nearly_static(Object& object, const Box& now) {
+  if (object.static_cooldown_steps == 0) return hardly_moves(object, motion_between(object.box, now));
+  --object.static_cooldown_steps;
   return false;
 }
 
@@ -112,14 +112,14 @@ void note_survey(Object& object, const Box& box) {
 }
 
 /// A pose that moves a vertex beyond the limits. The object's pairs are stale until a good one comes.
-Looked refuse_pose(Object& object, std::uint32_t vertex, const Eigen::Vector3d& position) {
+ReadOutcome refuse_pose(Object& object, std::uint32_t vertex, const Eigen::Vector3d& position) {
   object.pose.reset();
   const bool changed = !std::exchange(object.frozen, true);
-  return {false, changed, bad_vertex(object, vertex, position, pose_not_taken), false};
+  return {false, changed, bad_vertex(object, vertex, position, pose_refused), false};
 }
 
 /// By the box that the rest shape has there; by the vertices only where that may be beyond the limits.
-Looked survey_pose(Object& object) {
+ReadOutcome survey_pose(Object& object) {
   Box box = object.mesh->rest_reach().box_at(*object.pose);
   if (!Surface::is_within_limits(box.min) || !Surface::is_within_limits(box.max)) {
     const auto all = object.surface().look_at_pose(*object.pose, 0, object.mesh->vertex_count());
@@ -134,7 +134,7 @@ Looked survey_pose(Object& object) {
 }
 
 /// Takes up a pose that the surface was given, or refuses it.
-Looked take_pose(Object& object, const Surface::ReadResult& result) {
+ReadOutcome accept_pose(Object& object, const Surface::ReadResult& result) {
   if (!result.taken()) return refuse_pose(object, result.bad_vertex, result.bad_position);
   object.moved = result.changed;
   return {result.changed, result.changed, std::nullopt};
@@ -145,34 +145,34 @@ void finish_pose(Object& object) {
   note_read(object);
 }
 
-Looked read_pose(Object& object) {
+ReadOutcome read_pose(Object& object) {
   if (object.to_survey) return survey_pose(object);
   const Surface::ReadResult result = object.surface_to_write().set_pose(pose_of(object));
-  Looked looked = take_pose(object, result);
-  if (looked.taken) finish_pose(object);
-  return looked;
+  ReadOutcome outcome = accept_pose(object, result);
+  if (outcome.accepted) finish_pose(object);
+  return outcome;
 }
 
 /// Takes what a survey saw, or says why not.
-Looked take_survey(Object& object, const Surface::PartSeen& all) {
-  Looked looked;
+ReadOutcome accept_survey(Object& object, const Surface::PartSeen& all) {
+  ReadOutcome outcome;
   object.frozen = all.bad_vertex != Surface::ReadResult::no_vertex;
   if (object.frozen) {
     object.unread = object.surveyed = false;
-    looked.changed = true;
-    looked.problem = bad_vertex(object, all.bad_vertex, all.bad_position, stands_still);
+    outcome.changed = true;
+    outcome.problem = bad_vertex(object, all.bad_vertex, all.bad_position, stands_still);
   } else {
-    looked.changed = !is_same(object.box, all.box);
-    object.moved = looked.changed;
-    object.is_calm = object.to_block && seems_calm(object, all.box);
+    outcome.changed = !is_same(object.box, all.box);
+    object.moved = outcome.changed;
+    object.is_nearly_static = object.to_block && seems_nearly_static(object, all.box);
     note_survey(object, all.box);
     object.promised = 0;
   }
-  return looked;
+  return outcome;
 }
 
 /// Has the surface take what was seen. A copy becomes its positions as it is.
-Surface::ReadResult take_positions(Object& object, const Surface::PartSeen& all) {
+Surface::ReadResult accept_positions(Object& object, const Surface::PartSeen& all) {
   Surface& surface = object.surface_to_write();
   if (!object.positions) {
     const Surface::ReadResult result = surface.take(all);
@@ -189,7 +189,7 @@ Surface::ReadResult take_positions(Object& object, const Surface::PartSeen& all)
 bool has_input(const Object& object) {
   if (object.pose || is_read_in_every_step(object)) return true;
   if (object.unread && object.surveyed) return object.is_new || !object.stays_unread;
-  return object.positions || (object.bound && object.told);
+  return object.positions || (object.bound && object.is_notified);
 }
 
 bool stays_unread(const Object& object) {
@@ -209,18 +209,18 @@ bool can_be_viewed(const Object& object) {
 }
 
 bool can_be_surveyed(const Object& object, bool with_views) {
-  if (object.pose) return !object.looked_at;
-  if (!object.positions && !is_read_in_every_step(object) && !object.is_told_again) return false;
+  if (object.pose) return !object.tested;
+  if (!object.positions && !is_read_in_every_step(object) && !object.is_notified_again) return false;
   return !object.promises && !std::isfinite(object.promised) && !object.frozen &&
          (object.surveyed || object.moved) &&
-         (!object.looked_at || (with_views && !object.is_calm && can_be_viewed(object)));
+         (!object.tested || (with_views && !object.is_nearly_static && can_be_viewed(object)));
 }
 
 bool has_known_box(const Object& object) {
   return object.pose || object.positions;
 }
 
-Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
+Surface::PartSeen scan_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
   const Surface& surface = object.surface();
   if (is_posed(object)) return surface.look_at_pose(pose_of(object), begin, end);
   if (object.to_survey) return Surface::survey(*object.mesh, *object.bound, begin, end);
@@ -230,29 +230,29 @@ Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::u
   return surface.look_at_positions(positions_of(object), begin, end, displacement);
 }
 
-Looked take_seen(Object& object, const Surface::PartSeen& all) {
-  if (is_posed(object)) return take_pose(object, object.surface_to_write().take(all));
-  if (object.to_survey) return take_survey(object, all);
+ReadOutcome accept_scan(Object& object, const Surface::PartSeen& all) {
+  if (is_posed(object)) return accept_pose(object, object.surface_to_write().take(all));
+  if (object.to_survey) return accept_survey(object, all);
   const bool was_behind = object.surface().is_behind();
   const bool seems_at_rest = was_behind && is_same(object.box, all.box);
   const bool is_copy = object.positions != nullptr;
-  const Surface::ReadResult result = take_positions(object, all);
-  if (!was_behind && object.is_calm) {
-    object.is_calm = hardly_moves(object, result.displacement);
-    if (!object.is_calm && hardly_moves(object, motion_between(object.box, all.box)))
-      object.restless_steps = steps_until_calm;
+  const Surface::ReadResult result = accept_positions(object, all);
+  if (!was_behind && object.is_nearly_static) {
+    object.is_nearly_static = hardly_moves(object, result.displacement);
+    if (!object.is_nearly_static && hardly_moves(object, motion_between(object.box, all.box)))
+      object.static_cooldown_steps = static_cooldown;
   }
-  Looked looked{result.changed && !is_copy, result.changed, std::nullopt};
+  ReadOutcome outcome{result.changed && !is_copy, result.changed, std::nullopt};
   // Where a view came before, it shows in the next step whether the object moves.
   object.moved = result.changed && !seems_at_rest;
-  looked.changed = looked.changed || object.frozen == result.taken();
-  looked.taken = result.taken();
-  object.frozen = !looked.taken;
-  looked.problem = object.frozen
-                       ? bad_vertex(object, result.bad_vertex, result.bad_position, stands_still)
-                       : check_promise(object, object.has_surface ? result.displacement
-                                                                  : motion_between(object.seen, all.box));
-  return looked;
+  outcome.changed = outcome.changed || object.frozen == result.taken();
+  outcome.accepted = result.taken();
+  object.frozen = !outcome.accepted;
+  outcome.problem = object.frozen
+                        ? bad_vertex(object, result.bad_vertex, result.bad_position, stands_still)
+                        : check_promise(object, object.has_surface ? result.displacement
+                                                                   : motion_between(object.seen, all.box));
+  return outcome;
 }
 
 void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
@@ -261,10 +261,10 @@ void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
   surface.write_positions(*object.bound, begin, end);
 }
 
-void finish_read(Object& object, bool taken) {
-  if (object.to_survey || !taken) return;
+void finish_read(Object& object, bool accepted) {
+  if (object.to_survey || !accepted) return;
   if (is_posed(object)) return finish_pose(object);
-  if (object.bound) object.told = false;
+  if (object.bound) object.is_notified = false;
   object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
   object.promised = 0;
   note_read(object);
@@ -281,7 +281,7 @@ void view_memory(Object& object) {
   if (!object.in_parts) surface.make_blocks();
 }
 
-Looked read_whole(Object& object) {
+ReadOutcome read_whole(Object& object) {
   if (is_posed(object)) return read_pose(object);
   if (object.to_view) {
     view_memory(object);
@@ -292,12 +292,12 @@ Looked read_whole(Object& object) {
   if (object.to_survey && object.positions)
     all.box = object.box_of_positions;
   else
-    all = look_at_part(object, 0, count);
-  Looked looked = take_seen(object, all);
-  if (looked.to_write) write_part(object, 0, count);
+    all = scan_part(object, 0, count);
+  ReadOutcome outcome = accept_scan(object, all);
+  if (outcome.to_write) write_part(object, 0, count);
   if (object.to_survey && object.to_block && !object.frozen && can_be_viewed(object)) view_memory(object);
-  finish_read(object, looked.taken);
-  return looked;
+  finish_read(object, outcome.accepted);
+  return outcome;
 }
 
 }  // namespace graze

@@ -28,22 +28,22 @@ void add_promise(Object& object);
 [[nodiscard]] bool can_be_viewed(const Object& object);
 
 /// What came of looking at all vertices.
-struct Looked {
+struct ReadOutcome {
   bool to_write = false;  ///< all vertices, and then the read is to be finished
   bool changed = false;   ///< the object stands elsewhere, or has begun or ceased to be frozen
   std::optional<Diagnostic> problem;
-  bool taken = true;  ///< what was seen is where the object is
+  bool accepted = true;  ///< what was seen is where the object is
 };
 
 /// Reads or surveys an object. Its blocks are left to the caller, but for what is viewed.
-Looked read_whole(Object& object);
+ReadOutcome read_whole(Object& object);
 
 // The same in parts: looks at some vertices, takes what was seen of all or says why not, writes some, and
 // lets go of what was read after all was written. Bad memory is read again until it is good.
-[[nodiscard]] Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end);
-Looked take_seen(Object& object, const Surface::PartSeen& all);
+[[nodiscard]] Surface::PartSeen scan_part(const Object& object, std::uint32_t begin, std::uint32_t end);
+ReadOutcome accept_scan(Object& object, const Surface::PartSeen& all);
 void write_part(Object& object, std::uint32_t begin, std::uint32_t end);
-void finish_read(Object& object, bool taken);
+void finish_read(Object& object, bool accepted);
 /// Has the surface look at the memory that was surveyed, until the next read.
 void view_memory(Object& object);
 

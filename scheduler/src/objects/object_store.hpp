@@ -39,11 +39,11 @@ struct Object {
   SparePositions::Loan standing_positions;  ///< the copy that the surface looks at
   std::optional<PositionView> bound;
   BindPolicy policy = BindPolicy::every_step;
-  bool told = false;
-  std::uint64_t told_step = 0;  ///< the last one before which `positions_changed` was called
-  bool is_told_again = false;   ///< it was so before the step before that, too
-  bool is_new = false;          ///< given since the last step
-  bool may_have_input = false;  ///< it is among those that the store looks at in the next read
+  bool is_notified = false;
+  std::uint64_t notified_step = 0;  ///< the last one before which `positions_changed` was called
+  bool is_notified_again = false;   ///< it was so before the step before that, too
+  bool is_new = false;              ///< given since the last step
+  bool may_have_input = false;      ///< it is among those that the store looks at in the next read
   double promise = std::numeric_limits<double>::infinity();
   /// No vertex is further from where it was when the object was looked at last, by the promises since. At
   /// first without a bound: promises speak of where a step saw the object, and none has.
@@ -60,9 +60,9 @@ struct Object {
   bool moved = false;         ///< it was elsewhere than before when it was read last, or was bound since
   /// It moved so little, as far as its box tells, that how far it does is worth knowing (SlackOfMotion); not
   /// for some steps after it turned out to have moved further.
-  bool is_calm = false;
-  std::uint8_t restless_steps = 0;
-  bool looked_at = false;         ///< in a pair of the last step
+  bool is_nearly_static = false;
+  std::uint8_t static_cooldown_steps = 0;
+  bool tested = false;            ///< in a pair of the last step
   bool asked_for_blocks = false;  ///< by a pair of the last step
   /// No pair of the last step asked for blocks of its vertices, though some looked at it: they have lists.
   bool goes_by_lists = false;
@@ -77,7 +77,7 @@ struct Object {
     double shares = 0;     ///< of its box that are near the jobs' other objects, where it is read in parts
   } asked;
   /// Bound memory was bad when last read, or the last pose was not taken: the object stands where it was, and
-  /// its pairs are not looked at.
+  /// its pairs are not tested.
   bool frozen = false;
 
   bool in_parts = false;          ///< it is so large that several tasks read and refit it
@@ -102,8 +102,8 @@ struct DepartedObject {
 
 /// The objects of a scene in the order in which they were added. Stepping thread only.
 ///
-/// A step's work here follows the objects that were told something and the removals, but for one pass over an
-/// array of pointers in a step with removals.
+/// A step's work here follows the objects that were told something and the removals, but for one pass
+/// over an array of pointers in a step with removals.
 class ObjectStore {
  public:
   /// `with_blocks`: nothing is asked of objects but blocks of their vertices, so that these are made as soon
@@ -171,21 +171,21 @@ class ObjectStore {
     Object* object;
     std::size_t end;  ///< of its parts
     std::optional<Diagnostic> problem = std::nullopt;
-    bool taken = true;
+    bool accepted = true;
   };
 
   /// Has the object looked at in the next read.
   void expect_input(Object& object);
   void drop_removed();
-  void take_input(Object& object);
-  void see_new();
-  void begin_list();
+  void plan_read(Object& object);
+  void mark_new_seen();
+  void clear_read_list();
   void list_to_read(Object& object);
-  void read_small(std::size_t place);
+  void read_small(std::size_t index);
   void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
-  void take_large(TaskPool& tasks);
-  void take_parts(std::size_t place, std::size_t& to_write);
-  void tell_problems(std::vector<Diagnostic>& diagnostics);
+  void finish_large(TaskPool& tasks);
+  void finish_parts(std::size_t index, std::size_t& to_write);
+  void report_problems(std::vector<Diagnostic>& diagnostics);
 
   bool with_blocks_;
   std::vector<std::unique_ptr<Object>> objects_;  ///< null in the place of one removed, until the next read

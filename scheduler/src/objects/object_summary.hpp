@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "base/place_pair.hpp"
+#include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "core/base/bytes_of.hpp"
 #include "objects/object_store.hpp"
@@ -40,32 +40,32 @@ class ObjectSummaries {
   void refresh(std::span<Object* const> read_late);
 
   [[nodiscard]] std::span<const ObjectSummary> all() const { return summaries_; }
-  [[nodiscard]] const ObjectSummary& operator[](std::uint32_t place) const { return summaries_[place]; }
+  [[nodiscard]] const ObjectSummary& operator[](std::uint32_t slot) const { return summaries_[slot]; }
   /// Where an object stands.
-  [[nodiscard]] std::uint32_t place_of(const Object& object) const;
-  /// For each place before the last refresh that at which the object is now, or no_place; empty where all
+  [[nodiscard]] std::uint32_t slot_of(const Object& object) const;
+  /// For each slot before the last refresh that at which the object is now, or no_slot; empty where all
   /// are where they were. New objects stand behind all others.
-  [[nodiscard]] std::span<const std::uint32_t> moves() const { return moves_; }
+  [[nodiscard]] std::span<const std::uint32_t> new_slots() const { return new_slots_; }
   [[nodiscard]] bool some_unread() const { return some_unread_; }
   /// Whether an object may be otherwise than at the refresh before, or is unread. It says nothing of new
   /// ones.
-  [[nodiscard]] bool changed(std::uint32_t place) const { return changed_[place] != 0; }
+  [[nodiscard]] bool changed(std::uint32_t slot) const { return changed_[slot] != 0; }
   /// Makes room for so many objects.
   void reserve(std::size_t objects) {
     summaries_.reserve(objects);
-    moves_.reserve(objects);
+    new_slots_.reserve(objects);
     changed_.reserve(objects);
   }
   [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(summaries_) + bytes_of(moves_) + bytes_of(changed_);
+    return bytes_of(summaries_) + bytes_of(new_slots_) + bytes_of(changed_);
   }
 
  private:
   /// Takes those out that are gone, and puts new ones in.
-  void follow(std::span<const std::unique_ptr<Object>> objects);
+  void update_slots(std::span<const std::unique_ptr<Object>> objects);
 
   std::vector<ObjectSummary> summaries_;
-  std::vector<std::uint32_t> moves_;
+  std::vector<std::uint32_t> new_slots_;
   std::vector<std::uint8_t> changed_;  ///< side by side, since it is asked of both objects of every pair
   bool some_unread_ = false;
 };

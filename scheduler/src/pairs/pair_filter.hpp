@@ -22,7 +22,7 @@ struct PairThresholds {
 
 /// Which filter takes a pair out; where several would, the first.
 enum class PairVerdict : std::uint8_t {
-  looked_at,
+  tested,
   fixed,    ///< both are fixed
   layer,    ///< one's layer is not in the other's mask
   group,    ///< both are in one group
@@ -65,9 +65,9 @@ class PairFilter {
   };
   [[nodiscard]] Distances distances_of(const PairRule& rule) const;
   [[nodiscard]] const Distances& distances_of(std::uint32_t kind_a, std::uint32_t kind_b) const {
-    return distances_[rule_of_.empty() ? 0 : rule_of_[place_of(kind_a, kind_b)]];
+    return distances_[rule_of_.empty() ? 0 : rule_of_[index_of(kind_a, kind_b)]];
   }
-  static std::size_t place_of(std::uint32_t kind_a, std::uint32_t kind_b);
+  static std::size_t index_of(std::uint32_t kind_a, std::uint32_t kind_b);
   void find_half_reach(std::uint32_t kind);
   void drop_forgotten();
 

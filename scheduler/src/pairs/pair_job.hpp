@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/access.hpp"
-#include "base/place_pair.hpp"
+#include "base/slot_pair.hpp"
 #include "objects/object_store.hpp"
 #include "pairs/pair_filter.hpp"
 #include "pairs/pair_memory.hpp"
@@ -26,7 +26,7 @@ struct PairJob {
   };
   Task task = Task::detect;
   bool allowed = true;  ///< by the filters
-  PlacePair places = 0;
+  SlotPair slots = 0;
   Object* a = nullptr;
   Object* b = nullptr;
   const PairReport* last = nullptr;  ///< in the previous report; null where it was not listed
@@ -37,7 +37,7 @@ struct PairJob {
     require_write(StepData::pairs, this);
     return *memory;
   }
-  [[nodiscard]] bool is_looked_at() const { return task == Task::detect || task == Task::end; }
+  [[nodiscard]] bool is_tested() const { return task == Task::detect || task == Task::end; }
   [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }
 };
 

@@ -31,12 +31,12 @@ struct PairMemoryRoom {
 class PairMemories {
  public:
   /// Where a memory is.
-  using Place = std::uint32_t;
+  using Index = std::uint32_t;
 
   /// A memory that knows nothing, which stays in place until it is released.
-  Place take();
-  void release(Place place);
-  [[nodiscard]] PairMemory& operator[](Place place) { return memories_[place]; }
+  Index acquire();
+  void release(Index index);
+  [[nodiscard]] PairMemory& operator[](Index index) { return memories_[index]; }
 
   /// Makes room for so many pairs.
   void reserve(std::size_t pairs, const PairMemoryRoom& room);
@@ -47,7 +47,7 @@ class PairMemories {
   void make_room(PairMemory& memory, const PairMemoryRoom& room);
 
   std::deque<PairMemory> memories_;  ///< a deque, so that they stay in place
-  std::vector<Place> free_;
+  std::vector<Index> free_;
   std::size_t reserved_bytes_ = 0;  ///< of fronts
 };
 

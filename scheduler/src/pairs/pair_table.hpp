@@ -31,7 +31,7 @@ class PairTable {
 
   /// Begins to be told which pairs a report lists, in its order.
   void begin_rows(std::uint64_t frame);
-  void add_row(const PairJob& job) { add_row(job.places); }
+  void add_row(const PairJob& job) { add_row(job.slots); }
   void add_rows(const LastRows& rows);
   /// A row that the next step has nothing to say about.
   void pass_row() { ++row_count_; }
@@ -56,7 +56,7 @@ class PairTable {
   void find_ended(const FrameReport& previous);
   [[nodiscard]] std::uint64_t serial_of(ObjectId id);
   void list_ended(SerialPair before);
-  void read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
+  void read_near_objects(std::span<const SlotPair> pairs, TaskPool& tasks,
                          std::vector<Diagnostic>& diagnostics);
   void list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous);
   [[nodiscard]] PairJob job_of(const SelectedPair& selected, const FrameReport& previous) const;
@@ -64,7 +64,7 @@ class PairTable {
   [[nodiscard]] bool says_something(PairJob& job) const;
   [[nodiscard]] bool is_unchanged(const PairJob& job) const;
   void count_jobs(StepStatistics& statistics) const;
-  void add_row(PlacePair pair) { rows_.push_back({pair, row_count_++}); }
+  void add_row(SlotPair pair) { rows_.push_back({pair, row_count_++}); }
 
   ObjectStore& store_;
   PairFilter& filter_;

@@ -57,11 +57,11 @@ std::span<const Contact> from(std::span<const Contact> contacts, const Contact& 
 
 }  // namespace
 
-void ContactRows::take(std::vector<Contact>& list, ReportBuilder& report) {
+void ContactRows::adopt_list(std::vector<Contact>& list, ReportBuilder& report) {
   const auto pair = std::find_if(pairs_.begin(), pairs_.end(),
                                  [&](const Pair& each) { return each.contacts.data() == list.data(); });
   if (pair == pairs_.end() || 2 * pair->contacts.size() < count_) return;
-  report.take(list, pair->first);
+  report.adopt_contacts(list, pair->first);
   pair->contacts = report.contacts().subspan(pair->first, pair->contacts.size());
 }
 
@@ -79,7 +79,7 @@ void ContactRows::write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t 
 void ContactRows::write_range(std::span<Contact> rows, std::size_t begin, std::size_t end,
                               std::uint64_t frame) const {
   auto pair = std::upper_bound(pairs_.begin(), pairs_.end(), begin,
-                               [](std::size_t place, const Pair& each) { return place < each.first; }) -
+                               [](std::size_t row, const Pair& each) { return row < each.first; }) -
               1;
   for (; begin < end; ++pair) {
     const std::size_t first = begin - pair->first;

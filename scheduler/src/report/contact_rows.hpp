@@ -29,7 +29,7 @@ class ContactRows {
   /// Of all pairs.
   [[nodiscard]] std::size_t count() const { return count_; }
   /// Has the report take a list that is one of those added, where it is most of all: it is not copied then.
-  void take(std::vector<Contact>& list, ReportBuilder& report);
+  void adopt_list(std::vector<Contact>& list, ReportBuilder& report);
   /// Writes them into `rows`, of which there are `count()`, and since which frame they have been there.
   void write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const;
 
@@ -42,7 +42,7 @@ class ContactRows {
     std::span<const Contact> contacts;
     std::span<const Contact> last;
     bool is_again;
-    std::size_t first;  ///< the place of its first contact
+    std::size_t first;  ///< the index of its first contact
   };
   void append(const Pair& pair) {
     if (pair.contacts.empty()) return;

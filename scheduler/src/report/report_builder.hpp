@@ -79,7 +79,7 @@ class ReportBuilder {
   std::vector<Contact>& contact_memory() { return report_.rows_.contacts; }
   /// Takes a list of contacts together with its memory, when all pairs are there, and puts it where it
   /// belongs, which begins at `first`. The list gets the memory that the report's contacts had.
-  void take(std::vector<Contact>& list, std::size_t first) {
+  void adopt_contacts(std::vector<Contact>& list, std::size_t first) {
     auto& rows = report_.rows_.contacts;
     rows.swap(list);
     const auto end = static_cast<std::ptrdiff_t>(rows.size());

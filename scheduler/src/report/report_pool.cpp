@@ -126,7 +126,7 @@ void ReportPool::count_bytes(std::uint32_t index) {
   byte_count_ += bytes - std::exchange(slot(index).counted_bytes, bytes);
 }
 
-void ReportPool::even_out(bool has_time) {
+void ReportPool::equalize_capacity(bool has_time) {
   const ReportRoom needed = ReportBuilder(slot(filling_).report).room();
   if (!room_.covers(needed)) all_have_room_ = false;
   room_.include(needed);

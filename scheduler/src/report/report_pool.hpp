@@ -45,10 +45,10 @@ class ReportPool {
   /// Gives every report that nobody reads as much room as any has needed, the others as soon as they are let
   /// go of: whichever is next, a step like an earlier one takes no memory. Where there is no time for that
   /// now, a later call does it.
-  void even_out(bool has_time);
+  void equalize_capacity(bool has_time);
   /// Makes room for so many reports held at once, beside the published one, of that size.
   void reserve(std::size_t held, const ReportRoom& room);
-  /// Of all reports, as of the last `even_out`.
+  /// Of all reports, as of the last `equalize_capacity`.
   [[nodiscard]] std::size_t byte_count() const { return byte_count_; }
 
   /// Publishes the report of the last `begin`.

@@ -162,7 +162,7 @@ void Scene::reserve(const SceneCapacity& capacity) {
 ReportHandle Scene::step(std::uint64_t tag) {
   begin_stepping(state_->stepping);
   const SteppingEnd end(state_->stepping);
-  state_->stepper.take_calls();
+  state_->stepper.collect_calls();
   return state_->stepper.run(tag);
 }
 
@@ -170,7 +170,7 @@ void Scene::step_async(std::uint64_t tag) {
   begin_stepping(state_->stepping);
   SteppingEnd unless_started(state_->stepping);
   State* const state = state_.get();
-  state->stepper.take_calls();
+  state->stepper.collect_calls();
   state->stepper.start([state, tag] {
     // After this the scene may be gone.
     const SteppingEnd end(state->stepping);

@@ -69,10 +69,10 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
   ReportBuilder builder(report);
   StepStatistics& statistics = builder.statistics();
 
-  take_up_calls(builder.diagnostics());
+  apply_calls(builder.diagnostics());
   store_.read_positions(tasks_, builder.diagnostics());
   statistics.read_ms = lap();
-  if (std::exchange(is_settled_, false) && !store_.changed()) {
+  if (std::exchange(can_repeat_report_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
   } else {
     const PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
@@ -83,7 +83,7 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
-    even_out(start);
+    equalize_capacity(start);
     count_bytes_of_pairs(list.jobs, statistics);
   }
   statistics.objects_unread = store_.unread_count();
@@ -95,44 +95,43 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
   statistics.step_ms = Lap(start)();
 }
 
-void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
-  staging_.visit_taken(
-      Overloaded{[&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
-                 [&](SetRule& rule) {
-                   pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
-                   is_settled_ = false;
-                 },
-                 [&](IgnorePair& pair) {
-                   is_settled_ = false;
-                   const Object* const a = store_.find(pair.a);
-                   const Object* const b = store_.find(pair.b);
-                   if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
-                 },
-                 [&](RemoveObject& removed) {
-                   if (const Object* const object = store_.find(removed.object))
-                     pairs_.filter().forget(*object);
-                   store_.apply(removed);
-                 },
-                 [&](RefusePose& refused) {
-                   diagnostics.push_back(refused.problem);
-                   store_.apply(refused);
-                 },
-                 [&](BindPositions& bound) {
-                   store_.apply(bound);
-                   Object* const object = store_.find(bound.object);
-                   if (is_reserved_ && object != nullptr) make_ready_to_copy(*object);
-                 },
-                 [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
-                 [&](Reserve& call) {
-                   is_settled_ = false;  // a step that repeats rows does not count what is made room for
-                   // Where there is no memory for it, it is not tried again: the scene may do without.
-                   reserve(std::exchange(call.capacity, {}));
-                 },
-                 [&](AddObject& added) {
-                   if (is_reserved_) make_ready(*added.surface, added.settings.motion);
-                   store_.apply(added);
-                 },
-                 [&](auto& other) { store_.apply(other); }});
+void Step::apply_calls(std::vector<Diagnostic>& diagnostics) {
+  staging_.visit_collected(Overloaded{
+      [&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
+      [&](SetRule& rule) {
+        pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
+        can_repeat_report_ = false;
+      },
+      [&](IgnorePair& pair) {
+        can_repeat_report_ = false;
+        const Object* const a = store_.find(pair.a);
+        const Object* const b = store_.find(pair.b);
+        if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
+      },
+      [&](RemoveObject& removed) {
+        if (const Object* const object = store_.find(removed.object)) pairs_.filter().forget(*object);
+        store_.apply(removed);
+      },
+      [&](RefusePose& refused) {
+        diagnostics.push_back(refused.problem);
+        store_.apply(refused);
+      },
+      [&](BindPositions& bound) {
+        store_.apply(bound);
+        Object* const object = store_.find(bound.object);
+        if (is_reserved_ && object != nullptr) prepare_copy(*object);
+      },
+      [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
+      [&](Reserve& call) {
+        can_repeat_report_ = false;  // a step that repeats rows does not count what is made room for
+        // Where there is no memory for it, it is not tried again: the scene may do without.
+        reserve(std::exchange(call.capacity, {}));
+      },
+      [&](AddObject& added) {
+        if (is_reserved_) prepare_surface(*added.surface, added.settings.motion);
+        store_.apply(added);
+      },
+      [&](auto& other) { store_.apply(other); }});
 }
 
 void Step::reserve(const SceneCapacity& capacity) {
@@ -154,23 +153,23 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
     if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
-    make_ready(object->surface_to_write(), object->settings.motion);
+    prepare_surface(object->surface_to_write(), object->settings.motion);
     store_.count_bytes(*object);
-    make_ready_to_copy(*object);
+    prepare_copy(*object);
   }
 }
 
 /// Makes room for the first pair of an object: bounds of its regions, its leaves in working memory, and what
 /// it has by its pose.
-void Step::make_ready(Surface& surface, Motion motion) {
+void Step::prepare_surface(Surface& surface, Motion motion) {
   if (motion != Motion::deformable) surface.reserve_positions(true);
-  refit_.make_ready(surface);
+  refit_.prepare(surface);
   jobs_.reserve_for(surface.mesh());
 }
 
 /// Makes room for the positions of an object that is bound, which are copied when it comes near another;
 /// where they are viewed they never are.
-void Step::make_ready_to_copy(Object& object) {
+void Step::prepare_copy(Object& object) {
   if (!object.bound) return;
   const bool is_viewed = wants_blocks(settings_.detail, settings_.accuracy.mode()) &&
                          settings_.region_distances == 0 && object.surface().can_view(*object.bound);
@@ -195,15 +194,15 @@ void Step::write_pairs(const PairList& list, const FrameReport& previous, Report
     write_pair(list.jobs[index], index, previous, builder);
   }
   write_rows_before(list.jobs.size());
-  if (std::vector<Contact>* const longest = jobs_.longest_list()) contacts_.take(*longest, builder);
+  if (std::vector<Contact>* const longest = jobs_.longest_list()) contacts_.adopt_list(*longest, builder);
   contacts_.write(tasks_, builder.contacts(), builder.frame());
-  is_settled_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
+  can_repeat_report_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
 }
 
 void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& previous,
                       ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
-  const bool repeats = !job.is_looked_at();
+  const bool repeats = !job.is_tested();
   std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
   if (!row) return;
   if (repeats && !job.allowed) row->phase = PairPhase::ended;
@@ -275,14 +274,14 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
   statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
   // Of objects without pairs.
   statistics.boxes_tested = statistics.objects_in_slack = 0;
-  is_settled_ = true;
+  can_repeat_report_ = true;
 }
 
 /// Makes room for steps like this one. A step is complete without: where there is no memory for that, or no
 /// time within the budget, later steps take some.
-void Step::even_out(Clock::time_point start) {
+void Step::equalize_capacity(Clock::time_point start) {
   try {
-    reports_.even_out(jobs_.even_out_memory(start));
+    reports_.equalize_capacity(jobs_.equalize_capacity(start));
   } catch (const std::bad_alloc&) {
     return;
   }
@@ -305,7 +304,7 @@ void Step::sum_counters(StepStatistics& statistics) {
 void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics) {
   // Only what a job looked at may have got memory for its regions.
   for (const PairJob& job : jobs)
-    if (job.is_looked_at())
+    if (job.is_tested())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
   statistics.pair_bytes =
       pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() + contacts_.byte_count();

@@ -30,16 +30,16 @@ class Step {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void take_up_calls(std::vector<Diagnostic>& diagnostics);
+  void apply_calls(std::vector<Diagnostic>& diagnostics);
   void reserve_for_pairs(const SceneCapacity& capacity);
-  void make_ready(Surface& surface, Motion motion);
-  void make_ready_to_copy(Object& object);
+  void prepare_surface(Surface& surface, Motion motion);
+  void prepare_copy(Object& object);
   void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
   void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);
   void end_pair(PairReport row, ReportBuilder& builder);
   void repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder);
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
-  void even_out(Clock::time_point start);
+  void equalize_capacity(Clock::time_point start);
   void sum_counters(StepStatistics& statistics);
   void count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics);
 
@@ -57,7 +57,7 @@ class Step {
   std::size_t rows_again_ = 0;  ///< of the report being written, as they were in the last
   /// The last step looked at no pair and all its rows were as before: so will be the next one's if nothing
   /// changes.
-  bool is_settled_ = false;
+  bool can_repeat_report_ = false;
 };
 
 }  // namespace graze

@@ -25,10 +25,10 @@ class Stepper {
   Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports);
 
   /// Takes the calls made so far for the next `run`.
-  void take_calls() { staging_.take(); }
+  void collect_calls() { staging_.collect(); }
   /// Fills and publishes the report that follows the published one, with the caller's tag.
   ReportHandle run(std::uint64_t tag);
-  /// Begins what calls `run`, after `take_calls`, on another thread; it must not throw.
+  /// Begins what calls `run`, after `collect_calls`, on another thread; it must not throw.
   void start(std::function<void()> work);
 
  private:

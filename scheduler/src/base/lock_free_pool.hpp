@@ -13,17 +13,17 @@ namespace graze {
 /// move, and what is lent is never taken from the allocator while one given back is left.
 ///
 /// The free ones are a stack linked by `next`. Its head holds a tag beside the index, which changes with
-/// every take: without it a thread that has read the head and that element's link, and then sleeps while the
-/// element is taken and given back, would put a link in place that is no longer so. (The tag would have to
-/// come round, 2^32 takes, during that sleep.)
+/// every acquisition: without it a thread that has read the head and that element's link, and then sleeps
+/// while the element is taken and given back, would put a link in place that is no longer so. (The tag would
+/// have to come round, 2^32 acquisitions, during that sleep.)
 template <typename Element>
-class IndexPool {
+class LockFreePool {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   /// Lends an element, as it was given back or, a new one, default-constructed. Where there is no memory for
   /// that (std::bad_alloc), no index is used up.
-  [[nodiscard]] std::uint32_t take() {
+  [[nodiscard]] std::uint32_t acquire() {
     std::uint64_t head = free_.load(std::memory_order_acquire);
     while (index_of(head) != none) {
       // The link may be read while another thread that has just taken the element writes it; then the head
@@ -40,9 +40,9 @@ class IndexPool {
     return index;
   }
 
-  void give_back(std::uint32_t index) noexcept { give_back(index, index); }
+  void release(std::uint32_t index) noexcept { release(index, index); }
   /// Gives back a chain: `last` is reached from `first` by links.
-  void give_back(std::uint32_t first, std::uint32_t last) noexcept {
+  void release(std::uint32_t first, std::uint32_t last) noexcept {
     std::uint64_t head = free_.load(std::memory_order_relaxed);
     do link(last).store(index_of(head), std::memory_order_relaxed);
     while (!free_.compare_exchange_weak(head, head_of(first, tag_of(head)), std::memory_order_release,
