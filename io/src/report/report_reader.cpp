@@ -75,6 +75,7 @@ Feature read_feature(const json& value, EdgeVertices& edge) {
   return feature;
 }
 
+/// Reads a contact. Its `since` stays in the numbers of the file, as ReportedFrame::frame does.
 ReportedContact read_contact(const json& value) {
   ReportedContact read;
   read.contact.kind = named(contact_kinds, value.at("kind"));

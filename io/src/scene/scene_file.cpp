@@ -230,7 +230,9 @@ std::optional<ContactDetail> contact_detail_from(std::string_view word) {
 }
 
 std::string_view to_string(ContactDetail detail) {
-  return std::ranges::find(details, detail, &std::pair<std::string_view, ContactDetail>::second)->first;
+  const auto* const found =
+      std::ranges::find(details, detail, &std::pair<std::string_view, ContactDetail>::second);
+  return found == details.end() ? "unknown" : found->first;
 }
 
 }  // namespace graze::io

@@ -50,7 +50,7 @@ std::optional<Diagnostic> check_promise(const Object& object, double displacemen
   if (!(displacement > object.promised * round_up)) return std::nullopt;
   return diagnostic_of(object, DiagnosticKind::broken_promise, [&] {
     return name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
-           ", further than the " + number_text(object.promised) + " promised; all positions were read";
+           ", further than the " + number_text(object.promise_sum) + " promised; all positions were read";
   });
 }
 
@@ -198,7 +198,10 @@ bool stays_unread(const Object& object) {
 
 void add_promise(Object& object) {
   const bool may_have_moved = is_read_in_every_step(object) || object.is_new;
-  if (may_have_moved) object.promised = (object.promised + object.promise) * round_up;
+  if (may_have_moved) {
+    object.promise_sum = object.promised == 0 ? object.promise : object.promise_sum + object.promise;
+    object.promised = (object.promised + object.promise) * round_up;
+  }
   object.is_new = false;
   object.promise = std::numeric_limits<double>::infinity();
 }

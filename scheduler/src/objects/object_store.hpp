@@ -48,6 +48,8 @@ struct Object {
   /// No vertex is further from where it was when the object was looked at last, by the promises since. At
   /// first without a bound: promises speak of where a step saw the object, and none has.
   double promised = std::numeric_limits<double>::infinity();
+  /// The sum of the promises since `promised` was last 0, as the caller gave them, for messages.
+  double promise_sum = 0;
   bool promises = false;  ///< bound memory of which motion has been promised
   /// There are positions that have not been read, since promises say that they are far from everything, or a
   /// survey does.
