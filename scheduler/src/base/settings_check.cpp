@@ -29,7 +29,7 @@ std::string not_a_range(const char* what, double value) {
          "; give a distance that is not negative, or infinity";
 }
 
-/// A number that was cast to an enumeration without being one of its enumerators.
+/// Says that a number was cast to an enumeration without being one of its enumerators.
 template <typename Enumeration>
 std::optional<std::string> not_an_enumerator(const char* what, Enumeration value, Enumeration last) {
   if (value <= last) return std::nullopt;

@@ -10,10 +10,10 @@
 namespace graze {
 namespace {
 
-/// Ranges of more boxes than this are halved before the rest is shared among threads.
+/// One thread halves ranges of more boxes than this. The smaller ranges are then halved in parallel.
 constexpr std::size_t large_range = 4096;
 
-/// Boxes of one class differ at most four times in their longest side.
+/// The longest sides of boxes in one size class differ by a factor of at most 4.
 constexpr int exponents_of_class = 2;
 constexpr int lowest_exponent =
     std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
@@ -22,13 +22,13 @@ constexpr std::size_t class_count =
         exponents_of_class +
     1;
 
-/// Finite, also for boxes without an end.
+/// Clamps a number to finite values, since boxes may be infinite.
 double finite(double value) {
   constexpr double most = std::numeric_limits<double>::max() / 4;
   return std::clamp(value, -most, most);
 }
 
-/// Large boxes have low classes.
+/// The size class of a box. Larger boxes have lower classes.
 std::uint32_t size_class_of(const Box& box) {
   double side = 0;
   for (int axis = 0; axis < 3; ++axis) side = std::max(side, finite(box.max[axis]) - finite(box.min[axis]));
@@ -72,7 +72,8 @@ void BoxOrder::sort_by_size(std::span<const Box> boxes) {
   for (const Item& item : unsorted_) items_[begins[item.size_class]++] = item;
 }
 
-/// Parts a range at a leaf at which a group begins, as high a group as there is inside; returns the leaf.
+/// Splits a range in two along its widest axis and returns the first leaf of the second part. The split is at
+/// the start of a group, of the largest group size that fits inside the range.
 std::size_t BoxOrder::halve(const Range& range) {
   std::size_t group = block;
   while ((range.begin / (group * block) + 1) * (group * block) < range.end) group *= block;
@@ -102,7 +103,7 @@ void BoxOrder::halve_down(const Range& range) {
   halve_down({middle, range.end});
 }
 
-/// Leaves only small ranges in `ranges_`.
+/// Halves the large ranges until `ranges_` holds only small ones.
 void BoxOrder::halve_large() {
   for (std::size_t index = 0; index < ranges_.size(); ++index)
     while (ranges_[index].end - ranges_[index].begin > large_range) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Nodes of a level that are refitted, or leaves that are filled, at a time.
+/// The number of nodes that one task refits, or of leaves that one task fills.
 constexpr std::size_t slice = 512;
 
 constexpr std::size_t slices_of(std::size_t count) {
@@ -40,7 +40,7 @@ BoxTree::Reach BoxTree::reach_of(const Limits& limits) {
   return {-limits[3], -limits[4], -limits[5], -limits[0], -limits[1], -limits[2]};
 }
 
-/// Bit i says whether box i meets. Without a branch for each number: their outcome cannot be foreseen.
+/// Bit i says whether box i meets. There is no branch for each number, since its outcome cannot be predicted.
 unsigned BoxTree::meeting(const Limits* eight, const Reach& reach) {
   unsigned meeting = 0;
   for (unsigned i = 0; i < width; ++i) {
@@ -52,7 +52,7 @@ unsigned BoxTree::meeting(const Limits* eight, const Reach& reach) {
   return meeting;
 }
 
-/// Sizes the levels for the leaves there are; new nodes hold no box.
+/// Resizes the levels to the number of leaves. New nodes are empty.
 void BoxTree::make_levels() {
   std::size_t nodes = slot_of_.size();
   level_count_ = 0;
@@ -122,7 +122,7 @@ void BoxTree::refit_node(std::uint32_t level, std::uint32_t index) {
   levels_[level][index] = box;
 }
 
-/// Changes a leaf and what is above it.
+/// Sets the box of a leaf and updates its ancestors.
 void BoxTree::put(std::uint32_t leaf, const Box& box) {
   levels_[0][leaf] = slot_of_[leaf] == no_slot ? no_box : limits_of(box);
   std::uint32_t index = leaf;
@@ -145,7 +145,7 @@ void BoxTree::add(const Box& box) {
     const std::size_t levels_before = level_count_;
     slot_of_.resize(slot_of_.size() + width, no_slot);
     make_levels();
-    // A new root is over what the last one was over.
+    // A new root contains all that the last one contained.
     for (std::size_t level = std::max<std::size_t>(levels_before, 1); level < level_count_; ++level)
       refit_node(static_cast<std::uint32_t>(level), 0);
   }
@@ -202,7 +202,7 @@ std::uint64_t BoxTree::find_pairs(std::uint32_t first_block, std::uint32_t last_
   return tested;
 }
 
-/// The blocks from this one on that meet it, and in them the pairs.
+/// Finds the blocks from this one on that meet it, and the pairs of slots in them.
 std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<SlotPair>& found) const {
   const Reach reach = reach_of(levels_[1][block]);
   std::uint64_t tested = find_pairs_of(block, block, found);
@@ -213,7 +213,7 @@ std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<SlotPair>&
   while (height > 0) {
     const Node node = stack[--height];
     const std::uint32_t first = node.index * width;
-    // Children that end before this block begins were looked at from there.
+    // Children that end before this block begins have found their pairs with this block themselves.
     const std::uint32_t own = block >> (3 * (node.level - 2));
     const unsigned earlier = own <= first ? 0 : std::min(own - first, width);
     tested += width;

@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-// Work done at a time. How it is cut depends on the work alone, never on the number of threads.
+// Sizes of slices of work. They never depend on the number of threads.
 constexpr std::size_t objects_of_slice = 2048;
 constexpr std::uint32_t blocks_of_slice = 64;
 constexpr std::size_t queries_of_slice = 128;
@@ -17,19 +17,19 @@ constexpr std::size_t slices_of(std::size_t count, std::size_t slice) {
   return (count + slice - 1) / slice;
 }
 
-/// An object that moves steadily stays in its loose box for about so many steps.
+/// The slack of a loose box in steps of steady motion, within the bounds below.
 constexpr double steps_of_slack = 4;
-/// Bounds of the room to move, in parts of the box's longest side.
+/// The bounds of the slack, in parts of the longest side of the box.
 constexpr double least_slack = 1.0 / 32;
 constexpr double most_slack = 1.0 / 12;
 
-/// When objects have left their loose boxes that are more than this part of all, all pairs are found anew.
+/// If more than 1 in this many objects have left their loose boxes, all pairs are found anew.
 constexpr std::size_t few = 8;
 
-/// Making a new order takes about as long as this many tests for each object.
+/// A new order takes about as long as this many tests for each object.
 constexpr double tests_of_ordering = 64;
 
-/// A tree with more leaves wants a new order.
+/// A tree with more leaves than this gets a new order.
 constexpr std::size_t most_leaves(std::size_t objects) {
   return 2 * objects + 64;
 }
@@ -42,7 +42,8 @@ double longest_side(const Box& box) {
   return (box.max - box.min).maxCoeff();
 }
 
-/// Loose boxes are around `needed`, with room for the motion to go on; for a jump that says nothing.
+/// Grows `needed` by the slack. A large motion counts as a jump, which predicts nothing, and gives the least
+/// slack.
 Box loosened(const Box& needed, double motion) {
   const double side = longest_side(needed);
   const bool is_steady = motion <= most_slack * side;
@@ -51,7 +52,7 @@ Box loosened(const Box& needed, double motion) {
   return grown(needed, room);
 }
 
-/// Whether a loose box has become too loose: the object has shrunk, or its reach.
+/// Whether a loose box is too loose because the object or its reach has shrunk.
 bool is_too_loose(const Box& loose, const Box& needed) {
   const double side = longest_side(needed);
   const Box most = grown(needed, side);
@@ -78,7 +79,7 @@ std::span<const SlotPair> BroadPhase::find(const ObjectSummaries& summaries, con
   return pairs_;
 }
 
-/// Takes objects out that are gone, and puts new ones in, which have no loose box yet.
+/// Removes objects that are gone and adds new ones, which have no loose box yet.
 void BroadPhase::update_slots(const ObjectSummaries& summaries) {
   const auto new_slots = summaries.new_slots();
   if (!new_slots.empty()) {
@@ -98,7 +99,7 @@ void BroadPhase::update_slots(const ObjectSummaries& summaries) {
   }
 }
 
-/// Gives those that have left their loose boxes new ones, and lists them.
+/// Gives every object that has left its loose box a new one, and lists these objects in `left_`.
 void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
   const std::size_t count = loose_.size();
   const std::size_t slices = slices_of(count, objects_of_slice);
@@ -130,7 +131,7 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
   left_.resize(end);
 }
 
-/// Whether an object has left its loose box, which is then a new one.
+/// Returns whether an object has left its loose box, and then replaces that box.
 bool BroadPhase::renew_if_left(const ObjectSummary& summary, Box& loose) const {
   const bool is_new = loose.empty();
   if (!summary.moved && !is_new && !reaches_changed_) return false;
@@ -187,7 +188,7 @@ std::uint64_t BroadPhase::sum_tests() {
   return tested;
 }
 
-/// Puts what the slices found into `pairs_`: by first object, then each object's row by itself.
+/// Collects the pairs of all slices in `pairs_`, sorted by first object and then by second.
 void BroadPhase::sort_rows(TaskPool& tasks) {
   const auto slices = std::span<const Slice>(slices_).first(slice_count_);
   const std::size_t objects = loose_.size();
@@ -198,7 +199,7 @@ void BroadPhase::sort_rows(TaskPool& tasks) {
   pairs_.resize(rows_[objects]);
   for (const Slice& slice : slices)
     for (const SlotPair pair : slice.pairs) pairs_[rows_[first_of(pair)]++] = pair;
-  // Now rows_[i] is where row i ends.
+  // From here on rows_[i] is the end of row i.
   const auto sort_slice = [&](unsigned, std::size_t index) {
     const std::size_t begin = index * objects_of_slice;
     const std::size_t end = std::min(begin + objects_of_slice, objects);
@@ -210,7 +211,7 @@ void BroadPhase::sort_rows(TaskPool& tasks) {
   tasks.run(slices_of(objects, objects_of_slice), std::ref(sort_slice));
 }
 
-/// Finds the pairs of those few that have left their loose boxes; of the other pairs none has come or gone.
+/// Finds the pairs of the few objects that have left their loose boxes. No other pair can have come or gone.
 void BroadPhase::find_left(TaskPool& tasks) {
   for (const std::uint32_t slot : left_) tree_.move(slot, loose_[slot]);
   const auto slices = begin_slices(slices_of(left_.size(), queries_of_slice));
@@ -230,13 +231,13 @@ void BroadPhase::find_one(std::uint32_t slot, Slice& slice) const {
   slice.found.clear();
   slice.boxes_tested += tree_.find(loose_[slot], slice.found);
   for (const std::uint32_t other : slice.found) {
-    // Of two that have left, the lower finds the pair.
+    // If both objects have left their loose boxes, the one in the lower slot finds the pair.
     if (other == slot || (has_left_[other] != 0 && other < slot)) continue;
     slice.pairs.push_back(pair_of(slot, other));
   }
 }
 
-/// Replaces the pairs of those that have left.
+/// Replaces the pairs of the objects that have left their loose boxes.
 void BroadPhase::merge() {
   new_pairs_.clear();
   for (const Slice& slice : std::span(slices_).first(slice_count_))

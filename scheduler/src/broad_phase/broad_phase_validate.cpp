@@ -8,7 +8,7 @@ namespace graze {
 #ifdef GRAZE_VALIDATE
 namespace {
 
-/// More objects than this are not looked at pair by pair.
+/// The pairs are compared one by one only up to this many objects.
 constexpr std::size_t most_objects = 200;
 
 void require(bool holds, const char* what, std::size_t index) {

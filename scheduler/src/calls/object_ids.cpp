@@ -9,9 +9,9 @@ namespace {
 // A slot's state: the generation in the upper half, then its phase, whether the object is deformable, and
 // the number of pins.
 constexpr std::uint64_t phase_mask = std::uint64_t{3} << 30;
-constexpr std::uint64_t absent = 0;                         ///< nobody's: its index may be given
-constexpr std::uint64_t reserved = std::uint64_t{1} << 30;  ///< given, its addition is not yet queued
-constexpr std::uint64_t present = std::uint64_t{2} << 30;   ///< the id is good
+constexpr std::uint64_t absent = 0;                         ///< free: its index may be allocated
+constexpr std::uint64_t reserved = std::uint64_t{1} << 30;  ///< allocated, but the addition is not queued yet
+constexpr std::uint64_t present = std::uint64_t{2} << 30;   ///< the id is valid
 constexpr std::uint64_t gone = std::uint64_t{3} << 30;      ///< removed, and pinned still
 constexpr std::uint64_t deformable = std::uint64_t{1} << 29;
 constexpr std::uint64_t pin_mask = deformable - 1;
@@ -33,7 +33,7 @@ ObjectId ObjectIds::allocate(std::shared_ptr<const Mesh> mesh, ObjectSettings se
   const std::uint64_t kind = settings.motion == Motion::deformable ? deformable : 0;
   slot.named.mesh = std::move(mesh);
   slot.named.settings = std::move(settings);
-  // Nobody pins what is reserved only, so a plain store takes nothing away.
+  // Nobody pins a reserved slot, so a plain store loses no pin.
   slot.state.store(std::uint64_t{generation} << 32 | reserved | kind, std::memory_order_relaxed);
   count_.fetch_add(1, std::memory_order_relaxed);
   return {index, generation};
@@ -47,7 +47,7 @@ void ObjectIds::cancel(ObjectId object) noexcept {
 void ObjectIds::publish(ObjectId object) noexcept {
   std::atomic<std::uint64_t>& state = slots_[object.index].state;
   std::uint64_t seen = state.load(std::memory_order_relaxed);
-  // Release: who finds the id good finds what it names.
+  // Release: a thread that finds the id valid sees the object's data.
   while (generation_of(seen) == object.generation && (seen & phase_mask) == reserved)
     if (state.compare_exchange_weak(seen, (seen & ~phase_mask) | present, std::memory_order_release,
                                     std::memory_order_relaxed))
@@ -88,13 +88,13 @@ ObjectIds::Standing ObjectIds::standing(ObjectId object) const noexcept {
 
 void ObjectIds::unpin(std::uint32_t index) noexcept {
   Slot& slot = slots_[index];
-  // Release: what this thread read of the slot was read before it is emptied; acquire, should it be the
-  // last: so was what the others read.
+  // Release: this thread's reads come before the slot is emptied. Acquire, for the last pin: so do all other
+  // threads' reads.
   const std::uint64_t before = slot.state.fetch_sub(1, std::memory_order_acq_rel);
   if ((before & phase_mask) == gone && (before & pin_mask) == 1) empty(index, generation_of(before));
 }
 
-/// Nobody else knows the slot any more.
+/// Empties a slot that no other thread uses any more.
 void ObjectIds::empty(std::uint32_t index, std::uint32_t generation) noexcept {
   Slot& slot = slots_[index];
   slot.named.mesh.reset();
@@ -103,7 +103,7 @@ void ObjectIds::empty(std::uint32_t index, std::uint32_t generation) noexcept {
   slot.named.binding.stands = false;
   slot.lost.store(0, std::memory_order_relaxed);
   slot.state.store(std::uint64_t{generation} << 32 | absent, std::memory_order_relaxed);
-  // An index whose generations are used up is never given again.
+  // An index whose generations are used up is never allocated again.
   if (generation != std::numeric_limits<std::uint32_t>::max()) slots_.release(index);
 }
 
@@ -133,7 +133,7 @@ void ObjectIds::return_lost() noexcept {
     Slot* const slot = slots_.find(index);
     if (slot == nullptr) continue;
     const std::uint8_t collected = std::exchange(slot->collected, std::uint8_t{0});
-    // An object that has gone loses nothing more. One whose removal was lost is there still.
+    // A removed object has nothing more to lose. One whose removal was lost still exists.
     const bool is_there =
         generation_of(slot->state.load(std::memory_order_relaxed)) == slot->collected_generation;
     if (collected != 0 && is_there) lose(index, collected);

@@ -19,8 +19,8 @@ std::string coordinates(const Eigen::Vector3d& point) {
   return text;
 }
 
-/// A diagnostic with what `message` makes, or without a message where there is no memory for it. It does not
-/// throw, since an object of which something was taken has to be read to its end.
+/// Makes a diagnostic with the text of `message`, or without a text if there is no memory for it. It does not
+/// throw, since a read that has begun to change an object must be completed.
 template <typename Message>
 Diagnostic diagnostic_of(const Object& object, DiagnosticKind kind, const Message& message) noexcept {
   Diagnostic diagnostic{object.id, kind, {}};
@@ -44,9 +44,9 @@ Diagnostic bad_vertex(const Object& object, std::uint32_t vertex, const Eigen::V
 const char* const stands_still = "it stands still until good positions are read";
 const char* const pose_refused = "the pose was not taken";
 
-/// Says so where a vertex that moved so far, or further, broke a promise.
+/// Returns a diagnostic if a displacement is larger than the promised one.
 std::optional<Diagnostic> check_promise(const Object& object, double displacement) {
-  // The displacement is rounded; a promise kept to the last bit is not called broken.
+  // The displacement is rounded, so a promise that is kept to the last bit must not count as broken.
   if (!(displacement > object.promised * round_up)) return std::nullopt;
   return diagnostic_of(object, DiagnosticKind::broken_promise, [&] {
     return name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
@@ -58,12 +58,12 @@ bool is_read_in_every_step(const Object& object) {
   return object.bound && object.policy == BindPolicy::every_step;
 }
 
-/// The pose that it is to have: one that was given, or that a survey has seen.
+/// The pose that the object is to have: a new one, or the one that the last survey used.
 const Pose& pose_of(const Object& object) {
   return object.pose ? *object.pose : *object.standing_pose;
 }
 
-/// The positions that it is to have.
+/// The positions that the object is to have.
 PositionView positions_of(const Object& object) {
   return object.positions ? object.positions->view() : *object.bound;
 }
@@ -76,27 +76,28 @@ bool is_same(const Box& left, const Box& right) {
   return left.min == right.min && left.max == right.max;
 }
 
-/// At least how far some vertex has moved.
+/// A lower bound of the largest motion of a vertex, from the boxes before and after.
 double motion_between(const Box& left, const Box& right) {
   return std::max((left.min - right.min).cwiseAbs().maxCoeff(), (left.max - right.max).cwiseAbs().maxCoeff());
 }
 
-/// Whether lists of vertices pay beside another object that moves as much.
+/// Whether lists of vertices pay if the other object of a pair moves as much.
 bool hardly_moves(const Object& object, double motion) {
   return list_slack_of_vertices.of(2 * motion, object.surface().leaf_size()) > 0;
 }
 
-/// For so many steps after a calm box deceived, an object is not taken to be calm.
+/// The number of steps in which an object does not count as nearly static after its vertices moved further
+/// than its box.
 constexpr std::uint8_t static_cooldown = 16;
 
-/// Of an object that is looked at, by its box.
+/// Whether an object seems nearly static by its box. Counts down its cooldown.
 bool seems_nearly_static(Object& object, const Box& now) {
   if (object.static_cooldown_steps == 0) return hardly_moves(object, motion_between(object.box, now));
   --object.static_cooldown_steps;
   return false;
 }
 
-/// The surface stands where the object does.
+/// Notes that the surface has the object's current positions.
 void note_read(Object& object) {
   object.unread = object.surveyed = object.stays_unread = false;
   object.box = object.seen = object.surface().box();
@@ -111,14 +112,16 @@ void note_survey(Object& object, const Box& box) {
   object.has_surface = false;
 }
 
-/// A pose that moves a vertex beyond the limits. The object's pairs are stale until a good one comes.
+/// Refuses a pose that moves a vertex beyond the limits. The object's pairs are stale until a good pose
+/// comes.
 ReadOutcome refuse_pose(Object& object, std::uint32_t vertex, const Eigen::Vector3d& position) {
   object.pose.reset();
   const bool changed = !std::exchange(object.frozen, true);
   return {false, changed, bad_vertex(object, vertex, position, pose_refused), false};
 }
 
-/// By the box that the rest shape has there; by the vertices only where that may be beyond the limits.
+/// Surveys a pose by the box of the posed rest shape. It reads vertices only if that box may be beyond the
+/// limits.
 ReadOutcome survey_pose(Object& object) {
   Box box = object.mesh->rest_reach().box_at(*object.pose);
   if (!Surface::is_within_limits(box.min) || !Surface::is_within_limits(box.max)) {
@@ -133,7 +136,7 @@ ReadOutcome survey_pose(Object& object) {
   return {false, true, std::nullopt};
 }
 
-/// Takes up a pose that the surface was given, or refuses it.
+/// Accepts the pose that the surface was given, or refuses it.
 ReadOutcome accept_pose(Object& object, const Surface::ReadResult& result) {
   if (!result.taken()) return refuse_pose(object, result.bad_vertex, result.bad_position);
   object.moved = result.changed;
@@ -153,7 +156,7 @@ ReadOutcome read_pose(Object& object) {
   return outcome;
 }
 
-/// Takes what a survey saw, or says why not.
+/// Accepts the result of a survey, or freezes the object and says why.
 ReadOutcome accept_survey(Object& object, const Surface::PartSeen& all) {
   ReadOutcome outcome;
   object.frozen = all.bad_vertex != Surface::ReadResult::no_vertex;
@@ -171,7 +174,8 @@ ReadOutcome accept_survey(Object& object, const Surface::PartSeen& all) {
   return outcome;
 }
 
-/// Has the surface take what was seen. A copy becomes its positions as it is.
+/// Makes the surface accept the positions that were read. A copy becomes the surface's positions without
+/// another copy.
 Surface::ReadResult accept_positions(Object& object, const Surface::PartSeen& all) {
   Surface& surface = object.surface_to_write();
   if (!object.positions) {
@@ -227,7 +231,7 @@ Surface::PartSeen scan_part(const Object& object, std::uint32_t begin, std::uint
   const Surface& surface = object.surface();
   if (is_posed(object)) return surface.look_at_pose(pose_of(object), begin, end);
   if (object.to_survey) return Surface::survey(*object.mesh, *object.bound, begin, end);
-  // A promise is held against what moved furthest, not against a bound of it.
+  // A promise is checked against the exact largest displacement, not against a bound of it.
   const bool is_held = object.has_surface && std::isfinite(object.promised);
   const auto displacement = is_held ? Surface::Displacement::exact : Surface::Displacement::bound;
   return surface.look_at_positions(positions_of(object), begin, end, displacement);
@@ -246,7 +250,7 @@ ReadOutcome accept_scan(Object& object, const Surface::PartSeen& all) {
       object.static_cooldown_steps = static_cooldown;
   }
   ReadOutcome outcome{result.changed && !is_copy, result.changed, std::nullopt};
-  // Where a view came before, it shows in the next step whether the object moves.
+  // After a view, only the next step can tell whether the object moves.
   object.moved = result.changed && !seems_at_rest;
   outcome.changed = outcome.changed || object.frozen == result.taken();
   outcome.accepted = result.taken();
@@ -268,7 +272,7 @@ void finish_read(Object& object, bool accepted) {
   if (object.to_survey || !accepted) return;
   if (is_posed(object)) return finish_pose(object);
   if (object.bound) object.is_notified = false;
-  object.positions.reset();  // as soon as they are read, so that the buffer may be lent again at once
+  object.positions.reset();  // now, so that the buffer can be lent again at once
   object.promised = 0;
   note_read(object);
 }
@@ -276,7 +280,7 @@ void finish_read(Object& object, bool accepted) {
 void view_memory(Object& object) {
   Surface& surface = object.surface_to_write();
   surface.view(positions_of(object), object.box);
-  // A copy stays; the caller's memory may go after the step.
+  // A copy stays valid; the caller's memory may go after the step.
   object.viewed = !object.positions;
   object.standing_positions = std::move(object.positions);
   object.unread = object.surveyed = object.stays_unread = object.to_view = false;

@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-/// Objects refreshed at a time.
+/// The number of objects that one task refreshes.
 constexpr std::size_t slice = 1024;
 
 ObjectSummary summary_of(const Object& object) {
@@ -31,7 +31,7 @@ double motion_between(const Box& before, const Box& now) {
 
 }  // namespace
 
-/// Numbers of addition ascend, so the last and their count say whether the objects are the same.
+/// Serials ascend, so an equal count and an equal last serial mean that the objects are the same.
 void ObjectSummaries::update_slots(std::span<const std::unique_ptr<Object>> objects) {
   new_slots_.clear();
   const std::size_t before = summaries_.size();

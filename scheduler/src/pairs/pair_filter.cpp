@@ -6,7 +6,7 @@
 namespace graze {
 namespace {
 
-/// DV's threshold: the last of the paper's numbers where there are any.
+/// The threshold of DV: the last of the paper's epsilons if there are any, otherwise the contact distance.
 double base_distance(double contact_distance, std::span<const double> epsilon) {
   return epsilon.empty() ? contact_distance : epsilon.back();
 }
@@ -44,14 +44,15 @@ void PairFilter::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule r
     distances_.emplace_back();
     index = rule_of_[index_of(kind_b, kind_a)] = static_cast<std::uint16_t>(rules_.size());
   }
-  // A rule's numbers are the vector's own memory, which stays where it is when rules move.
+  // The epsilons stay valid when rules move, since a vector keeps its memory when it is moved.
   rules_[index - std::size_t{1}] = std::move(rule);
   distances_[index] = distances_of(rules_[index - std::size_t{1}]);
   find_half_reach(kind_a);
   find_half_reach(kind_b);
 }
 
-/// Of two kinds each has at least half of what is between them.
+/// Finds the half reach of a kind: half of its largest reach to any kind. So the half reaches of two kinds
+/// add up to at least their reach.
 void PairFilter::find_half_reach(std::uint32_t kind) {
   double reach = 0;
   for (std::uint32_t other = 0; other < kind_count; ++other)
@@ -69,7 +70,8 @@ void PairFilter::set_ignored(const Object& a, const Object& b, bool ignored) {
   ignored_.insert(serials_of(a, b));
 }
 
-/// Not at once, since every pair has to be looked at for it: when there is something to be won.
+/// Defers the removal, since it visits every ignored pair. It happens once enough removed objects have
+/// gathered.
 void PairFilter::forget(const Object& object) {
   if (ignored_.size() == 0) return;
   forgotten_.push_back(object.serial);

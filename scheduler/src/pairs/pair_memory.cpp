@@ -7,8 +7,9 @@
 namespace graze {
 namespace {
 
-/// Which pair gets which memory is a matter of chance, and so is when one first needs room. Of so many each
-/// has it from the start, which is half a MiB; where there are more, reserving makes room.
+/// This many memories reserve room for their fronts when they are made, half a MiB in all. Which pair gets
+/// which memory, and so when a memory first needs room, is a matter of chance. For more pairs `reserve` makes
+/// room.
 constexpr std::size_t with_room_at_once = 512;
 
 }  // namespace

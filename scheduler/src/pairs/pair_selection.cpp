@@ -10,11 +10,11 @@
 namespace graze {
 namespace {
 
-/// Pairs looked at at a time.
+/// The number of pairs that one task processes.
 constexpr std::size_t pairs_of_slice = 4096;
 static_assert(pairs_of_slice <= std::numeric_limits<decltype(SelectedPair::count)>::max());
 
-/// Where in an ascending array `pair` is or would be.
+/// The index in an ascending array at which `pair` is or would be.
 template <typename Array>
 std::size_t index_in(const Array& array, SlotPair pair) {
   const auto found = std::lower_bound(array.begin(), array.end(), pair,
@@ -24,7 +24,7 @@ std::size_t index_in(const Array& array, SlotPair pair) {
 
 }  // namespace
 
-/// What all tasks read.
+/// The input that all tasks read.
 struct PairSelection::Given {
   std::span<const SlotPair> pairs;
   std::span<const ListedPair> listed;
@@ -37,9 +37,9 @@ struct PairSelection::Given {
   }
 };
 
-/// One task: goes through its part of the pairs, of what was known and of what was listed side by side. It
-/// writes its own part of `known_` and `selected_`, and into that of `last_`, behind itself, the memories of
-/// those to be forgotten.
+/// The work of one task. It walks its ranges of the known pairs and of the listed pairs side by side. It
+/// writes its own ranges of `known_` and `selected_`. It writes the memories to be released into the part of
+/// its range of `last_` that it has already passed.
 class PairSelection::Walk {
  public:
   Walk(PairSelection& selection, const Given& given, Slice& slice)
@@ -63,7 +63,7 @@ class PairSelection::Walk {
     return static_cast<std::uint32_t>(listed_++);
   }
 
-  /// Pairs below `end` that the broad phase keeps no longer.
+  /// Drops the pairs below `end` that the broad phase no longer keeps.
   void drop_before(SlotPair end) {
     while (true) {
       SlotPair pair = end;
@@ -121,7 +121,7 @@ class PairSelection::Walk {
       selected.kind = SelectedPair::Kind::not_selected;
       add(selected);
     } else if (selected.memory != SelectedPair::none) {
-      // It comes from a pair of `last_` that has been passed by.
+      // The memory belongs to a pair of `last_` that the walk has passed, so there is a free entry for it.
       selection_.last_[slice_.last_begin + slice_.forgotten++].memory = selected.memory;
     }
   }
@@ -154,7 +154,7 @@ std::span<const SelectedPair> PairSelection::select(std::span<const SlotPair> pa
   return std::span(selected_).first(gather());
 }
 
-/// Calls pairs by the places that their objects have now.
+/// Renames pairs by the new slots of their objects.
 void PairSelection::remap(std::span<const std::uint32_t> new_slots) {
   std::size_t kept = 0;
   for (Known known : last_) {
@@ -167,7 +167,7 @@ void PairSelection::remap(std::span<const std::uint32_t> new_slots) {
   last_.resize(kept);
 }
 
-/// Where a slice begins in one of the three, it begins in the others.
+/// Cuts the three lists into slices at the same pairs.
 void PairSelection::cut(std::span<const SlotPair> pairs, std::span<const ListedPair> listed) {
   slices_.clear();
   Slice slice{};
@@ -203,7 +203,7 @@ PairSelection::Fate PairSelection::fate_of(const ObjectSummary& a, const ObjectS
   return a.frozen || b.frozen ? Fate::frozen : Fate::tested;
 }
 
-/// Puts what the slices found together, and releases the memories of which there is nothing to be said.
+/// Joins the selections of all slices, and releases the memories of pairs that no report lists.
 std::size_t PairSelection::gather() {
   std::size_t count = 0;
   for (const Slice& slice : slices_) {
@@ -232,7 +232,7 @@ void PairSelection::count(StepStatistics& statistics) const {
 }
 
 #ifdef GRAZE_VALIDATE
-/// What is known of pairs that rest is what a look at their objects says.
+/// Throws if what is known of a pair at rest differs from what its objects say.
 void PairSelection::validate(const Given& given) {
   for (const Known& known : known_) {
     if (!known.rests) continue;

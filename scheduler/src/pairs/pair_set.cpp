@@ -21,7 +21,7 @@ void PairSet::insert(const Pair& pair) {
   ++size_;
 }
 
-/// Moves those behind it up, so that none is further from its home than there is no gap.
+/// Erases a pair. Moves later pairs up, so that no gap is left between a pair and its home slot.
 void PairSet::erase(const Pair& pair) {
   if (!contains(pair)) return;
   std::size_t gap = find(pair);

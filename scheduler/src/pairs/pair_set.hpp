@@ -8,10 +8,10 @@
 
 namespace graze {
 
-/// A set of pairs of numbers, in no order: one array, of which at most half is taken.
+/// An unordered set of pairs of numbers: a hash table with open addressing, at most half full.
 class PairSet {
  public:
-  /// Neither number is the largest there is.
+  /// A pair of numbers, neither of which is the largest 64-bit number.
   using Pair = std::pair<std::uint64_t, std::uint64_t>;
 
   [[nodiscard]] bool contains(const Pair& pair) const { return size_ > 0 && slots_[find(pair)] == pair; }
@@ -41,7 +41,7 @@ class PairSet {
   static constexpr Pair nothing{~std::uint64_t{0}, ~std::uint64_t{0}};
 
   [[nodiscard]] std::size_t home_of(const Pair& pair) const;
-  /// Where the pair is, or the slot that it would have.
+  /// The slot of the pair, or the slot in which it would be inserted.
   [[nodiscard]] std::size_t find(const Pair& pair) const;
   [[nodiscard]] std::size_t after(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
 

@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-/// So many pairs before it is asked for a memory begins to come from further away.
+/// A memory is prefetched this many pairs before it is used.
 constexpr std::size_t ahead = 12;
 
 }  // namespace
@@ -27,15 +27,15 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
   if (summaries_.some_unread()) read_near_objects(close, tasks, diagnostics);
   list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);
-  // Those counted so far rest, and have no job.
+  // The pairs counted as unchanged so far are at rest and have no job.
   const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
   count_jobs(statistics);
   return {jobs_, last_rows_, pair_count};
 }
 
-/// The pairs that the last report lists, by the slots that their objects have now.
+/// Finds the pairs of the last report by the current slots of their objects.
 void PairTable::find_listed(const FrameReport& previous) {
-  // Of another report where a step did not go through the pairs, or after one that came to no end.
+  // The rows are those of another report if a step did not list pairs, or after a failed step.
   if (rows_frame_ != previous.frame()) return look_up_listed(previous);
   listed_.swap(rows_);
   const auto new_slots = summaries_.new_slots();
@@ -57,7 +57,8 @@ void PairTable::look_up_listed(const FrameReport& previous) {
   }
 }
 
-/// The pairs that the last report has in contact and of which an object was removed since, in its order.
+/// Finds the pairs in contact in the last report of which an object was removed since, in that report's
+/// order.
 void PairTable::find_ended(const FrameReport& previous) {
   ended_.clear();
   ended_listed_ = 0;
@@ -70,7 +71,7 @@ void PairTable::find_ended(const FrameReport& previous) {
   }
 }
 
-/// Object::serial, also of an object that was removed since the last report.
+/// The serial of an object, which may have been removed since the last report.
 std::uint64_t PairTable::serial_of(ObjectId id) {
   if (const Object* const object = store_.find(id)) return object->serial;
   return std::lower_bound(store_.departed().begin(), store_.departed().end(), id,
@@ -78,7 +79,7 @@ std::uint64_t PairTable::serial_of(ObjectId id) {
       ->serial;
 }
 
-/// Has the rows of ended pairs that come before a pair stand before what is listed next.
+/// Lists the ended pairs that come before a pair.
 void PairTable::list_ended(SerialPair before) {
   for (; ended_listed_ < ended_.size() && ended_[ended_listed_].pair < before; ++ended_listed_)
     last_rows_.push_back({jobs_.size(), 0, ended_[ended_listed_].row, 1, true});
@@ -97,9 +98,9 @@ void PairTable::add_rows(const LastRows& rows) {
   for (std::uint32_t i = 0; i < rows.count; ++i) add_row(listed_[rows.listed + i].pair);
 }
 
-/// A pair of which one object was not read, because of a promise or since it was surveyed, is near only where
-/// their boxes are; then it is read after all. So is what the last report listed, since that has to be said
-/// of it again.
+/// Reads unread objects where their boxes show that they may be near another object, since a pair with one
+/// can only be near then. Also reads changed objects of the last report's pairs, since this report has to
+/// mention these pairs again.
 void PairTable::read_near_objects(std::span<const SlotPair> pairs, TaskPool& tasks,
                                   std::vector<Diagnostic>& diagnostics) {
   const auto objects = store_.objects();
@@ -110,7 +111,7 @@ void PairTable::read_near_objects(std::span<const SlotPair> pairs, TaskPool& tas
     if (object->unread && !std::exchange(object->wanted, true)) wanted_.push_back(object);
   };
   for (const SlotPair pair : pairs) {
-    // Both are read, or were found to be apart in an earlier step.
+    // Both objects are read, or an earlier step found them apart.
     if (same_filter && !summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair))) continue;
     const ObjectSummary& a = summaries_[first_of(pair)];
     const ObjectSummary& b = summaries_[second_of(pair)];
@@ -162,8 +163,8 @@ PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previ
   return job;
 }
 
-/// Decides about a pair that the last report listed and that is filtered out now, has parted, or is frozen:
-/// one that was in contact is listed once more however far it is.
+/// Decides whether the report mentions a pair of the last report that is now filtered out, apart or frozen. A
+/// pair that was in contact is listed once more, however far apart it is.
 bool PairTable::says_something(PairJob& job) const {
   const ObjectSummary& a = summaries_[first_of(job.slots)];
   const ObjectSummary& b = summaries_[second_of(job.slots)];
@@ -186,7 +187,7 @@ void PairTable::add(PairJob job, const SelectedPair& selected) {
   jobs_.push_back(job);
 }
 
-/// Whether the last answer, about the same positions by the same rules, is also this one's.
+/// Whether the last answer still holds, since positions and rules are the same.
 bool PairTable::is_unchanged(const PairJob& job) const {
   return job.memory->version_a == summaries_[first_of(job.slots)].version &&
          job.memory->version_b == summaries_[second_of(job.slots)].version &&

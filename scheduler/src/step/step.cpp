@@ -16,8 +16,8 @@ struct Overloaded : Visitors... {
 template <typename... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
-/// How many pairs of features a reserved pair's list has room for, for each of its part of the contacts;
-/// SceneCapacity says so.
+/// A reserved pair's list has room for this many pairs of features for each of its share of the contacts;
+/// SceneCapacity states it.
 constexpr std::size_t features_of_contact = 4;
 
 PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
@@ -26,7 +26,7 @@ PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
   return {leaf_pairs_of_front, has_lists ? features_of_contact * contacts : 0};
 }
 
-/// Milliseconds since the last call, or since it was made.
+/// A clock that returns the milliseconds since its last call, or since it was made.
 class Lap {
  public:
   explicit Lap(std::chrono::steady_clock::time_point start) : last_(start) {}
@@ -43,7 +43,7 @@ bool is_nothing(const SceneCapacity& capacity) {
   return capacity.objects == 0 && capacity.near_pairs == 0 && capacity.contacts == 0 && capacity.reports == 0;
 }
 
-/// The largest of each number.
+/// The larger of each two numbers.
 SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
   return {std::max(left.objects, right.objects), std::max(left.calls_per_step, right.calls_per_step),
           std::max(left.near_pairs, right.near_pairs), std::max(left.contacts, right.contacts),
@@ -124,7 +124,7 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics) {
       [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
       [&](Reserve& call) {
         can_repeat_report_ = false;  // a step that repeats rows does not count what is made room for
-        // Where there is no memory for it, it is not tried again: the scene may do without.
+        // If there is no memory for it, it is not tried again: the scene does without it.
         reserve(std::exchange(call.capacity, {}));
       },
       [&](AddObject& added) {
@@ -159,16 +159,16 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
   }
 }
 
-/// Makes room for the first pair of an object: bounds of its regions, its leaves in working memory, and what
-/// it has by its pose.
+/// Prepares an object for its first pair: the bounds of its regions, room for its leaves in working memory,
+/// and positions by pose.
 void Step::prepare_surface(Surface& surface, Motion motion) {
   if (motion != Motion::deformable) surface.reserve_positions(true);
   refit_.prepare(surface);
   jobs_.reserve_for(surface.mesh());
 }
 
-/// Makes room for the positions of an object that is bound, which are copied when it comes near another;
-/// where they are viewed they never are.
+/// Reserves memory for the positions of a bound object, which are copied when it comes near another. An
+/// object that can be viewed needs no copy.
 void Step::prepare_copy(Object& object) {
   if (!object.bound) return;
   const bool is_viewed = wants_blocks(settings_.detail, settings_.accuracy.mode()) &&
@@ -178,7 +178,8 @@ void Step::prepare_copy(Object& object) {
   store_.count_bytes(object);
 }
 
-/// The end of a step: jobs ran in any order, but their answers are put together in the order of the pairs.
+/// Writes the pairs of the report. Jobs ran in any order, but their answers are written in the order of the
+/// pairs.
 void Step::write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
   rows_again_ = 0;
@@ -229,7 +230,7 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   statistics.contacts_left_out += std::max<std::size_t>(left_out, 1);
 }
 
-/// The last row of a pair of which an object was removed while it was in contact.
+/// Writes the last row of a pair in contact that ends because one of its objects was removed.
 void Step::end_pair(PairReport row, ReportBuilder& builder) {
   row.phase = PairPhase::ended;
   row.complete = true;
@@ -239,7 +240,7 @@ void Step::end_pair(PairReport row, ReportBuilder& builder) {
   ++builder.statistics().pairs_near;
 }
 
-/// Rows of the last report, with all that belongs to them.
+/// Repeats rows of the last report with their contacts and distances of regions.
 void Step::repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
   const auto rows = previous.pairs().subspan(resting.row, resting.count);
@@ -265,20 +266,20 @@ void Step::repeat_pairs(const LastRows& resting, const FrameReport& previous, Re
   }
 }
 
-/// The rows of the last report again, which looked at no pair.
+/// Repeats all rows of the last report, in which no pair was tested.
 void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) {
   reports_.repeat_rows();
   const double read_ms = statistics.read_ms;
   statistics = previous.statistics();
   statistics.read_ms = read_ms;
   statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
-  // Of objects without pairs.
+  // These counters are 0, since the broad phase does not run.
   statistics.boxes_tested = statistics.objects_in_slack = 0;
   can_repeat_report_ = true;
 }
 
-/// Makes room for steps like this one. A step is complete without: where there is no memory for that, or no
-/// time within the budget, later steps take some.
+/// Grows capacities so that steps like this one allocate nothing. If memory or the time budget does not
+/// suffice, later steps allocate instead. The step's result does not depend on it.
 void Step::equalize_capacity(Clock::time_point start) {
   try {
     reports_.equalize_capacity(jobs_.equalize_capacity(start));
@@ -300,9 +301,10 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.regions_expanded = sum.regions_expanded;
 }
 
-/// Of what nothing touches in a step that repeats rows, where counting it would be a third of the work.
+/// Counts the bytes of pairs. A step that repeats rows changes none of them, and counting would be a third of
+/// its work.
 void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics) {
-  // Only what a job looked at may have got memory for its regions.
+  // Only a job that tested a pair can have allocated memory for its objects' regions.
   for (const PairJob& job : jobs)
     if (job.is_tested())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);

@@ -16,15 +16,15 @@
 
 namespace graze {
 
-/// What one step does, and what is remembered from step to step. Stepping thread only.
+/// Does the work of a step, and holds what is remembered from step to step. Stepping thread only.
 class Step {
  public:
   Step(const SceneSettings& settings, SceneContent& content, Staging& staging, ReportPool& reports);
 
-  /// Fills `report`, the last that the reports' pool has begun, which follows `previous`. Where it throws the
-  /// report is of no use, nor is this.
+  /// Fills `report`, the last one that the pool has begun, which follows `previous`. If it throws, neither
+  /// the report nor this object can be used again.
   void run(const FrameReport& previous, FrameReport& report);
-  /// Makes room ahead of time, where any number is not 0.
+  /// Reserves memory ahead of time, unless all numbers are 0.
   void reserve(const SceneCapacity& capacity);
 
  private:
@@ -53,10 +53,10 @@ class Step {
   RegionRefit refit_;
   PairJobs jobs_;
   ContactRows contacts_;
-  bool is_reserved_ = false;    ///< room for near pairs, also of objects that come
-  std::size_t rows_again_ = 0;  ///< of the report being written, as they were in the last
-  /// The last step looked at no pair and all its rows were as before: so will be the next one's if nothing
-  /// changes.
+  bool is_reserved_ = false;    ///< near pairs have reserved room, also those of later objects
+  std::size_t rows_again_ = 0;  ///< rows of the current report that are unchanged from the last
+  /// The last step tested no pair and all its rows were repeated. If nothing changes, the next step can
+  /// repeat its report.
   bool can_repeat_report_ = false;
 };
 
