@@ -12,7 +12,7 @@
 namespace graze::io {
 
 /// The JSON of a glTF file and the bytes of its buffers. A buffer is loaded when it is first asked for. Every
-/// member throws InputError that names the file and the json_path in it.
+/// member throws InputError that names the file and the path in its JSON.
 class GltfDocument {
  public:
   /// Reads a .gltf or .glb file. Throws InputError when it is cut off or no JSON, and when it requires an

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What is wrong with one line; the reader adds file and line number.
+/// An error in one line. The reader adds the file and the line number.
 class BadLine : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

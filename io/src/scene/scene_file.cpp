@@ -103,7 +103,7 @@ void read_frame(const JsonPath& json, ObjectDescription& object) {
   }
 }
 
-/// What may stand beside which motion.
+/// Refuses keys that do not go with the object's motion.
 void check_motion(const ObjectDescription& object, const JsonPath& json) {
   const bool has_source = !object.positions.empty() || object.animation.has_value();
   if (!object.positions.empty() && object.animation)

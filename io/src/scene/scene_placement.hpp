@@ -7,7 +7,7 @@
 
 namespace graze::io {
 
-// Where objects of a scene file stand. Both throw InputError as JsonPath does.
+// Readers for the transforms and poses of objects in a scene file. Both throw InputError as JsonPath does.
 
 /// An object's `transform`.
 Placement read_placement(const JsonPath& json);

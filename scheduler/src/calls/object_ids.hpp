@@ -24,7 +24,8 @@ struct Binding {
   std::uint64_t steps_before = 0;  ///< how many steps had collected calls when it was made
 };
 
-/// What callers may ask of an object. Mesh and settings do not change while the object is pinned.
+/// The data of an object that callers may ask for. Mesh and settings do not change while the object is
+/// pinned.
 struct NamedObject {
   std::shared_ptr<const Mesh> mesh;
   ObjectSettings settings;

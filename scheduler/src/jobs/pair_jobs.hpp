@@ -112,7 +112,7 @@ class PairJobs {
   std::uint64_t rules_version_ = 0;
   Clock::time_point deadline_ =
       PairQuery::no_deadline;                   ///< without the time to write the contacts that are found
-  std::atomic<std::size_t> contacts_found_{0};  ///< where there is a deadline
+  std::atomic<std::size_t> contacts_found_{0};  ///< counted if there is a deadline
   std::vector<Contact>* lent_ = nullptr;        ///< the report's memory, lent to one job
   std::uint32_t lent_to_ = 0;                   ///< the job that has it
   NearestContacts nearest_;                     ///< of all jobs, if `max_contacts` is set

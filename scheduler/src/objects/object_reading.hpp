@@ -38,7 +38,7 @@ struct ReadOutcome {
 /// Reads or surveys an object. The caller makes its blocks, except those of a viewed object.
 ReadOutcome read_whole(Object& object);
 
-// These functions read an object in parts. `scan_part` reads some vertices. `accept_scan` accepts the results
+// Functions that read an object in parts. `scan_part` reads some vertices. `accept_scan` accepts the results
 // of all parts or says why not. `write_part` writes some vertices, and `finish_read` releases the input once
 // all are written. Bad memory is read again in every step until it is good.
 [[nodiscard]] Surface::PartSeen scan_part(const Object& object, std::uint32_t begin, std::uint32_t end);

@@ -16,7 +16,7 @@ inline bool is_contact(PairPhase phase) {
   return phase == PairPhase::began || phase == PairPhase::touching;
 }
 
-/// What one step has to do for one pair.
+/// The work of one step for one pair.
 struct PairJob {
   enum class Task : std::uint8_t {
     detect,       ///< test the pair

@@ -273,7 +273,7 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
   statistics = previous.statistics();
   statistics.read_ms = read_ms;
   statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
-  // These counters are 0, since the broad phase does not run.
+  // The counters of the broad phase are 0, since it does not run.
   statistics.boxes_tested = statistics.objects_in_slack = 0;
   can_repeat_report_ = true;
 }
