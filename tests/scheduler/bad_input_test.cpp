@@ -166,6 +166,32 @@ TEST_CASE("a pair of an object with itself and a bad rule are diagnostics") {
   stage.expect(DiagnosticKind::bad_rule, {});
 }
 
+TEST_CASE("a bad range is told that infinity is allowed, a bad distance that it must be finite") {
+  Stage stage;
+  stage.scene.set_rule(0, 0, {0, -1, {}});
+  CHECK(stage.expect(DiagnosticKind::bad_rule, {})
+            .find("range is -1; give a distance that is not negative, or infinity") != std::string::npos);
+  stage.scene.set_rule(0, 0, {-1, 0, {}});
+  CHECK(stage.expect(DiagnosticKind::bad_rule, {})
+            .find("contact_distance is -1; give a distance that is finite and not negative") !=
+        std::string::npos);
+  SceneSettings settings;
+  settings.range = -1;
+  CHECK_THROWS_WITH(Scene(settings), "scene: range is -1; give a distance that is not negative, or infinity");
+}
+
+TEST_CASE("a broken promise is told with the caller's number") {
+  Stage stage;
+  stage.scene.set_positions(stage.needle, stage.good);
+  stage.scene.step();
+  Positions moved = stage.good;
+  for (Eigen::Vector3d& position : moved) position.z() += 0.5;
+  stage.scene.set_positions(stage.needle, moved, 0.1);
+  const ReportHandle report = stage.scene.step();
+  REQUIRE(kinds_of(*report) == std::vector{DiagnosticKind::broken_promise});
+  CHECK(report->diagnostics()[0].message.find("further than the 0.1 promised") != std::string::npos);
+}
+
 TEST_CASE("several diagnostics come in the order of the calls, those of bound memory after them") {
   Stage stage;
   Positions bound = stage.good;

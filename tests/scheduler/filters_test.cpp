@@ -7,7 +7,7 @@
 
 namespace graze::tests {
 
-TEST_CASE("a pair is looked at when each one's layer is in the other's mask") {
+TEST_CASE("a pair is tested when each one's layer is in the other's mask") {
   oracle::Random random(11);
   for (int round = 0; round < 20; ++round) {
     Scene scene(settings_of(0.5, 1));
@@ -32,7 +32,7 @@ TEST_CASE("a pair is looked at when each one's layer is in the other's mask") {
   }
 }
 
-TEST_CASE("pairs of fixed objects are never looked at") {
+TEST_CASE("pairs of fixed objects are never tested") {
   Scene scene(settings_of(0.5, 1));
   std::vector<ObjectId> ids;
   std::vector<Motion> motions;

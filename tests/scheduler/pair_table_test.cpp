@@ -17,7 +17,7 @@ namespace graze::tests {
 namespace {
 
 using Objects = std::vector<std::unique_ptr<Object>>;
-using Pairs = std::vector<PlacePair>;
+using Pairs = std::vector<SlotPair>;
 
 Box box_at(const Eigen::Vector3d& centre, const Eigen::Vector3d& half) {
   Box box;
@@ -106,9 +106,9 @@ std::vector<Box> needed_boxes(const Objects& objects, const BroadPhase::HalfReac
 }
 
 /// A broad phase with what it works on.
-struct Follower {
-  explicit Follower(unsigned threads) : tasks(threads, ArenaPolicy::own) {}
-  std::span<const PlacePair> follow(const Objects& objects, const BroadPhase::HalfReaches& reaches) {
+struct BroadPhaseRun {
+  explicit BroadPhaseRun(unsigned threads) : tasks(threads, ArenaPolicy::own) {}
+  std::span<const SlotPair> find(const Objects& objects, const BroadPhase::HalfReaches& reaches) {
     summaries.refresh(objects, tasks);
     return broad_phase.find(summaries, reaches, tasks);
   }
@@ -127,15 +127,15 @@ BroadPhase::HalfReaches half_reaches_of(double first, double second, double thir
 
 /// Whether the pairs are those that a look at all boxes gives, and loose boxes neither too small nor too
 /// large.
-void check_against_all(const Follower& follower, std::span<const PlacePair> pairs, const Objects& objects,
+void check_against_all(const BroadPhaseRun& run, std::span<const SlotPair> pairs, const Objects& objects,
                        const BroadPhase::HalfReaches& reaches) {
   const std::vector<Box> needed = needed_boxes(objects, reaches);
-  const auto loose = follower.broad_phase.loose_boxes();
+  const auto loose = run.broad_phase.loose_boxes();
   REQUIRE(loose.size() == needed.size());
-  for (std::size_t place = 0; place < needed.size(); ++place) {
-    REQUIRE(is_inside(needed[place], loose[place]));
-    const double side = (needed[place].max - needed[place].min).maxCoeff();
-    REQUIRE(is_inside(loose[place], grown(needed[place], side)));
+  for (std::size_t slot = 0; slot < needed.size(); ++slot) {
+    REQUIRE(is_inside(needed[slot], loose[slot]));
+    const double side = (needed[slot].max - needed[slot].min).maxCoeff();
+    REQUIRE(is_inside(loose[slot], grown(needed[slot], side)));
   }
   REQUIRE(Pairs(pairs.begin(), pairs.end()) == pairs_that_meet(loose));
   const Pairs must = pairs_that_meet(needed);
@@ -150,7 +150,7 @@ TEST_CASE("the pairs kept are those that a look at all pairs of boxes gives") {
   std::size_t steps_of_few = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     BoxWorld world(seed);
-    Follower follower(1);
+    BroadPhaseRun run(1);
     oracle::Random random(seed + 100);
     auto reaches = half_reaches_of(0, 0.1, 0.5);
     for (int frame = 0; frame < 60; ++frame) {
@@ -163,10 +163,10 @@ TEST_CASE("the pairs kept are those that a look at all pairs of boxes gives") {
         for (std::uint32_t i = random.below(frame % 10 == 0 ? 300 : 10); i > 0; --i) world.add();
       constexpr std::array shares = {0.0, 0.01, 0.1, 1.0};
       world.move_some(shares[random.below(4)]);
-      const auto pairs = follower.follow(world.objects(), reaches);
-      check_against_all(follower, pairs, world.objects(), reaches);
+      const auto pairs = run.find(world.objects(), reaches);
+      check_against_all(run, pairs, world.objects(), reaches);
       pairs_compared += pairs.size();
-      const BroadPhase::Counters& counters = follower.broad_phase.counters();
+      const BroadPhase::Counters& counters = run.broad_phase.counters();
       steps_in_slack += counters.objects_in_slack > 0 ? 1U : 0U;
       steps_of_few +=
           counters.boxes_tested > 0 && counters.boxes_tested < 4 * world.objects().size() ? 1U : 0U;
@@ -178,51 +178,49 @@ TEST_CASE("the pairs kept are those that a look at all pairs of boxes gives") {
 }
 
 TEST_CASE("an empty scene, one object, and a scene that is emptied keep no pair") {
-  Follower follower(1);
+  BroadPhaseRun run(1);
   BoxWorld world(1);
   const BroadPhase::HalfReaches reaches{};
-  CHECK(follower.follow(world.objects(), reaches).empty());
+  CHECK(run.find(world.objects(), reaches).empty());
   world.add();
-  CHECK(follower.follow(world.objects(), reaches).empty());
+  CHECK(run.find(world.objects(), reaches).empty());
   for (int i = 0; i < 100; ++i) world.add();
-  CHECK_FALSE(follower.follow(world.objects(), reaches).empty());
+  CHECK_FALSE(run.find(world.objects(), reaches).empty());
   world.remove_some(1);
-  CHECK(follower.follow(world.objects(), reaches).empty());
+  CHECK(run.find(world.objects(), reaches).empty());
   for (int i = 0; i < 100; ++i) world.add();
-  check_against_all(follower, follower.follow(world.objects(), reaches), world.objects(), reaches);
+  check_against_all(run, run.find(world.objects(), reaches), world.objects(), reaches);
 }
 
 TEST_CASE("with an infinite reach all pairs are kept, and no longer when it is finite again") {
-  Follower follower(1);
+  BroadPhaseRun run(1);
   BoxWorld world(2);
   for (int i = 0; i < 100; ++i) world.add();
   auto reaches = half_reaches_of(0, 0, 0);
-  const std::size_t before = follower.follow(world.objects(), reaches).size();
+  const std::size_t before = run.find(world.objects(), reaches).size();
   reaches.fill(std::numeric_limits<double>::infinity());
-  CHECK(follower.follow(world.objects(), reaches).size() == 100 * 99 / 2);
+  CHECK(run.find(world.objects(), reaches).size() == 100 * 99 / 2);
   reaches = half_reaches_of(0, 0, 0);
-  CHECK(follower.follow(world.objects(), reaches).size() <= before + before / 4);
+  CHECK(run.find(world.objects(), reaches).size() <= before + before / 4);
 }
 
 TEST_CASE("pairs and counters are the same for any number of threads") {
   constexpr auto reaches = 0.25;
-  std::array<Follower, 3> followers = {Follower(1), Follower(2), Follower(3)};
+  std::array<BroadPhaseRun, 3> runs = {BroadPhaseRun(1), BroadPhaseRun(2), BroadPhaseRun(3)};
   BoxWorld world(3);
   for (int i = 0; i < 5000; ++i) world.add();
   for (int frame = 0; frame < 12; ++frame) {
     world.move_some(frame % 3 == 0 ? 1 : 0.02);
     if (frame == 6) world.remove_some(0.1);
     const auto all = half_reaches_of(reaches, reaches, reaches);
-    const auto expected = followers[0].follow(world.objects(), all);
+    const auto expected = runs[0].find(world.objects(), all);
     REQUIRE_FALSE(expected.empty());
-    for (Follower& follower : followers) {
-      if (&follower == &followers[0]) continue;
-      const auto found = follower.follow(world.objects(), all);
+    for (BroadPhaseRun& run : runs) {
+      if (&run == &runs[0]) continue;
+      const auto found = run.find(world.objects(), all);
       REQUIRE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
-      REQUIRE(follower.broad_phase.counters().boxes_tested ==
-              followers[0].broad_phase.counters().boxes_tested);
-      REQUIRE(follower.broad_phase.counters().objects_in_slack ==
-              followers[0].broad_phase.counters().objects_in_slack);
+      REQUIRE(run.broad_phase.counters().boxes_tested == runs[0].broad_phase.counters().boxes_tested);
+      REQUIRE(run.broad_phase.counters().objects_in_slack == runs[0].broad_phase.counters().objects_in_slack);
     }
   }
 }

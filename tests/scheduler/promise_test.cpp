@@ -143,7 +143,7 @@ TEST_CASE("memory that a promise left unread is let go with what was read of it"
   CHECK(report->statistics().objects_unread == 0);
 }
 
-TEST_CASE("what has not moved is not looked at again") {
+TEST_CASE("pairs that have not moved are not tested again") {
   Row row(BindPolicy::when_told);
   row.lift(5, 3.9375F);
   row.scene.positions_changed(row.ids[5]);

@@ -26,18 +26,18 @@ bool shares_rows(const ReportHandle& left, const ReportHandle& right) {
 class RestingAndNot {
  public:
   explicit RestingAndNot(const SceneSettings& settings)
-      : resting_(settings), restless_(settings), far_(restless_.scene.add(needle_mesh())) {}
+      : resting_(settings), disturbed_(settings), far_(disturbed_.scene.add(needle_mesh())) {}
 
   template <typename Tell>
   void tell(const Tell& tell) {
     tell(resting_);
-    tell(restless_);
+    tell(disturbed_);
   }
   /// Steps both; the report of the one that may rest.
   ReportHandle step() {
     far_height_ = far_height_ == 1000 ? 1001 : 1000;
-    restless_.scene.set_positions(far_, lifted(*needle_mesh(), far_height_));
-    const ReportHandle other = restless_.scene.step();
+    disturbed_.scene.set_positions(far_, lifted(*needle_mesh(), far_height_));
+    const ReportHandle other = disturbed_.scene.step();
     const ReportHandle report = resting_.scene.step();
     INFO("frame " << report->frame());
     CHECK(difference_of(*report, *other) == "");
@@ -51,7 +51,7 @@ class RestingAndNot {
 
  private:
   NeedleOverPlate resting_;
-  NeedleOverPlate restless_;
+  NeedleOverPlate disturbed_;
   ObjectId far_;
   double far_height_ = 1000;
 };
@@ -165,7 +165,7 @@ class Heap {
 
 }  // namespace
 
-TEST_CASE("rest: pairs that rest among others that do not are as if they had been looked at") {
+TEST_CASE("rest: pairs that rest among others that do not are as if they had been tested") {
   std::uint64_t rested = 0;
   std::uint64_t ended = 0;
   std::uint32_t seed = 0;
@@ -175,12 +175,12 @@ TEST_CASE("rest: pairs that rest among others that do not are as if they had bee
     Heap heap(settings, seed);
     for (int step = 0; step < 80; ++step) {
       heap.happen();
-      const auto [resting, looked_at] = heap.step();
+      const auto [resting, tested] = heap.step();
       INFO("step " << step << ", detail " << static_cast<int>(detail));
-      REQUIRE(difference_of(*resting, *looked_at) == "");
+      REQUIRE(difference_of(*resting, *tested) == "");
       REQUIRE(inconsistency_of(*resting) == "");
       const StepStatistics& statistics = resting->statistics();
-      const StepStatistics& other = looked_at->statistics();
+      const StepStatistics& other = tested->statistics();
       REQUIRE(statistics.pairs_unchanged + statistics.pairs_tested == other.pairs_tested);
       REQUIRE(statistics.pairs_filtered == other.pairs_filtered);
       REQUIRE(statistics.pairs_apart == other.pairs_apart);
@@ -353,14 +353,14 @@ TEST_CASE("rest: threads read shared rows by their handles while the scene rests
   heights[1] = 0.5;
   std::atomic<bool> is_over = false;
   std::atomic<std::size_t> wrong = 0;
-  std::atomic<std::size_t> looked_at = 0;
+  std::atomic<std::size_t> reads = 0;
   const auto read = [&] {
     std::array<ReportHandle, 5> held;
     for (std::size_t i = 0; !is_over; ++i) {
       held[i % held.size()] = pair.scene.latest_report();
       for (const ReportHandle& report : held) {
         if (!report) continue;
-        ++looked_at;
+        ++reads;
         const bool is_right =
             report->pairs().size() == 1 && report->pairs()[0].distance.upper == heights[report->frame()];
         if (!is_right) ++wrong;
@@ -369,7 +369,7 @@ TEST_CASE("rest: threads read shared rows by their handles while the scene rests
   };
   std::vector<std::thread> readers;
   for (int i = 0; i < 2; ++i) readers.emplace_back(read);
-  while (looked_at == 0) std::this_thread::yield();
+  while (reads == 0) std::this_thread::yield();
   std::mt19937 random(3);
   std::size_t shared = 0;
   ReportHandle last = pair.scene.latest_report();

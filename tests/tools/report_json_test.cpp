@@ -218,6 +218,36 @@ TEST_CASE("a report that is read back has the same bits, at every scale") {
   }
 }
 
+TEST_CASE("since counts in the frames of the file, which may begin at any number") {
+  const TemporaryFolder folder;
+  for (const std::uint64_t first : {0U, 1U, 5U}) {
+    CrumpledSheets sheets(1, 3);
+    std::vector<ReportHandle> reports;
+    ReportWriter writer(folder / "r.jsonl", sheets.objects(), sheets.settings());
+    for (std::uint64_t frame = first; frame < first + 4; ++frame) {
+      reports.push_back(sheets.step());
+      writer.write(frame, *reports.back());
+    }
+    writer.close();
+    ReportReader reader(folder / "r.jsonl");
+    std::size_t from_the_first = 0;
+    std::size_t later = 0;
+    for (const ReportHandle& report : reports) {
+      const auto read = reader.next();
+      REQUIRE(read);
+      for (std::size_t i = 0; i < read->pairs.size(); ++i)
+        for (std::size_t j = 0; j < read->pairs[i].contacts.size(); ++j) {
+          const std::uint64_t since = read->pairs[i].contacts[j].contact.since;
+          // Step 1 is the first frame of the file.
+          REQUIRE(since == report->contacts(report->pairs()[i])[j].since - 1 + first);
+          since == first ? ++from_the_first : ++later;
+        }
+    }
+    CHECK(from_the_first > 10);
+    CHECK(later > 10);
+  }
+}
+
 TEST_CASE("a report without times has none, and the rest unchanged") {
   CrumpledSheets sheets(1, 4);
   CHECK(check_round_trip(sheets, 4, false) > 50);

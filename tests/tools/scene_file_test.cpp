@@ -231,6 +231,12 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(scene.ignore[0].names == std::array<std::string, 2>{"liver", "tool"});
 }
 
+TEST_CASE("a contact detail has its word, and a number that is none is unknown") {
+  CHECK(graze::io::to_string(graze::ContactDetail::none) == "none");
+  CHECK(graze::io::to_string(graze::ContactDetail::features) == "features");
+  CHECK(graze::io::to_string(static_cast<graze::ContactDetail>(200)) == "unknown");
+}
+
 TEST_CASE("what a scene file leaves out has its default") {
   const TemporaryFolder folder;
   const SceneDescription scene = read_scene_file(folder.write("scene.json", scene_with("", "")));

@@ -111,12 +111,12 @@ class BodyReader {
     auto& influences = result_.body.influences;
     influences.resize(result_.body.vertices.size());
     auto& of_vertex = influences[first_ + source.mVertexId];
-    const auto place =
+    const auto position =
         std::find_if(of_vertex.begin(), of_vertex.end(), [&](const Influence& i) { return i.bone >= bone; });
-    if (place != of_vertex.end() && place->bone == bone)
-      place->weight += static_cast<double>(source.mWeight);
+    if (position != of_vertex.end() && position->bone == bone)
+      position->weight += static_cast<double>(source.mWeight);
     else
-      of_vertex.insert(place, {bone, static_cast<double>(source.mWeight)});
+      of_vertex.insert(position, {bone, static_cast<double>(source.mWeight)});
   }
 
   const std::filesystem::path& path_;

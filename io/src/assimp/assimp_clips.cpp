@@ -11,9 +11,9 @@ namespace {
 template <typename Value>
 void add_key(Track<Value>& track, double seconds, const Value& value) {
   if (!std::isfinite(seconds)) return;
-  const auto place = std::upper_bound(track.seconds.begin(), track.seconds.end(), seconds);
-  track.values.insert(track.values.begin() + (place - track.seconds.begin()), value);
-  track.seconds.insert(place, seconds);
+  const auto next_key = std::upper_bound(track.seconds.begin(), track.seconds.end(), seconds);
+  track.values.insert(track.values.begin() + (next_key - track.seconds.begin()), value);
+  track.seconds.insert(next_key, seconds);
 }
 
 Track<Eigen::Vector3d> read_track(const aiVectorKey* keys, unsigned count, double seconds_per_tick) {

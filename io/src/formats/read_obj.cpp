@@ -1,6 +1,7 @@
-// OBJ is read here and not by tinyobjloader (2.0.0rc10), which reads missing, unreadable and NaN coordinates
-// as 0, rounds decimals some units in the last place off, lets large indices wrap around, and knows neither
-// continued lines nor comments behind a statement. The tests compare the two where both are right.
+// Reads OBJ files. graze does not use tinyobjloader (2.0.0rc10) for this. That library reads missing,
+// unreadable and NaN coordinates as 0, and rounds decimals wrongly by some units in the last place. It lets
+// large indices wrap around, and knows neither continued lines nor comments behind a statement. The tests
+// compare both where both are right.
 
 #include <cstdint>
 #include <map>

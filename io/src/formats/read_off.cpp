@@ -1,6 +1,6 @@
-// OFF is read here and not by assimp (5.2), which moves a corner that names no vertex to the last one, drops
-// polygons of more than nine corners without a word, trusts the header's counts and keeps single precision
-// only.
+// Reads OFF files. graze does not use assimp (5.2) for this. That library moves a corner that names no vertex
+// to the last one, and silently drops polygons of more than nine corners. It trusts the header's counts and
+// keeps single precision only.
 
 #include <string>
 #include <string_view>

@@ -93,12 +93,13 @@ struct Layout {
 
 class AccessorReader {
  public:
-  AccessorReader(GltfDocument& document, const json& number, const char* type, const std::string& place)
+  AccessorReader(GltfDocument& document, const json& number, const char* type, const std::string& json_path)
       : document_(document),
         accessor_(element(document.list("accessors"), number)),
         type_(type),
-        place_(place) {
-    if (!accessor_.is_object()) document.fail_at(place, "its accessor does not exist; export the file again");
+        json_path_(json_path) {
+    if (!accessor_.is_object())
+      document.fail_at(json_path, "its accessor does not exist; export the file again");
     here_ = joined("accessors[", number.get<std::uint64_t>(), "]");
   }
 
@@ -106,7 +107,7 @@ class AccessorReader {
     const std::string type = text_of(member(accessor_, "type"));
     if (type != type_)
       document_.fail_at(
-          place_, joined("expected an accessor of ", type_, ", got '", type, "'; export the file again"));
+          json_path_, joined("expected an accessor of ", type_, ", got '", type, "'; export the file again"));
     layout_.component = component_of(accessor_, here_);
     layout_.width = width_of(type_);
     layout_.is_normalised = member(accessor_, "normalized") == true;
@@ -123,10 +124,10 @@ class AccessorReader {
   }
 
  private:
-  [[nodiscard]] Component component_of(const json& object, const std::string& place) const {
+  [[nodiscard]] Component component_of(const json& object, const std::string& json_path) const {
     const auto component = component_from(number_of(member(object, "componentType")));
     if (!component)
-      document_.fail_at(joined(place, ".componentType"),
+      document_.fail_at(joined(json_path, ".componentType"),
                         "expected 5120, 5121, 5122, 5123, 5125 or 5126; export the file again");
     return *component;
   }
@@ -142,15 +143,15 @@ class AccessorReader {
   }
 
   std::vector<double> read_elements(const json& view, Layout layout, std::uint64_t count,
-                                    const std::string& place) {
-    const std::string_view bytes = document_.view_bytes(view, place);
+                                    const std::string& json_path) {
+    const std::string_view bytes = document_.view_bytes(view, json_path);
     const json& entry = element(document_.list("bufferViews"), view);
-    layout.stride = document_.whole_number(entry, "byteStride", place, 65535, 0);
+    layout.stride = document_.whole_number(entry, "byteStride", json_path, 65535, 0);
     if (layout.stride == 0) layout.stride = layout.element_bytes();
     if (count > 0 && layout.offset + (count - 1) * layout.stride + layout.element_bytes() > bytes.size())
-      document_.fail_at(place, joined(count, " elements do not fit into the ", bytes.size(),
-                                      " bytes of its bufferView; export the file again"));
-    document_.count_read(count * layout.width, place);
+      document_.fail_at(json_path, joined(count, " elements do not fit into the ", bytes.size(),
+                                          " bytes of its bufferView; export the file again"));
+    document_.count_read(count * layout.width, json_path);
     std::vector<double> values;
     values.reserve(count * layout.width);
     const std::size_t size = size_of(layout.component);
@@ -164,21 +165,21 @@ class AccessorReader {
 
   void replace_sparse(GltfNumbers& numbers, std::uint64_t count) {
     const json& sparse = member(accessor_, "sparse");
-    const std::string place = joined(here_, ".sparse");
-    const std::uint64_t replaced = document_.whole_number(sparse, "count", place, most_elements, 0);
+    const std::string json_path = joined(here_, ".sparse");
+    const std::uint64_t replaced = document_.whole_number(sparse, "count", json_path, most_elements, 0);
     const json& indices = member(sparse, "indices");
     const json& values = member(sparse, "values");
     Layout index_layout;
-    index_layout.component = component_of(indices, joined(place, ".indices"));
-    index_layout.offset = document_.whole_number(indices, "byteOffset", place, most_bytes, 0);
+    index_layout.component = component_of(indices, joined(json_path, ".indices"));
+    index_layout.offset = document_.whole_number(indices, "byteOffset", json_path, most_bytes, 0);
     Layout value_layout = layout_;
-    value_layout.offset = document_.whole_number(values, "byteOffset", place, most_bytes, 0);
-    const auto where = read_elements(member(indices, "bufferView"), index_layout, replaced, place);
-    const auto what = read_elements(member(values, "bufferView"), value_layout, replaced, place);
+    value_layout.offset = document_.whole_number(values, "byteOffset", json_path, most_bytes, 0);
+    const auto where = read_elements(member(indices, "bufferView"), index_layout, replaced, json_path);
+    const auto what = read_elements(member(values, "bufferView"), value_layout, replaced, json_path);
     for (std::uint64_t i = 0; i < replaced; ++i) {
       if (!(where[i] >= 0 && where[i] < static_cast<double>(count)))
-        document_.fail_at(
-            place, joined("it replaces an element that is not among the ", count, "; export the file again"));
+        document_.fail_at(json_path, joined("it replaces an element that is not among the ", count,
+                                            "; export the file again"));
       const auto first = what.begin() + static_cast<std::ptrdiff_t>(i * layout_.width);
       std::copy_n(first, layout_.width,
                   numbers.values.begin() +
@@ -189,7 +190,7 @@ class AccessorReader {
   GltfDocument& document_;
   const json& accessor_;
   std::string_view type_;
-  const std::string& place_;
+  const std::string& json_path_;
   std::string here_;
   Layout layout_;
 };
@@ -201,8 +202,8 @@ std::size_t accessor_count(const GltfDocument& document, const json& number) {
 }
 
 GltfNumbers read_accessor(GltfDocument& document, const json& number, const char* type,
-                          const std::string& place) {
-  return AccessorReader(document, number, type, place).read();
+                          const std::string& json_path) {
+  return AccessorReader(document, number, type, json_path).read();
 }
 
 }  // namespace graze::io

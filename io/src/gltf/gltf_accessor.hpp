@@ -25,9 +25,10 @@ struct GltfNumbers {
 /// How many elements the accessor says it has; 0 where there is none.
 std::size_t accessor_count(const GltfDocument& document, const nlohmann::json& number);
 
-/// Reads the accessor of that number, sparse ones too. `type` is what its use asks for, such as VEC3; `place`
-/// is where it is used. Throws InputError for another type and for numbers outside of its buffers.
+/// Reads the accessor of that number, sparse ones too. `type` is the type that its use needs, such as VEC3.
+/// `json_path` says where it is used. Throws InputError for another type and for numbers outside of its
+/// buffers.
 GltfNumbers read_accessor(GltfDocument& document, const nlohmann::json& number, const char* type,
-                          const std::string& place);
+                          const std::string& json_path);
 
 }  // namespace graze::io

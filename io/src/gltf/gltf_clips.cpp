@@ -88,29 +88,30 @@ Track<Value> make_track(const Keys& keys, std::size_t offset, const Value& zero)
 
 class GltfClipReader {
  public:
-  GltfClipReader(GltfDocument& document, const GltfNodes& nodes, const json& source, std::string place)
-      : document_(document), nodes_(nodes), source_(source), place_(std::move(place)) {}
+  GltfClipReader(GltfDocument& document, const GltfNodes& nodes, const json& source, std::string json_path)
+      : document_(document), nodes_(nodes), source_(source), json_path_(std::move(json_path)) {}
 
   Clip read() {
     clip_.name = text_of(member(source_, "name"));
     std::size_t number = 0;
     for (const json& channel : member(source_, "channels"))
-      add_channel(channel, joined(place_, ".channels[", number++, "]"));
+      add_channel(channel, joined(json_path_, ".channels[", number++, "]"));
     return std::move(clip_);
   }
 
  private:
-  void add_channel(const json& channel, const std::string& place) {
+  void add_channel(const json& channel, const std::string& json_path) {
     const json& target = member(channel, "target");
     const json& node = member(target, "node");
     const std::string path = text_of(member(target, "path"));
     const json& samplers = member(source_, "samplers");
     const json& sampler = element(samplers, member(channel, "sampler"));
-    if (!sampler.is_object()) document_.fail_at(place, "its sampler does not exist; export the file again");
-    const std::string here = joined(place_, ".samplers[", number_of(member(channel, "sampler")), "]");
+    if (!sampler.is_object())
+      document_.fail_at(json_path, "its sampler does not exist; export the file again");
+    const std::string here = joined(json_path_, ".samplers[", number_of(member(channel, "sampler")), "]");
     if (node.is_null()) return;
     if (!element(document_.list("nodes"), node).is_object())
-      document_.fail_at(place, "its node does not exist; export the file again");
+      document_.fail_at(json_path, "its node does not exist; export the file again");
     const std::uint32_t number = nodes_.number_of[node.get<std::size_t>()];
     if (path == "translation")
       clip_.node_motions[number].translation =
@@ -130,7 +131,7 @@ class GltfClipReader {
     }
   }
 
-  Keys read_keys(const json& sampler, const char* type, const std::string& place) {
+  Keys read_keys(const json& sampler, const char* type, const std::string& json_path) {
     const json& input = member(sampler, "input");
     const json& output = member(sampler, "output");
     Keys keys;
@@ -138,12 +139,12 @@ class GltfClipReader {
     const std::size_t values = keys.interpolation == Interpolation::cubic ? 3 : 1;
     const std::size_t count = accessor_count(document_, input);
     if (count == 0 || accessor_count(document_, output) / values < count)
-      document_.fail_at(place, "there are fewer values than keys, or no keys; export it again");
-    keys.seconds = read_accessor(document_, input, "SCALAR", joined(place, ".input")).values;
-    keys.output = read_accessor(document_, output, type, joined(place, ".output"));
+      document_.fail_at(json_path, "there are fewer values than keys, or no keys; export it again");
+    keys.seconds = read_accessor(document_, input, "SCALAR", joined(json_path, ".input")).values;
+    keys.output = read_accessor(document_, output, type, joined(json_path, ".output"));
     keys.numbers_a_key = keys.output.width;
     if (keys.output.width == 1) keys.numbers_a_key = keys.output.count() / values / count;
-    document_.count_kept(keys.seconds.size() + keys.output.values.size(), place);
+    document_.count_kept(keys.seconds.size() + keys.output.values.size(), json_path);
     sort(keys);
     return keys;
   }
@@ -158,7 +159,7 @@ class GltfClipReader {
   GltfDocument& document_;
   const GltfNodes& nodes_;
   const json& source_;
-  std::string place_;
+  std::string json_path_;
   Clip clip_;
 };
 

@@ -119,11 +119,11 @@ const json& GltfDocument::list(const char* key) const {
   return value.is_array() ? value : nothing;
 }
 
-void GltfDocument::fail_at(const std::string& place, const std::string& what) const {
-  fail(path_, joined(place, ": ", what));
+void GltfDocument::fail_at(const std::string& json_path, const std::string& what) const {
+  fail(path_, joined(json_path, ": ", what));
 }
 
-std::uint64_t GltfDocument::whole_number(const json& object, const char* key, const std::string& place,
+std::uint64_t GltfDocument::whole_number(const json& object, const char* key, const std::string& json_path,
                                          std::uint64_t largest, std::uint64_t without) const {
   const json& value = member(object, key);
   if (value.is_null()) return without;
@@ -136,15 +136,15 @@ std::uint64_t GltfDocument::whole_number(const json& object, const char* key, co
     if (fits) number = static_cast<std::uint64_t>(real);
   }
   if (!fits || number > largest)
-    fail_at(joined(place, ".", key),
+    fail_at(joined(json_path, ".", key),
             joined("expected a whole number from 0 to ", largest, "; export the file again"));
   return number;
 }
 
-std::string_view GltfDocument::view_bytes(const json& number, const std::string& place) {
+std::string_view GltfDocument::view_bytes(const json& number, const std::string& json_path) {
   constexpr std::uint64_t largest = std::uint64_t{1} << 40U;
   const json& view = element(list("bufferViews"), number);
-  if (!view.is_object()) fail_at(place, "its bufferView does not exist; export the file again");
+  if (!view.is_object()) fail_at(json_path, "its bufferView does not exist; export the file again");
   const std::string here = joined("bufferViews[", number.get<std::uint64_t>(), "]");
   const std::uint64_t of = whole_number(view, "buffer", here, largest, largest);
   const std::uint64_t offset = whole_number(view, "byteOffset", here, largest, 0);
@@ -163,43 +163,43 @@ std::uint64_t GltfDocument::total_bytes() {
   return total;
 }
 
-const std::string& GltfDocument::buffer(std::uint64_t number, const std::string& place) {
-  if (number >= buffers_.size()) fail_at(place, "its buffer does not exist; export the file again");
+const std::string& GltfDocument::buffer(std::uint64_t number, const std::string& json_path) {
+  if (number >= buffers_.size()) fail_at(json_path, "its buffer does not exist; export the file again");
   if (!buffers_[number]) buffers_[number] = load_buffer(number, joined("buffers[", number, "]"));
   return *buffers_[number];
 }
 
-std::string GltfDocument::load_buffer(std::uint64_t number, const std::string& place) const {
+std::string GltfDocument::load_buffer(std::uint64_t number, const std::string& json_path) const {
   const json& entry = list("buffers")[number];
   const json& uri = member(entry, "uri");
-  const std::uint64_t announced = whole_number(entry, "byteLength", place, std::uint64_t{1} << 40U, 0);
+  const std::uint64_t announced = whole_number(entry, "byteLength", json_path, std::uint64_t{1} << 40U, 0);
   std::string bytes;
   if (uri.is_string())
-    bytes = bytes_of_uri(uri.get_ref<const std::string&>(), place);
+    bytes = bytes_of_uri(uri.get_ref<const std::string&>(), json_path);
   else if (number == 0 && binary_chunk_)
     bytes = *binary_chunk_;
   else if (member(entry, "extensions").contains("EXT_meshopt_compression"))
-    fail_at(place, "its data is in EXT_meshopt_compression only, which is not read; export without it");
+    fail_at(json_path, "its data is in EXT_meshopt_compression only, which is not read; export without it");
   else
-    fail_at(place, "it has neither a uri nor a binary chunk; export the file again");
+    fail_at(json_path, "it has neither a uri nor a binary chunk; export the file again");
   if (bytes.size() < announced)
-    fail_at(place,
+    fail_at(json_path,
             joined(announced, " bytes are announced and ", bytes.size(), " are there; write the file again"));
   bytes.resize(announced);
   return bytes;
 }
 
-std::string GltfDocument::bytes_of_uri(const std::string& uri, const std::string& place) const {
+std::string GltfDocument::bytes_of_uri(const std::string& uri, const std::string& json_path) const {
   if (uri.starts_with("data:")) {
     const std::size_t comma = uri.find(',');
     const std::string_view head = std::string_view(uri).substr(0, comma);
     if (comma == std::string::npos || !head.ends_with(";base64"))
-      fail_at(place, "its data uri is no base64; write the file again");
+      fail_at(json_path, "its data uri is no base64; write the file again");
     auto bytes = base64_decoded(std::string_view(uri).substr(comma + 1));
-    if (!bytes) fail_at(place, "its base64 is damaged; write the file again");
+    if (!bytes) fail_at(json_path, "its base64 is damaged; write the file again");
     return std::move(*bytes);
   }
-  if (has_scheme(uri)) fail_at(place, joined("'", uri, "' is no file beside this one; save it there"));
+  if (has_scheme(uri)) fail_at(json_path, joined("'", uri, "' is no file beside this one; save it there"));
   std::error_code error;
   std::filesystem::path file = path_.parent_path() / percent_decoded(uri);
   if (!std::filesystem::exists(file, error)) {
@@ -207,23 +207,23 @@ std::string GltfDocument::bytes_of_uri(const std::string& uri, const std::string
     if (std::filesystem::exists(as_written, error)) file = as_written;
   }
   if (!std::filesystem::is_regular_file(file, error))
-    fail_at(place, joined("there is no file '", file.string(), "'; put it there"));
+    fail_at(json_path, joined("there is no file '", file.string(), "'; put it there"));
   if (std::filesystem::file_size(file, error) == 0) return {};
   return read_bytes(file);
 }
 
-void GltfDocument::count_read(std::uint64_t numbers, const std::string& place) {
-  count(read_, numbers, std::uint64_t{1} << 32U, place);
+void GltfDocument::count_read(std::uint64_t numbers, const std::string& json_path) {
+  count(read_, numbers, std::uint64_t{1} << 32U, json_path);
 }
 
-void GltfDocument::count_kept(std::uint64_t numbers, const std::string& place) {
-  count(kept_, numbers, std::uint64_t{1} << 28U, place);
+void GltfDocument::count_kept(std::uint64_t numbers, const std::string& json_path) {
+  count(kept_, numbers, std::uint64_t{1} << 28U, json_path);
 }
 
 void GltfDocument::count(std::uint64_t& counter, std::uint64_t numbers, std::uint64_t most,
-                         const std::string& place) const {
+                         const std::string& json_path) const {
   if (numbers > most - counter)
-    fail_at(place, joined("the file unfolds to more than ", most, " numbers here; split it"));
+    fail_at(json_path, joined("the file unfolds to more than ", most, " numbers here; split it"));
   counter += numbers;
 }
 

@@ -12,7 +12,7 @@
 namespace graze::io {
 
 /// The JSON of a glTF file and the bytes of its buffers. A buffer is loaded when it is first asked for. Every
-/// member throws InputError that names the file and the place in it.
+/// member throws InputError that names the file and the path in its JSON.
 class GltfDocument {
  public:
   /// Reads a .gltf or .glb file. Throws InputError when it is cut off or no JSON, and when it requires an
@@ -26,31 +26,31 @@ class GltfDocument {
   /// A list of the document, such as `meshes`; null where it is missing.
   [[nodiscard]] const nlohmann::json& list(const char* key) const;
 
-  [[noreturn]] void fail_at(const std::string& place, const std::string& what) const;
+  [[noreturn]] void fail_at(const std::string& json_path, const std::string& what) const;
 
   /// The whole number under `key`, at most `largest`; `without` where the key is missing.
   [[nodiscard]] std::uint64_t whole_number(const nlohmann::json& object, const char* key,
-                                           const std::string& place, std::uint64_t largest,
+                                           const std::string& json_path, std::uint64_t largest,
                                            std::uint64_t without) const;
 
   /// The bytes of `bufferViews[number]`.
-  std::string_view view_bytes(const nlohmann::json& number, const std::string& place);
+  std::string_view view_bytes(const nlohmann::json& number, const std::string& json_path);
   /// The bytes of all buffers together.
   std::uint64_t total_bytes();
 
   /// Counts numbers that are read, and those that are kept in memory, since one accessor may be used any
   /// number of times. Throws when there are too many for any sane file.
-  void count_read(std::uint64_t numbers, const std::string& place);
-  void count_kept(std::uint64_t numbers, const std::string& place);
+  void count_read(std::uint64_t numbers, const std::string& json_path);
+  void count_kept(std::uint64_t numbers, const std::string& json_path);
 
  private:
   void count(std::uint64_t& counter, std::uint64_t numbers, std::uint64_t most,
-             const std::string& place) const;
+             const std::string& json_path) const;
   void read_json(std::string_view text);
   void refuse_unknown_extensions() const;
-  const std::string& buffer(std::uint64_t number, const std::string& place);
-  [[nodiscard]] std::string load_buffer(std::uint64_t number, const std::string& place) const;
-  [[nodiscard]] std::string bytes_of_uri(const std::string& uri, const std::string& place) const;
+  const std::string& buffer(std::uint64_t number, const std::string& json_path);
+  [[nodiscard]] std::string load_buffer(std::uint64_t number, const std::string& json_path) const;
+  [[nodiscard]] std::string bytes_of_uri(const std::string& uri, const std::string& json_path) const;
 
   std::filesystem::path path_;
   nlohmann::json root_;

@@ -18,14 +18,16 @@ using nlohmann::json;
 class GltfMeshReader {
  public:
   GltfMeshReader(GltfDocument& document, std::uint64_t number, const json& skin)
-      : document_(document), mesh_(document.list("meshes")[number]), place_(joined("meshes[", number, "]")) {
+      : document_(document),
+        mesh_(document.list("meshes")[number]),
+        json_path_(joined("meshes[", number, "]")) {
     if (!skin.is_null()) read_skin(skin);
   }
 
   GltfMesh read() {
     std::size_t number = 0;
     for (const json& primitive : member(mesh_, "primitives"))
-      add_primitive(primitive, joined(place_, ".primitives[", number++, "]"));
+      add_primitive(primitive, joined(json_path_, ".primitives[", number++, "]"));
     Body& body = result_.body;
     for (auto& target : body.targets) target.offsets.resize(body.vertices.size(), Eigen::Vector3d::Zero());
     if (has_influences())
@@ -36,7 +38,7 @@ class GltfMeshReader {
     set_rest_weights();
     renumber(leave_out_unused());
     renumber(weld(body));
-    document_.count_kept(3 * body.vertices.size() * (1 + body.targets.size()), place_);
+    document_.count_kept(3 * body.vertices.size() * (1 + body.targets.size()), json_path_);
     return std::move(result_);
   }
 
@@ -80,18 +82,18 @@ class GltfMeshReader {
 
   void read_skin(const json& number) {
     const json& skin = element(document_.list("skins"), number);
-    if (!skin.is_object()) document_.fail_at(place_, "its skin does not exist; export the file again");
-    const std::string place = joined("skins[", number_of(number), "]");
+    if (!skin.is_object()) document_.fail_at(json_path_, "its skin does not exist; export the file again");
+    const std::string json_path = joined("skins[", number_of(number), "]");
     const json& joints = member(skin, "joints");
     const json& matrices = member(skin, "inverseBindMatrices");
     if (!matrices.is_null() && accessor_count(document_, matrices) < joints.size())
-      document_.fail_at(place, "there are fewer inverse bind matrices than joints; export it again");
+      document_.fail_at(json_path, "there are fewer inverse bind matrices than joints; export it again");
     GltfNumbers offsets;
     if (!matrices.is_null())
-      offsets = read_accessor(document_, matrices, "MAT4", joined(place, ".inverseBindMatrices"));
+      offsets = read_accessor(document_, matrices, "MAT4", joined(json_path, ".inverseBindMatrices"));
     for (std::size_t i = 0; joints.is_array() && i < joints.size(); ++i) {
       if (!element(document_.list("nodes"), joints[i]).is_object())
-        document_.fail_at(place, joined("joint ", i, " is no node of the file; export it again"));
+        document_.fail_at(json_path, joined("joint ", i, " is no node of the file; export it again"));
       Bone bone;
       bone.node = joints[i].get<std::uint32_t>();
       if (!matrices.is_null())
@@ -102,78 +104,79 @@ class GltfMeshReader {
     }
   }
 
-  void add_primitive(const json& primitive, const std::string& place) {
+  void add_primitive(const json& primitive, const std::string& json_path) {
     const json& attributes = member(primitive, "attributes");
     const json& position = member(attributes, "POSITION");
     if (position.is_null()) {
       result_.warnings.push_back(
-          joined(document_.path().string(), ": ", place, ": it has no positions and was left out"));
+          joined(document_.path().string(), ": ", json_path, ": it has no positions and was left out"));
       return;
     }
-    refuse_draco(primitive, position, place);
+    refuse_draco(primitive, position, json_path);
     // Primitives often share all of their vertices.
     const std::string key = attributes.dump() + member(primitive, "targets").dump();
     const auto [known, is_new] = vertices_by_key_.try_emplace(key, Vertices{});
     if (is_new) {
       const auto positions =
-          read_accessor(document_, position, "VEC3", joined(place, ".attributes.POSITION"));
+          read_accessor(document_, position, "VEC3", joined(json_path, ".attributes.POSITION"));
       known->second = {static_cast<std::uint32_t>(result_.body.vertices.size()), positions.count()};
       if (known->second.first + positions.count() >= Mesh::no_edge)
-        document_.fail_at(place, "the mesh has too many vertices; split it");
+        document_.fail_at(json_path, "the mesh has too many vertices; split it");
       for (std::size_t i = 0; i < positions.count(); ++i)
         result_.body.vertices.push_back(positions.vector(i));
     }
     first_ = known->second.first;
     count_ = known->second.count;
-    add_faces(primitive, place);
+    add_faces(primitive, json_path);
     if (!is_new) return;
-    add_targets(member(primitive, "targets"), place);
-    if (!result_.body.bones.empty()) add_influences(attributes, place);
+    add_targets(member(primitive, "targets"), json_path);
+    if (!result_.body.bones.empty()) add_influences(attributes, json_path);
   }
 
   /// Positions that are compressed have no bytes elsewhere, even where the extension is not required.
-  void refuse_draco(const json& primitive, const json& position, const std::string& place) const {
+  void refuse_draco(const json& primitive, const json& position, const std::string& json_path) const {
     const json& draco = member(member(primitive, "extensions"), "KHR_draco_mesh_compression");
     const json& accessor = element(document_.list("accessors"), position);
     if (!draco.is_null() && member(accessor, "bufferView").is_null())
-      document_.fail_at(place,
+      document_.fail_at(json_path,
                         "its data is in KHR_draco_mesh_compression (Draco) only, which is not read; export "
                         "without compression");
   }
 
-  void add_faces(const json& primitive, const std::string& place) {
+  void add_faces(const json& primitive, const std::string& json_path) {
     const json& indices = member(primitive, "indices");
     std::vector<std::uint64_t> corners;
     if (indices.is_null())
       for (std::uint64_t i = 0; i < count_; ++i) corners.push_back(i);
     else
-      for (const double index : read_accessor(document_, indices, "SCALAR", joined(place, ".indices")).values)
+      for (const double index :
+           read_accessor(document_, indices, "SCALAR", joined(json_path, ".indices")).values)
         corners.push_back(index >= 0 && index < 4294967296.0 ? static_cast<std::uint64_t>(index) : ~0ULL);
-    GltfFaces faces = make_gltf_faces(document_.whole_number(primitive, "mode", place, 6, 4), corners);
+    GltfFaces faces = make_gltf_faces(document_.whole_number(primitive, "mode", json_path, 6, 4), corners);
     result_.small_faces += faces.small_faces;
     std::size_t whole = 0;
     for (const auto& face : faces.triangles)
       if (std::ranges::all_of(face, [&](std::uint64_t corner) { return corner < count_; })) ++whole;
     if (whole < faces.triangles.size())
-      document_.fail_at(
-          joined(place_, " ('", text_of(member(mesh_, "name")), "')", place.substr(place_.size())),
-          joined("only ", whole, " of its ", faces.triangles.size(),
-                 " faces name vertices that exist; export it again"));
-    document_.count_kept(3 * whole, place);
+      document_.fail_at(joined(json_path_, " ('", text_of(member(mesh_, "name")), "')",
+                               json_path.substr(json_path_.size())),
+                        joined("only ", whole, " of its ", faces.triangles.size(),
+                               " faces name vertices that exist; export it again"));
+    document_.count_kept(3 * whole, json_path);
     for (const auto& face : faces.triangles)
       result_.faces.add_face(std::array{first_ + static_cast<std::uint32_t>(face[0]),
                                         first_ + static_cast<std::uint32_t>(face[1]),
                                         first_ + static_cast<std::uint32_t>(face[2])});
   }
 
-  void add_targets(const json& sources, const std::string& place) {
+  void add_targets(const json& sources, const std::string& json_path) {
     if (!sources.is_array()) return;
     auto& targets = result_.body.targets;
     targets.resize(std::max(targets.size(), sources.size()));
     for (std::size_t i = 0; i < sources.size(); ++i) {
       const json& moved = member(sources[i], "POSITION");
       if (moved.is_null()) continue;
-      const std::string here = joined(place, ".targets[", i, "].POSITION");
+      const std::string here = joined(json_path, ".targets[", i, "].POSITION");
       if (accessor_count(document_, moved) != count_)
         document_.fail_at(here, "the target has another number of vertices than the mesh; export it again");
       const GltfNumbers offsets = read_accessor(document_, moved, "VEC3", here);
@@ -184,15 +187,15 @@ class GltfMeshReader {
   }
 
   /// Sets of four joints and four weights each: JOINTS_0 and WEIGHTS_0, JOINTS_1 and so on.
-  void add_influences(const json& attributes, const std::string& place) {
+  void add_influences(const json& attributes, const std::string& json_path) {
     result_.body.influences.resize(result_.body.vertices.size());
     for (std::size_t set = 0;; ++set) {
       const json& joints = member(attributes, joined("JOINTS_", set).c_str());
       const json& weights = member(attributes, joined("WEIGHTS_", set).c_str());
       if (joints.is_null() || weights.is_null()) return;
-      const std::string here = joined(place, ".attributes.WEIGHTS_", set);
+      const std::string here = joined(json_path, ".attributes.WEIGHTS_", set);
       const GltfNumbers numbers =
-          read_accessor(document_, joints, "VEC4", joined(place, ".attributes.JOINTS_", set));
+          read_accessor(document_, joints, "VEC4", joined(json_path, ".attributes.JOINTS_", set));
       const GltfNumbers shares = read_accessor(document_, weights, "VEC4", here);
       if (numbers.count() != count_ || shares.count() != count_)
         document_.fail_at(here, "there is not one set of joints and weights a vertex; export it again");
@@ -202,13 +205,13 @@ class GltfMeshReader {
   }
 
   /// Keeps a vertex's influences in order of bones, each bone once.
-  void add_influence(std::size_t vertex, double joint, double weight, const std::string& place) {
+  void add_influence(std::size_t vertex, double joint, double weight, const std::string& json_path) {
     if (!(weight > 0)) return;
     const std::size_t bones = result_.body.bones.size();
     if (!(joint >= 0 && joint < static_cast<double>(bones)))
-      document_.fail_at(
-          place, joined("vertex ", vertex, " (counted from 0) hangs on a joint that is not among the ", bones,
-                        " of its skin; export it again"));
+      document_.fail_at(json_path,
+                        joined("vertex ", vertex, " (counted from 0) hangs on a joint that is not among the ",
+                               bones, " of its skin; export it again"));
     const auto bone = static_cast<std::uint32_t>(joint);
     auto& influences = result_.body.influences[first_ + vertex];
     const auto at = std::ranges::find_if(influences, [&](const Influence& i) { return i.bone >= bone; });
@@ -226,7 +229,7 @@ class GltfMeshReader {
 
   GltfDocument& document_;
   const json& mesh_;
-  std::string place_;
+  std::string json_path_;
   std::map<std::string, Vertices> vertices_by_key_;
   std::uint32_t first_ = 0;  ///< the number of the current primitive's first vertex
   std::size_t count_ = 0;    ///< how many vertices it has

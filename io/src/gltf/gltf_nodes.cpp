@@ -12,14 +12,15 @@ namespace {
 using nlohmann::json;
 
 /// `count` numbers under `key`; `values` as they are where the key is missing.
-void read_numbers(const GltfDocument& document, const json& node, const char* key, const std::string& place,
-                  double* values, std::size_t count) {
+void read_numbers(const GltfDocument& document, const json& node, const char* key,
+                  const std::string& json_path, double* values, std::size_t count) {
   const json& list = member(node, key);
   if (list.is_null()) return;
   const bool fits = list.is_array() && list.size() == count &&
                     std::ranges::all_of(list, [](const json& value) { return value.is_number(); });
   if (!fits)
-    document.fail_at(joined(place, ".", key), joined("expected ", count, " numbers; export the file again"));
+    document.fail_at(joined(json_path, ".", key),
+                     joined("expected ", count, " numbers; export the file again"));
   for (std::size_t i = 0; i < count; ++i) values[i] = list[i].get<double>();
 }
 
@@ -39,19 +40,19 @@ RigNode node_from_matrix(std::uint32_t parent, const Eigen::Matrix4d& matrix) {
   return node;
 }
 
-RigNode read_node(const GltfDocument& document, const json& source, const std::string& place,
+RigNode read_node(const GltfDocument& document, const json& source, const std::string& json_path,
                   std::uint32_t parent) {
   if (!member(source, "matrix").is_null()) {
     Eigen::Matrix4d matrix;
-    read_numbers(document, source, "matrix", place, matrix.data(), 16);
+    read_numbers(document, source, "matrix", json_path, matrix.data(), 16);
     return node_from_matrix(parent, matrix);
   }
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Eigen::Vector4d rotation(0, 0, 0, 1);
-  read_numbers(document, source, "translation", place, translation.data(), 3);
-  read_numbers(document, source, "rotation", place, rotation.data(), 4);
-  read_numbers(document, source, "scale", place, scale.data(), 3);
+  read_numbers(document, source, "translation", json_path, translation.data(), 3);
+  read_numbers(document, source, "rotation", json_path, rotation.data(), 4);
+  read_numbers(document, source, "scale", json_path, scale.data(), 3);
   return make_gltf_node(parent, translation, Eigen::Quaterniond(rotation), scale);
 }
 
@@ -98,10 +99,10 @@ class GltfNodeReader {
     return roots;
   }
 
-  [[nodiscard]] std::uint64_t checked(const json& number, const std::string& place) const {
+  [[nodiscard]] std::uint64_t checked(const json& number, const std::string& json_path) const {
     if (!element(sources_, number).is_object())
-      document_.fail_at(place, joined("it names a node that is not among the ", sources_.size(),
-                                      "; export the file again"));
+      document_.fail_at(json_path, joined("it names a node that is not among the ", sources_.size(),
+                                          "; export the file again"));
     return number.get<std::uint64_t>();
   }
 
@@ -125,19 +126,19 @@ class GltfNodeReader {
 
   void add_node(const Open& next, std::vector<Open>& open) {
     constexpr std::size_t deepest = 1000;
-    const std::string place = joined("nodes[", next.source, "]");
+    const std::string json_path = joined("nodes[", next.source, "]");
     if (next.depth > deepest)
-      document_.fail_at(place, joined("it is nested deeper than ", deepest, " nodes; simplify the file"));
+      document_.fail_at(json_path, joined("it is nested deeper than ", deepest, " nodes; simplify the file"));
     if (result_.number_of[next.source] != RigNode::no_parent)
-      document_.fail_at(place, "it hangs below itself or below two others; export the file again");
+      document_.fail_at(json_path, "it hangs below itself or below two others; export the file again");
     const json& source = sources_[next.source];
     const auto number = static_cast<std::uint32_t>(result_.nodes.size());
     result_.number_of[next.source] = number;
     result_.sources.push_back(next.source);
-    result_.nodes.push_back(read_node(document_, source, place, next.parent));
+    result_.nodes.push_back(read_node(document_, source, json_path, next.parent));
     const json& children = member(source, "children");
     for (std::size_t i = children.is_array() ? children.size() : 0; i > 0; --i)
-      open.push_back({checked(children[i - 1], place), number, next.depth + 1});
+      open.push_back({checked(children[i - 1], json_path), number, next.depth + 1});
   }
 
   void note_what_is_left_out() {

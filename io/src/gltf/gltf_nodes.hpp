@@ -22,7 +22,7 @@ struct GltfNodes {
 /// nothing.
 GltfNodes read_gltf_nodes(const GltfDocument& document);
 
-/// A node's place from its parts.
+/// The transform of a node from its parts.
 RigNode make_gltf_node(std::uint32_t parent, const Eigen::Vector3d& translation,
                        const Eigen::Quaterniond& rotation, const Eigen::Vector3d& scale);
 

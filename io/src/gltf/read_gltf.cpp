@@ -45,9 +45,9 @@ class GltfReader {
     const json& source = document_.list("nodes")[number];
     const json& mesh_number = member(source, "mesh");
     if (mesh_number.is_null()) return;
-    const std::string place = joined("nodes[", number, "]");
+    const std::string json_path = joined("nodes[", number, "]");
     if (!element(document_.list("meshes"), mesh_number).is_object())
-      document_.fail_at(place, "its mesh does not exist; export the file again");
+      document_.fail_at(json_path, "its mesh does not exist; export the file again");
     const GltfMesh& mesh = mesh_of(mesh_number, member(source, "skin"));
     small_faces_ += mesh.small_faces;
     if (mesh.faces.corner_counts.empty()) return;
@@ -55,15 +55,15 @@ class GltfReader {
     const json& instancing = member(member(source, "extensions"), "EXT_mesh_gpu_instancing");
     if (instancing.is_null() || !mesh.body.bones.empty()) {
       if (!instancing.is_null())
-        result_.file.warnings.push_back(joined(document_.path().string(), ": ", place,
-                                               ": its joints place it, so its instances were left out"));
-      add_object(mesh, node, name, member(source, "weights"), place);
+        result_.file.warnings.push_back(joined(document_.path().string(), ": ", json_path,
+                                               ": its joints json_path it, so its instances were left out"));
+      add_object(mesh, node, name, member(source, "weights"), json_path);
       return;
     }
-    for (const RigNode& instance : read_instances(member(instancing, "attributes"), node, place)) {
+    for (const RigNode& instance : read_instances(member(instancing, "attributes"), node, json_path)) {
       const auto instance_node = static_cast<std::uint32_t>(result_.rig.nodes.size());
       result_.rig.nodes.push_back(instance);
-      add_object(mesh, instance_node, name, member(source, "weights"), place);
+      add_object(mesh, instance_node, name, member(source, "weights"), json_path);
       instances_of_[node].push_back(instance_node);
     }
     animate_instances(node);
@@ -88,9 +88,10 @@ class GltfReader {
 
   /// A node's own morph weights win over its mesh's.
   void add_object(const GltfMesh& mesh, std::uint32_t node, const std::string& name, const json& weights,
-                  const std::string& place) {
+                  const std::string& json_path) {
     document_.count_kept(
-        3 * mesh.body.vertices.size() * (2 + mesh.body.targets.size()) + mesh.faces.corners.size(), place);
+        3 * mesh.body.vertices.size() * (2 + mesh.body.targets.size()) + mesh.faces.corners.size(),
+        json_path);
     Body body = mesh.body;
     body.node = node;
     for (std::size_t i = 0; weights.is_array() && i < std::min(weights.size(), body.targets.size()); ++i)
@@ -100,11 +101,12 @@ class GltfReader {
   }
 
   /// The places of EXT_mesh_gpu_instancing, each below the node.
-  std::vector<RigNode> read_instances(const json& attributes, std::uint32_t node, const std::string& place) {
+  std::vector<RigNode> read_instances(const json& attributes, std::uint32_t node,
+                                      const std::string& json_path) {
     const auto read = [&](const char* key, const char* type) {
       const json& number = member(attributes, key);
       if (number.is_null()) return GltfNumbers{};
-      return read_accessor(document_, number, type, joined(place, ".EXT_mesh_gpu_instancing.", key));
+      return read_accessor(document_, number, type, joined(json_path, ".EXT_mesh_gpu_instancing.", key));
     };
     const GltfNumbers translations = read("TRANSLATION", "VEC3");
     const GltfNumbers rotations = read("ROTATION", "VEC4");
@@ -112,7 +114,7 @@ class GltfReader {
     const std::size_t count = std::max({translations.count(), rotations.count(), scales.count()});
     for (const GltfNumbers* numbers : {&translations, &rotations, &scales})
       if (numbers->count() != 0 && numbers->count() != count)
-        document_.fail_at(place, "its instances have lists of different lengths; export the file again");
+        document_.fail_at(json_path, "its instances have lists of different lengths; export the file again");
     std::vector<RigNode> instances;
     for (std::size_t i = 0; i < count; ++i) {
       Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();

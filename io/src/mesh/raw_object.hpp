@@ -35,7 +35,7 @@ struct RawObject {
   RawSurface surface;
 };
 
-/// What a reader makes of a file: its objects, those without a face included, and what it left out.
+/// The result of reading a file: its objects, those without a face included, and notes on what was left out.
 struct RawFile {
   std::vector<RawObject> objects;
   std::vector<std::string> warnings;

@@ -25,7 +25,7 @@ struct Track {
   Interpolation interpolation = Interpolation::linear;
 };
 
-/// What an animation does to one node. A part without keys stays as the node has it.
+/// The motion of one node in an animation. A part without keys keeps the node's own value.
 struct NodeMotion {
   Track<Eigen::Vector3d> translation;
   Track<Eigen::Quaterniond> rotation;
@@ -44,7 +44,7 @@ struct RigNode {
   static constexpr std::uint32_t no_parent = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t parent = no_parent;  ///< a lower number
   Eigen::Affine3d local = Eigen::Affine3d::Identity();
-  /// The same in parts.
+  /// The parts of `local`: translation, rotation and scale.
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();

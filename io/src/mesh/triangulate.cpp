@@ -87,7 +87,9 @@ class EarClipper {
     return doubled_area(flat_[previous_[corner]], flat_[corner], flat_[next_[corner]]) > 0;
   }
 
-  /// Of the corners inside a triangle at least one is not convex, so the others need not be looked at.
+  /// Whether a corner can be cut off as an ear: it is convex and no other corner is in its triangle. Only
+  /// corners that are not convex are tested, since at least one of the corners inside a triangle is not
+  /// convex.
   [[nodiscard]] bool tests_as_ear(std::size_t corner) const {
     if (!is_convex(corner)) return false;
     const auto& a = flat_[previous_[corner]];

@@ -43,7 +43,7 @@ struct Camera {
 /// A camera that sees every triangle whole. Throws InputError when there is none.
 Camera frame_camera(const std::vector<PictureTriangle>& triangles, const PictureSettings& settings);
 
-/// What the light sees, to tell where it does not reach.
+/// A depth map of the surfaces as the light sees them, to find the points in shadow.
 class ShadowMap {
  public:
   ShadowMap(const std::vector<PictureTriangle>& triangles, const Camera& camera);

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What is wrong with one line; the reader adds file and line number.
+/// An error in one line. The reader adds the file and the line number.
 class BadLine : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -75,6 +75,7 @@ Feature read_feature(const json& value, EdgeVertices& edge) {
   return feature;
 }
 
+/// Reads a contact. Its `since` stays in the numbers of the file, as ReportedFrame::frame does.
 ReportedContact read_contact(const json& value) {
   ReportedContact read;
   read.contact.kind = named(contact_kinds, value.at("kind"));
@@ -194,18 +195,18 @@ bool ReportReader::State::read_line(Read read) {
   std::string line;
   if (!std::getline(stream, line)) return false;
   ++line_number;
-  const std::string place = path + ": line " + std::to_string(line_number) + ": ";
+  const std::string where = path + ": line " + std::to_string(line_number) + ": ";
   const std::string remedy = "; write the report again with this version of graze";
   try {
     read(json::parse(line));
   } catch (const json::parse_error&) {
-    throw InputError(place + "not valid JSON, the file may be cut off" + remedy);
+    throw InputError(where + "not valid JSON, the file may be cut off" + remedy);
   } catch (const json::exception&) {
-    throw InputError(place + "a key is missing or of another type" + remedy);
+    throw InputError(where + "a key is missing or of another type" + remedy);
   } catch (const BadLine& error) {
-    throw InputError(place + error.what() + remedy);
+    throw InputError(where + error.what() + remedy);
   } catch (const Error& error) {
-    throw InputError(place + error.what() + remedy);
+    throw InputError(where + error.what() + remedy);
   }
   return true;
 }

@@ -68,7 +68,16 @@ void write_feature(JsonText& json, const Feature& feature, const Mesh& mesh) {
   json.close(']');
 }
 
-void write_contact(JsonText& json, const Contact& contact, const Mesh& mesh_a, const Mesh& mesh_b) {
+/// The file's number of the frame of `since`, in a file that numbers the frame of `report` as `frame`. Steps
+/// and frames advance together. A contact from before the file's frame 0 gets 0.
+std::uint64_t since_in_file(std::uint64_t since, std::uint64_t frame, const FrameReport& report) {
+  if (frame >= report.frame()) return since + (frame - report.frame());
+  const std::uint64_t ahead = report.frame() - frame;
+  return since > ahead ? since - ahead : 0;
+}
+
+void write_contact(JsonText& json, const Contact& contact, std::uint64_t since, const Mesh& mesh_a,
+                   const Mesh& mesh_b) {
   json.open('{').key("kind").text(to_string(contact.kind)).key("a");
   write_feature(json, contact.feature_a, mesh_a);
   json.key("b");
@@ -77,7 +86,7 @@ void write_contact(JsonText& json, const Contact& contact, const Mesh& mesh_a, c
   json.key("point_a").point(contact.point_a).key("point_b").point(contact.point_b);
   json.key("normal").point(contact.normal);
   json.key("side").open('[').text(to_string(contact.side_a)).text(to_string(contact.side_b)).close(']');
-  json.key("since").whole(contact.since).close('}');
+  json.key("since").whole(since).close('}');
 }
 
 void write_witness(JsonText& json, const Witness& witness, const Mesh& mesh_a, const Mesh& mesh_b) {
@@ -108,7 +117,7 @@ void write_statistics(JsonText& json, const StepStatistics& statistics, bool inc
 
 struct ReportWriter::State {
   void write_line();
-  void write_pair(const FrameReport& report, const PairReport& pair);
+  void write_pair(std::uint64_t frame, const FrameReport& report, const PairReport& pair);
   /// The number of `id` among the objects, or their count for an id that is not one of them.
   [[nodiscard]] std::size_t number_of(ObjectId id) const;
 
@@ -125,7 +134,7 @@ std::size_t ReportWriter::State::number_of(ObjectId id) const {
   return found != numbers.end() && found->first == id ? found->second : objects.size();
 }
 
-void ReportWriter::State::write_pair(const FrameReport& report, const PairReport& pair) {
+void ReportWriter::State::write_pair(std::uint64_t frame, const FrameReport& report, const PairReport& pair) {
   const std::size_t a = number_of(pair.a);
   const std::size_t b = number_of(pair.b);
   if (a == objects.size() || b == objects.size())
@@ -141,7 +150,8 @@ void ReportWriter::State::write_pair(const FrameReport& report, const PairReport
   json.key("witness");
   write_witness(json, pair.witness, mesh_a, mesh_b);
   json.key("contacts").open('[');
-  for (const Contact& contact : report.contacts(pair)) write_contact(json, contact, mesh_a, mesh_b);
+  for (const Contact& contact : report.contacts(pair))
+    write_contact(json, contact, since_in_file(contact.since, frame, report), mesh_a, mesh_b);
   json.close(']').close('}');
 }
 
@@ -177,7 +187,7 @@ void ReportWriter::write(std::uint64_t frame, const FrameReport& report) {
   JsonText& json = state_->json;
   json.open('{').key("frame").whole(frame).key("complete").flag(report.complete());
   json.key("pairs").open('[');
-  for (const PairReport& pair : report.pairs()) state_->write_pair(report, pair);
+  for (const PairReport& pair : report.pairs()) state_->write_pair(frame, report, pair);
   json.close(']').key("diagnostics").open('[');
   for (const Diagnostic& diagnostic : report.diagnostics()) {
     const std::size_t number = state_->number_of(diagnostic.object);

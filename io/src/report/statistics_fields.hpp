@@ -45,7 +45,7 @@ inline constexpr std::array<std::pair<std::string_view, std::uint64_t StepStatis
     {"report_bytes", &StepStatistics::report_bytes},
 }};
 
-/// What follows which thread did what, which is chance; left out with the times.
+/// A statistic that depends on which thread did what, which is chance. It is left out with the times.
 inline constexpr std::pair<std::string_view, std::uint64_t StepStatistics::*> thread_field{
     "thread_bytes", &StepStatistics::thread_bytes};
 

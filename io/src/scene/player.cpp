@@ -62,7 +62,7 @@ struct Player::State {
   void add(LoadedSceneObject& loaded, const ObjectDescription& entry);
   void set_rule(const RuleDescription& rule, const SceneSettings& settings);
   void ignore(const IgnoreDescription& ignored, const SceneDescription& description);
-  [[nodiscard]] std::vector<std::size_t> named(const std::string& name, const std::string& place,
+  [[nodiscard]] std::vector<std::size_t> named(const std::string& name, const std::string& where,
                                                const SceneDescription& description) const;
   void advance_object(std::size_t index, std::uint32_t frame);
 
@@ -105,7 +105,7 @@ void Player::State::set_rule(const RuleDescription& rule, const SceneSettings& s
 }
 
 /// The objects of the entry called `name`, or the one object called so.
-std::vector<std::size_t> Player::State::named(const std::string& name, const std::string& place,
+std::vector<std::size_t> Player::State::named(const std::string& name, const std::string& where,
                                               const SceneDescription& description) const {
   std::vector<std::size_t> found;
   for (std::size_t index = 0; index < objects.size(); ++index)
@@ -114,7 +114,7 @@ std::vector<std::size_t> Player::State::named(const std::string& name, const std
   if (!found.empty()) return found;
   std::string known;
   for (const SceneObject& object : objects) known += (known.empty() ? "" : ", ") + object.name;
-  throw InputError(place + ": no object is called \"" + name + "\"; the scene has " + known);
+  throw InputError(where + ": no object is called \"" + name + "\"; the scene has " + known);
 }
 
 void Player::State::ignore(const IgnoreDescription& ignored, const SceneDescription& description) {

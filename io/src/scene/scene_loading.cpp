@@ -23,21 +23,21 @@ std::string list_of(std::span<const std::string> names) {
 }
 
 /// The number that `choice` picks among `names`. `what` is the key it stands under.
-std::size_t pick(const NumberOrName& choice, std::span<const std::string> names, const std::string& place,
+std::size_t pick(const NumberOrName& choice, std::span<const std::string> names, const std::string& where,
                  const std::string& what) {
   const std::string remedy = "; the file has " + list_of(names);
   if (const auto* number = std::get_if<std::uint32_t>(&choice)) {
     if (*number >= names.size())
-      throw InputError(place + "." + what + ": no number " + std::to_string(*number) + " in the mesh file" +
+      throw InputError(where + "." + what + ": no number " + std::to_string(*number) + " in the mesh file" +
                        remedy);
     return *number;
   }
   const auto& name = std::get<std::string>(choice);
   const auto found = std::ranges::find(names, name);
   if (found == names.end())
-    throw InputError(place + "." + what + ": no \"" + name + "\" in the mesh file" + remedy);
+    throw InputError(where + "." + what + ": no \"" + name + "\" in the mesh file" + remedy);
   if (std::ranges::count(names, name) > 1)
-    throw InputError(place + "." + what + ": several are called \"" + name + "\", pick by number" + remedy);
+    throw InputError(where + "." + what + ": several are called \"" + name + "\", pick by number" + remedy);
   return static_cast<std::size_t>(found - names.begin());
 }
 

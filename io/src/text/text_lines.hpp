@@ -25,7 +25,7 @@ class TextLines {
 
   /// The number of the line that `next` gave last, counted from 1.
   [[nodiscard]] std::size_t line() const { return line_; }
-  /// What comes after that line.
+  /// The text behind the line that `next` gave last.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
  private:

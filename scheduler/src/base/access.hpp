@@ -10,7 +10,8 @@ enum class StepData : std::uint8_t {
   pairs,     ///< what is remembered and answered of pairs, by job
 };
 
-/// What may be done with one kind of data: nothing, reading it all, writing one piece of it, anything.
+/// The right of a task to one kind of data: none, read everything, write one item, or read and write
+/// everything.
 struct AccessRight {
   enum class Level : std::uint8_t { none, read, write_one, write };
   Level level = Level::none;
@@ -21,16 +22,16 @@ struct AccessRight {
   static AccessRight everything() { return {Level::write, nullptr}; }
 };
 
-/// What a task declares before it touches anything.
+/// The rights that a task declares before it touches shared data.
 struct AccessRights {
   AccessRight surfaces;
   AccessRight pairs;
 };
 
-/// Builds with GRAZE_VALIDATE hold every task of a step to what it declared, so that a race is an error on
-/// one thread as well: `AccessScope` gives the running thread rights until it goes, the accessors of shared
-/// data ask for them and throw std::logic_error. A thread that never declared anything (the one that steps)
-/// may do anything; a task that declares nothing may do nothing (see TaskPool). Other builds check nothing.
+/// Gives the running thread the declared rights until the scope ends. Builds with GRAZE_VALIDATE check them:
+/// the accessors of shared data call `require_read` and `require_write`, which throw std::logic_error. So a
+/// data race shows as an error even on one thread. A thread without a scope, such as the stepping thread, may
+/// do anything. A task that declares nothing may do nothing (see TaskPool). Other builds check nothing.
 #ifdef GRAZE_VALIDATE
 class AccessScope {
  public:

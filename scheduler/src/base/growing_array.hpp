@@ -9,9 +9,9 @@
 
 namespace graze {
 
-/// An array that grows from any thread without a lock and whose elements never move: they lie in chunks, each
-/// twice as large as the one before. Elements are default-constructed with their chunk and destroyed with the
-/// array.
+/// An array that grows from any thread without a lock and whose elements never move. It keeps them in chunks,
+/// each twice as large as the one before. A chunk's elements are default-constructed with the chunk and
+/// destroyed with the array.
 template <typename Element>
 class GrowingArray {
  public:
@@ -22,29 +22,29 @@ class GrowingArray {
   GrowingArray(const GrowingArray&) = delete;
   GrowingArray& operator=(const GrowingArray&) = delete;
 
-  /// The element, or null where it was not made yet. Any index, any thread.
+  /// The element at an index, or null where none was made yet. Takes any index, from any thread.
   [[nodiscard]] Element* find(std::uint32_t index) const noexcept {
-    const Place place = place_of(index);
-    // Acquire: the chunk's elements were constructed before it was put here.
-    Element* const chunk = chunks_[place.chunk].load(std::memory_order_acquire);
-    return chunk == nullptr ? nullptr : chunk + place.offset;
+    const Location location = location_of(index);
+    // Acquire: the chunk's elements were constructed before the chunk was published.
+    Element* const chunk = chunks_[location.chunk].load(std::memory_order_acquire);
+    return chunk == nullptr ? nullptr : chunk + location.offset;
   }
-  /// An element that was made.
+  /// The element at an index that `make` has returned.
   [[nodiscard]] Element& operator[](std::uint32_t index) const noexcept { return *find(index); }
 
-  /// Makes the element and those before it in its chunk, unless they are there.
+  /// Makes the element at an index and the earlier ones of its chunk, unless they exist.
   Element& make(std::uint32_t index) {
-    const Place place = place_of(index);
-    std::atomic<Element*>& chunk = chunks_[place.chunk];
-    if (Element* const made = chunk.load(std::memory_order_acquire)) return made[place.offset];
-    auto fresh = std::make_unique<Element[]>(first_chunk << place.chunk);
+    const Location location = location_of(index);
+    std::atomic<Element*>& chunk = chunks_[location.chunk];
+    if (Element* const made = chunk.load(std::memory_order_acquire)) return made[location.offset];
+    auto fresh = std::make_unique<Element[]>(first_chunk << location.chunk);
     Element* made = nullptr;
-    // Of several threads that make the same chunk one puts its own here; the others take that one.
+    // If several threads make one chunk at once, one of them publishes its own. The others use that one.
     if (chunk.compare_exchange_strong(made, fresh.get(), std::memory_order_acq_rel)) made = fresh.release();
-    return made[place.offset];
+    return made[location.offset];
   }
 
-  /// Bytes of the elements made; not what they hold themselves.
+  /// The bytes of the elements made, without the memory that these hold.
   [[nodiscard]] std::size_t byte_count() const noexcept {
     std::size_t bytes = 0;
     for (std::size_t chunk = 0; chunk < chunk_count; ++chunk)
@@ -56,12 +56,12 @@ class GrowingArray {
  private:
   static constexpr std::size_t first_chunk = 64;
   static constexpr std::size_t chunk_count = 27;  ///< for every 32-bit index
-  struct Place {
+  struct Location {
     std::size_t chunk;
     std::size_t offset;
   };
-  /// Chunk c begins at first_chunk (2^c - 1).
-  static Place place_of(std::uint32_t index) noexcept {
+  /// The chunk of an index and the offset in it. Chunk c begins at index first_chunk (2^c - 1).
+  static Location location_of(std::uint32_t index) noexcept {
     const std::size_t units = index / first_chunk + 1;
     const auto chunk = static_cast<std::size_t>(std::bit_width(units / 2));  // the logarithm, rounded down
     return {chunk, index - first_chunk * ((std::size_t{1} << chunk) - 1)};

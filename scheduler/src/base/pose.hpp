@@ -11,9 +11,9 @@
 
 namespace graze {
 
-/// Says why the rows (r0, r1, r2, t) are not a pose. Nothing for a good one. A pose is finite, and its matrix
-/// R is within 1e-3 of a rotation: no entry of RᵀR − 1 is larger, and R is no reflection. So an engine's
-/// float rotations are poses.
+/// Says why the rows (r0, r1, r2, t) are not a pose, or nothing for a pose. A pose is finite and its matrix R
+/// is within 1e-3 of a rotation: no entry of RᵀR − 1 is larger, and R is no reflection. So the float
+/// rotations of an engine are accepted.
 inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows) {
   constexpr double furthest = 1e-3;
   Eigen::Matrix3d matrix;
@@ -29,8 +29,8 @@ inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& 
   return std::nullopt;
 }
 
-/// Says why a 4x4 matrix is not a pose. Nothing for a good one. Its last row is (0, 0, 0, 1), but for what
-/// the inverse of a float matrix is rounded by.
+/// Says why a 4x4 matrix is not a pose, or nothing for a pose. Its last row may differ from (0, 0, 0, 1) by
+/// up to 1e-6 in each number, since the inverse of a float matrix is rounded.
 inline std::optional<std::string> problem_of_pose(const std::array<double, 12>& rows,
                                                   const std::array<double, 4>& last_row) {
   constexpr double furthest = 1e-6;

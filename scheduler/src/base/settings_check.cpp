@@ -24,7 +24,12 @@ std::string not_a_distance(const char* what, double value) {
          "; give a distance that is finite and not negative";
 }
 
-/// A number that was cast to an enumeration without being one of its enumerators.
+std::string not_a_range(const char* what, double value) {
+  return std::string(what) + " is " + number_text(value) +
+         "; give a distance that is not negative, or infinity";
+}
+
+/// Says that a number was cast to an enumeration without being one of its enumerators.
 template <typename Enumeration>
 std::optional<std::string> not_an_enumerator(const char* what, Enumeration value, Enumeration last) {
   if (value <= last) return std::nullopt;
@@ -40,7 +45,7 @@ std::optional<std::string> problem_of(const SceneSettings& settings) {
   if (auto problem = not_an_enumerator("scene: arena", settings.arena, ArenaPolicy::callers)) return problem;
   if (!is_distance(settings.contact_distance))
     return not_a_distance("scene: contact_distance", settings.contact_distance);
-  if (!is_range(settings.range)) return not_a_distance("scene: range", settings.range);
+  if (!is_range(settings.range)) return not_a_range("scene: range", settings.range);
   if (settings.accuracy.mode() == AccuracyMode::paper && !is_about_vertices(settings.detail))
     return "scene: paper accuracy goes with the details `regions` and `vertices` only";
   if (settings.time_budget && settings.time_budget->count() < 0) return "scene: time_budget is negative";
@@ -66,7 +71,7 @@ std::optional<std::string> problem_of(std::uint32_t kind_a, std::uint32_t kind_b
   if (std::max(kind_a, kind_b) >= kind_count) return kinds + "kinds are 0 to 255";
   if (!is_distance(rule.contact_distance))
     return not_a_distance((kinds + "contact_distance").c_str(), rule.contact_distance);
-  if (!is_range(rule.range)) return not_a_distance((kinds + "range").c_str(), rule.range);
+  if (!is_range(rule.range)) return not_a_range((kinds + "range").c_str(), rule.range);
   for (const double epsilon : rule.epsilon)
     if (!is_distance(epsilon)) return not_a_distance((kinds + "an epsilon").c_str(), epsilon);
   return std::nullopt;

@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// What is wrong with settings, as one sentence; nothing where all is well.
+/// Says in one sentence what is wrong with settings, or nothing if they are valid.
 std::optional<std::string> problem_of(const SceneSettings& settings);
 std::optional<std::string> problem_of(const ObjectSettings& settings);
 std::optional<std::string> problem_of(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);

@@ -12,11 +12,11 @@
 
 namespace graze {
 
-/// A copy of one object's positions in the precision in which they came, one beside the other. Those of
-/// unused vertices mean nothing.
+/// A copy of one object's positions, packed, in the precision in which the caller gave them. The positions of
+/// vertices that no face uses are undefined.
 class CopiedPositions {
  public:
-  /// Makes room for `count` positions, which are whatever they were.
+  /// Resizes to `count` positions, whose values are undefined.
   void resize(std::size_t count, bool in_double) {
     is_double_ = in_double;
     in_double ? in_double_.resize(count) : in_float_.resize(count);
@@ -38,39 +38,38 @@ class CopiedPositions {
   bool is_double_ = true;
 };
 
-/// The memory of one object's copied positions, used again and again: a few buffers that are lent and given
-/// back from any thread without waiting. More are made where more are wanted at once, and freed when they
-/// come back.
+/// The pool of buffers for one object's copied positions. Any thread may lend and return buffers without
+/// waiting. If more are lent at once than the pool holds, it makes more and frees them when they come back.
 class SparePositions {
  public:
-  /// Copies of one object's positions that may wait for a step without an allocation for the next.
+  /// How many copies of one object's positions may wait for a step before the next copy allocates.
   static constexpr std::size_t most_waiting = 4;
 
-  /// Bytes that buffers hold, lent or kept, of any number of objects.
+  /// The bytes of all buffers, lent or kept, of any number of objects.
   using ByteCount = std::atomic<std::size_t>;
 
   struct GiveBack {
     SparePositions* owner = nullptr;
     ByteCount* byte_count = nullptr;
-    /// Of an object that is gone: nobody will want the buffer again.
+    /// Whether the object is gone, so that the buffer is freed when it is returned.
     bool is_last = false;
     void operator()(CopiedPositions* positions) const noexcept {
       is_last ? free(positions, *byte_count) : owner->keep(positions, *byte_count);
     }
   };
-  /// Gives the buffer back when it goes; the spares and the count must be there then.
+  /// A lent buffer. Its destructor returns it, so the pool and the byte count must outlive it.
   using Loan = std::unique_ptr<CopiedPositions, GiveBack>;
 
   SparePositions() = default;
   ~SparePositions() {
-    for (std::atomic<CopiedPositions*>& place : places_) delete place.load(std::memory_order_acquire);
+    for (std::atomic<CopiedPositions*>& slot : slots_) delete slot.load(std::memory_order_acquire);
   }
   SparePositions(const SparePositions&) = delete;
   SparePositions& operator=(const SparePositions&) = delete;
 
-  /// A buffer of `count` positions, of whatever it held last.
+  /// Lends a buffer of `count` positions, whose values are undefined.
   [[nodiscard]] Loan lend(std::size_t count, bool in_double, ByteCount& byte_count) {
-    Loan loan(take(byte_count), {this, &byte_count});
+    Loan loan(acquire(byte_count), {this, &byte_count});
     const std::size_t before = loan->byte_count();
     loan->resize(count, in_double);
     const std::size_t now = loan->byte_count();
@@ -78,24 +77,24 @@ class SparePositions {
     return loan;
   }
   void clear(ByteCount& byte_count) noexcept {
-    for (std::atomic<CopiedPositions*>& place : places_)
-      free(place.exchange(nullptr, std::memory_order_acquire), byte_count);
+    for (std::atomic<CopiedPositions*>& slot : slots_)
+      free(slot.exchange(nullptr, std::memory_order_acquire), byte_count);
   }
 
  private:
-  CopiedPositions* take(ByteCount& byte_count) {
-    // A place is emptied by an exchange, so a buffer has one holder. Acquire: the last one has done with it.
-    for (std::atomic<CopiedPositions*>& place : places_)
-      if (CopiedPositions* const kept = place.exchange(nullptr, std::memory_order_acquire)) return kept;
+  CopiedPositions* acquire(ByteCount& byte_count) {
+    // An exchange empties the slot, so a buffer has one holder. Acquire: the last holder no longer uses it.
+    for (std::atomic<CopiedPositions*>& slot : slots_)
+      if (CopiedPositions* const kept = slot.exchange(nullptr, std::memory_order_acquire)) return kept;
     auto fresh = std::make_unique<CopiedPositions>();
     byte_count.fetch_add(fresh->byte_count(), std::memory_order_relaxed);
     return fresh.release();
   }
   void keep(CopiedPositions* positions, ByteCount& byte_count) noexcept {
-    for (std::atomic<CopiedPositions*>& place : places_) {
+    for (std::atomic<CopiedPositions*>& slot : slots_) {
       CopiedPositions* empty = nullptr;
-      if (place.compare_exchange_strong(empty, positions, std::memory_order_release,
-                                        std::memory_order_relaxed))
+      if (slot.compare_exchange_strong(empty, positions, std::memory_order_release,
+                                       std::memory_order_relaxed))
         return;
     }
     free(positions, byte_count);
@@ -106,8 +105,8 @@ class SparePositions {
     delete positions;
   }
 
-  /// One more for the copy that the object stands at.
-  std::array<std::atomic<CopiedPositions*>, most_waiting + 1> places_{};
+  /// There is one slot more than `most_waiting`, for the copy that the surface uses now.
+  std::array<std::atomic<CopiedPositions*>, most_waiting + 1> slots_{};
 };
 
 }  // namespace graze

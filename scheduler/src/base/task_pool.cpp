@@ -35,7 +35,7 @@ struct TaskPool::Arena {
 
 TaskPool::TaskPool(unsigned threads, ArenaPolicy policy)
     : worker_count_(threads == 0 ? processors() : std::min(threads, max_threads())) {
-  // No more threads than oneTBB gives in this process: it would only complain on the caller's terminal.
+  // The arena asks for no more threads than oneTBB gives in this process; otherwise oneTBB prints a warning.
   const std::size_t allowed =
       oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
   if (worker_count_ > 1 && policy == ArenaPolicy::own)
@@ -52,12 +52,12 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
     for (std::size_t item = 0; item < count; ++item) work(0, item);
     return;
   }
-  // Each task is a worker that takes the next item until none is left. Items write to places of their own, so
-  // which worker takes which does not show in the result.
+  // Each task is a worker that picks the next item until none is left. Every item writes only its own
+  // results, so no result depends on which worker picked it.
   std::atomic<std::size_t> next{0};
   std::atomic<bool> has_failed{false};
   std::exception_ptr problem;
-  // What an item throws goes past oneTBB, which would need memory to pass it on.
+  // Exceptions of items bypass oneTBB, which would need memory to pass them on.
   const auto run_worker = [&](unsigned worker) {
     const FloatingPointScope scope;
     const AccessScope nothing({});
@@ -74,11 +74,11 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
     oneapi::tbb::parallel_for(0U, workers, run_worker, oneapi::tbb::simple_partitioner());
   };
   try {
-    // In the caller's arena a thread that waits must not take up the caller's own tasks in the middle of a
-    // step.
+    // In the caller's arena, `isolate` keeps a waiting thread from running the caller's own tasks in the
+    // middle of a step.
     arena_ ? arena_->arena.execute(run_workers) : oneapi::tbb::this_task_arena::isolate(run_workers);
   } catch (...) {
-    // oneTBB could not get memory for its tasks. Those that it began have ended; this thread does the rest.
+    // oneTBB had no memory for its tasks. The tasks that began have ended, and this thread does the rest.
     run_worker(0);
   }
   if (problem) std::rethrow_exception(problem);

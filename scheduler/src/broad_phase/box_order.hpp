@@ -5,31 +5,31 @@
 #include <span>
 #include <vector>
 
-#include "base/place_pair.hpp"
+#include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "core/base/box.hpp"
 
 namespace graze {
 
-/// Puts boxes into an order in which every aligned range of 8, 64, 512, … slots is a compact group: by size,
-/// and among boxes of about one size by halving them again and again along the axis on which they are spread
-/// most. A box out of all proportion, by its size or its place, so spoils a few groups and no more.
+/// Sorts boxes into leaves so that every aligned range of 8, 64, 512, … leaves is a compact group. Boxes are
+/// first sorted into size classes. Each class is then halved repeatedly along the axis on which its boxes are
+/// spread most. So a box of unusual size or position widens only a few groups.
 class BoxOrder {
  public:
   static constexpr std::uint32_t block = 8;
 
-  /// Fills `slots` with the numbers of `boxes`, each once. Boxes of each size begin a block of their own;
-  /// what stays empty of the last is no_place, and the count is a multiple of `block`.
-  void make(std::span<const Box> boxes, std::vector<std::uint32_t>& slots, TaskPool& tasks);
+  /// Fills `leaves` with the indices of `boxes`, each once. Each size class begins a new block of 8 leaves,
+  /// and the unused leaves of its last block are no_slot. The number of leaves is a multiple of `block`.
+  void make(std::span<const Box> boxes, std::vector<std::uint32_t>& leaves, TaskPool& tasks);
 
-  /// Makes room for orders of so many boxes and slots.
-  void reserve(std::size_t boxes, std::size_t slots);
+  /// Reserves memory for that many boxes and leaves.
+  void reserve(std::size_t boxes, std::size_t leaves);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   struct Item {
     std::array<double, 3> centre;
-    std::uint32_t place;
+    std::uint32_t index;
     std::uint32_t size_class;
   };
   struct Range {
@@ -43,7 +43,7 @@ class BoxOrder {
   void halve_large();
 
   std::vector<Item> unsorted_;
-  std::vector<Item> items_;  ///< by slot
+  std::vector<Item> items_;  ///< by leaf
   std::vector<Range> ranges_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Nodes of a level that are refitted, or slots that are filled, at a time.
+/// The number of nodes that one task refits, or of leaves that one task fills.
 constexpr std::size_t slice = 512;
 
 constexpr std::size_t slices_of(std::size_t count) {
@@ -40,7 +40,7 @@ BoxTree::Reach BoxTree::reach_of(const Limits& limits) {
   return {-limits[3], -limits[4], -limits[5], -limits[0], -limits[1], -limits[2]};
 }
 
-/// Bit i says whether box i meets. Without a branch for each number: their outcome cannot be foreseen.
+/// Bit i says whether box i meets. There is no branch for each number, since its outcome cannot be predicted.
 unsigned BoxTree::meeting(const Limits* eight, const Reach& reach) {
   unsigned meeting = 0;
   for (unsigned i = 0; i < width; ++i) {
@@ -52,9 +52,9 @@ unsigned BoxTree::meeting(const Limits* eight, const Reach& reach) {
   return meeting;
 }
 
-/// Sizes the levels for the slots there are; new nodes hold no box.
+/// Resizes the levels to the number of leaves. New nodes are empty.
 void BoxTree::make_levels() {
-  std::size_t nodes = place_of_.size();
+  std::size_t nodes = slot_of_.size();
   level_count_ = 0;
   while (true) {
     if (levels_.size() <= level_count_) levels_.emplace_back();
@@ -65,11 +65,11 @@ void BoxTree::make_levels() {
 }
 
 void BoxTree::build(std::span<const Box> boxes, TaskPool& tasks) {
-  order_.make(boxes, place_of_, tasks);
-  ordered_ = place_of_.size();
-  slot_of_.resize(boxes.size());
-  for (std::uint32_t slot = 0; slot < place_of_.size(); ++slot)
-    if (place_of_[slot] != no_place) slot_of_[place_of_[slot]] = slot;
+  order_.make(boxes, slot_of_, tasks);
+  ordered_ = slot_of_.size();
+  leaf_of_.resize(boxes.size());
+  for (std::uint32_t leaf = 0; leaf < slot_of_.size(); ++leaf)
+    if (slot_of_[leaf] != no_slot) leaf_of_[slot_of_[leaf]] = leaf;
   find_end();
   for (auto& level : levels_) level.clear();
   make_levels();
@@ -93,11 +93,11 @@ std::size_t BoxTree::widened_blocks() const {
 
 void BoxTree::move_all(std::span<const Box> boxes, TaskPool& tasks) {
   const auto fill = [&](unsigned, std::size_t index) {
-    const std::size_t end = std::min((index + 1) * slice, place_of_.size());
-    for (std::size_t slot = index * slice; slot < end; ++slot)
-      levels_[0][slot] = place_of_[slot] == no_place ? no_box : limits_of(boxes[place_of_[slot]]);
+    const std::size_t end = std::min((index + 1) * slice, slot_of_.size());
+    for (std::size_t leaf = index * slice; leaf < end; ++leaf)
+      levels_[0][leaf] = slot_of_[leaf] == no_slot ? no_box : limits_of(boxes[slot_of_[leaf]]);
   };
-  tasks.run(slices_of(place_of_.size()), std::ref(fill));
+  tasks.run(slices_of(slot_of_.size()), std::ref(fill));
   refit_all(tasks);
 }
 
@@ -122,10 +122,10 @@ void BoxTree::refit_node(std::uint32_t level, std::uint32_t index) {
   levels_[level][index] = box;
 }
 
-/// Changes a slot and what is above it.
-void BoxTree::put(std::uint32_t slot, const Box& box) {
-  levels_[0][slot] = place_of_[slot] == no_place ? no_box : limits_of(box);
-  std::uint32_t index = slot;
+/// Sets the box of a leaf and updates its ancestors.
+void BoxTree::put(std::uint32_t leaf, const Box& box) {
+  levels_[0][leaf] = slot_of_[leaf] == no_slot ? no_box : limits_of(box);
+  std::uint32_t index = leaf;
   for (std::uint32_t level = 1; level < level_count_; ++level) {
     index /= width;
     const Limits before = levels_[level][index];
@@ -134,47 +134,47 @@ void BoxTree::put(std::uint32_t slot, const Box& box) {
   }
 }
 
-void BoxTree::move(std::uint32_t place, const Box& box) {
-  put(slot_of_[place], box);
+void BoxTree::move(std::uint32_t slot, const Box& box) {
+  put(leaf_of_[slot], box);
 }
 
 void BoxTree::add(const Box& box) {
-  const auto place = static_cast<std::uint32_t>(slot_of_.size());
-  const std::uint32_t slot = end_++;
-  if (slot == place_of_.size()) {
+  const auto slot = static_cast<std::uint32_t>(leaf_of_.size());
+  const std::uint32_t leaf = end_++;
+  if (leaf == slot_of_.size()) {
     const std::size_t levels_before = level_count_;
-    place_of_.resize(place_of_.size() + width, no_place);
+    slot_of_.resize(slot_of_.size() + width, no_slot);
     make_levels();
-    // A new root is over what the last one was over.
+    // A new root contains all that the last one contained.
     for (std::size_t level = std::max<std::size_t>(levels_before, 1); level < level_count_; ++level)
       refit_node(static_cast<std::uint32_t>(level), 0);
   }
-  place_of_[slot] = place;
-  slot_of_.push_back(slot);
-  put(slot, box);
+  slot_of_[leaf] = slot;
+  leaf_of_.push_back(leaf);
+  put(leaf, box);
 }
 
-void BoxTree::rename(std::span<const std::uint32_t> new_places) {
+void BoxTree::rename(std::span<const std::uint32_t> new_slots) {
   std::uint32_t count = 0;
-  for (std::uint32_t place = 0; place < new_places.size(); ++place) {
-    const std::uint32_t slot = slot_of_[place];
-    place_of_[slot] = new_places[place];
-    if (new_places[place] == no_place)
-      put(slot, {});
+  for (std::uint32_t slot = 0; slot < new_slots.size(); ++slot) {
+    const std::uint32_t leaf = leaf_of_[slot];
+    slot_of_[leaf] = new_slots[slot];
+    if (new_slots[slot] == no_slot)
+      put(leaf, {});
     else
-      slot_of_[count++] = slot;
+      leaf_of_[count++] = leaf;
   }
-  slot_of_.resize(count);
+  leaf_of_.resize(count);
   find_end();
 }
 
 void BoxTree::find_end() {
-  end_ = static_cast<std::uint32_t>(place_of_.size());
-  while (end_ > 0 && place_of_[end_ - 1] == no_place) --end_;
+  end_ = static_cast<std::uint32_t>(slot_of_.size());
+  while (end_ > 0 && slot_of_[end_ - 1] == no_slot) --end_;
 }
 
 std::uint64_t BoxTree::find(const Box& box, std::vector<std::uint32_t>& found) const {
-  if (place_of_.empty()) return 0;
+  if (slot_of_.empty()) return 0;
   const Reach reach = reach_of(limits_of(box));
   std::uint64_t tested = 0;
   Stack stack;
@@ -187,7 +187,7 @@ std::uint64_t BoxTree::find(const Box& box, std::vector<std::uint32_t>& found) c
     for (unsigned left = meeting(&levels_[node.level - 1][first], reach); left != 0; left &= left - 1) {
       const std::uint32_t child = first + static_cast<std::uint32_t>(std::countr_zero(left));
       if (node.level == 1)
-        found.push_back(place_of_[child]);
+        found.push_back(slot_of_[child]);
       else
         stack[height++] = {node.level - 1, child};
     }
@@ -196,14 +196,14 @@ std::uint64_t BoxTree::find(const Box& box, std::vector<std::uint32_t>& found) c
 }
 
 std::uint64_t BoxTree::find_pairs(std::uint32_t first_block, std::uint32_t last_block,
-                                  std::vector<PlacePair>& found) const {
+                                  std::vector<SlotPair>& found) const {
   std::uint64_t tested = 0;
   for (std::uint32_t block = first_block; block < last_block; ++block) tested += find_pairs_of(block, found);
   return tested;
 }
 
-/// The blocks from this one on that meet it, and in them the pairs.
-std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<PlacePair>& found) const {
+/// Finds the blocks from this one on that meet it, and the pairs of slots in them.
+std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<SlotPair>& found) const {
   const Reach reach = reach_of(levels_[1][block]);
   std::uint64_t tested = find_pairs_of(block, block, found);
   Stack stack;
@@ -213,7 +213,7 @@ std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<PlacePair>
   while (height > 0) {
     const Node node = stack[--height];
     const std::uint32_t first = node.index * width;
-    // Children that end before this block begins were looked at from there.
+    // Children that end before this block begins have found their pairs with this block themselves.
     const std::uint32_t own = block >> (3 * (node.level - 2));
     const unsigned earlier = own <= first ? 0 : std::min(own - first, width);
     tested += width;
@@ -230,29 +230,29 @@ std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<PlacePair>
 }
 
 std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::uint32_t other,
-                                     std::vector<PlacePair>& found) const {
+                                     std::vector<SlotPair>& found) const {
   const Limits* const ones = &levels_[0][std::size_t{block} * width];
   const Limits* const others = &levels_[0][std::size_t{other} * width];
   std::uint64_t tested = width;
   for (unsigned left = meeting(ones, reach_of(levels_[1][other])); left != 0; left &= left - 1) {
     const auto one = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::uint32_t place = place_of_[block * width + one];
+    const std::uint32_t slot = slot_of_[block * width + one];
     unsigned meets = meeting(others, reach_of(ones[one]));
     if (block == other) meets &= ~1U << one;  // only those behind it
     tested += width;
     for (; meets != 0; meets &= meets - 1)
       found.push_back(
-          pair_of(place, place_of_[other * width + static_cast<std::uint32_t>(std::countr_zero(meets))]));
+          pair_of(slot, slot_of_[other * width + static_cast<std::uint32_t>(std::countr_zero(meets))]));
   }
   return tested;
 }
 
-void BoxTree::reserve(std::size_t boxes, std::size_t slots) {
-  order_.reserve(boxes, slots);
-  slot_of_.reserve(boxes);
-  place_of_.reserve(slots);
-  ordered_sides_.reserve(slots / width + 1);
-  std::size_t nodes = slots;
+void BoxTree::reserve(std::size_t boxes, std::size_t leaves) {
+  order_.reserve(boxes, leaves);
+  leaf_of_.reserve(boxes);
+  slot_of_.reserve(leaves);
+  ordered_sides_.reserve(leaves / width + 1);
+  std::size_t nodes = leaves;
   for (std::size_t level = 0;; ++level, nodes = (nodes + width - 1) / width) {
     if (levels_.size() <= level) levels_.emplace_back();
     levels_[level].reserve((nodes + width - 1) / width * width);
@@ -261,7 +261,7 @@ void BoxTree::reserve(std::size_t boxes, std::size_t slots) {
 }
 
 std::size_t BoxTree::byte_count() const {
-  std::size_t bytes = order_.byte_count() + bytes_of(place_of_) + bytes_of(slot_of_) +
+  std::size_t bytes = order_.byte_count() + bytes_of(slot_of_) + bytes_of(leaf_of_) +
                       bytes_of(ordered_sides_) + bytes_of(levels_);
   for (const auto& level : levels_) bytes += bytes_of(level);
   return bytes;
@@ -273,13 +273,13 @@ void BoxTree::validate(std::span<const Box> boxes) const {
     if (!holds)
       throw std::logic_error(std::string("graze validator: ") + what + " at " + std::to_string(index));
   };
-  require(slot_of_.size() == boxes.size(), "a place has no slot", boxes.size());
+  require(leaf_of_.size() == boxes.size(), "a slot has no leaf", boxes.size());
   std::size_t filled = 0;
-  for (const std::uint32_t place : place_of_) filled += place == no_place ? 0U : 1U;
-  require(filled == boxes.size(), "a slot is in use by no place", filled);
-  for (std::size_t place = 0; place < boxes.size(); ++place) {
-    require(place_of_[slot_of_[place]] == place, "a place is in another's slot", place);
-    require(levels_[0][slot_of_[place]] == limits_of(boxes[place]), "a slot has another box", place);
+  for (const std::uint32_t slot : slot_of_) filled += slot == no_slot ? 0U : 1U;
+  require(filled == boxes.size(), "a leaf is in use by no slot", filled);
+  for (std::size_t slot = 0; slot < boxes.size(); ++slot) {
+    require(slot_of_[leaf_of_[slot]] == slot, "a slot is in another's leaf", slot);
+    require(levels_[0][leaf_of_[slot]] == limits_of(boxes[slot]), "a leaf has another box", slot);
   }
   for (std::size_t level = 1; level < level_count_; ++level)
     for (std::size_t child = 0; child < levels_[level - 1].size(); ++child)

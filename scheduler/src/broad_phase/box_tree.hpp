@@ -5,64 +5,65 @@
 #include <span>
 #include <vector>
 
-#include "base/place_pair.hpp"
+#include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "broad_phase/box_order.hpp"
 #include "core/base/box.hpp"
 
 namespace graze {
 
-/// A tree over boxes, each named by a place, that says which boxes meet: overlap, or touch.
+/// A bounding volume tree over boxes that finds which boxes overlap or touch. Each box belongs to a slot.
 ///
-/// Boxes stand in slots, in an order in which neighbours are near each other (BoxOrder). Eight slots are a
-/// block, eight blocks a node above them, and so on up to one: the tree is its levels, without a pointer.
-/// What it answers depends on the boxes only; the order decides how much work that is.
+/// Each box is in a leaf, in an order in which neighbours are near each other (BoxOrder). Eight leaves form a
+/// block, eight blocks a node above them, and so on up to one root. The tree is stored as its levels, without
+/// pointers. Results depend on the boxes only; the order decides how many boxes are tested.
 ///
-/// One thread changes it; while none does, any number may ask.
+/// One thread changes the tree. While none does, any number of threads may query it.
 class BoxTree {
  public:
-  /// Makes a new order for all boxes; box i is place i.
+  /// Builds the tree for new boxes with a new order. Box i belongs to slot i.
   void build(std::span<const Box> boxes, TaskPool& tasks);
-  /// Gives every place a new box; the order stays.
+  /// Replaces the box of every slot and keeps the order.
   void move_all(std::span<const Box> boxes, TaskPool& tasks);
-  void move(std::uint32_t place, const Box& box);
-  /// A new place, the next after the highest, in a slot behind all others.
+  void move(std::uint32_t slot, const Box& box);
+  /// Adds a box for a new slot, the next after the highest, in a leaf behind all others.
   void add(const Box& box);
-  /// Renames all places: place i is to be `new_places[i]`, or is gone where that is no_place. Those that stay
-  /// are numbered from 0 in the order they had.
-  void rename(std::span<const std::uint32_t> new_places);
+  /// Renumbers all slots: slot i becomes `new_slots[i]`, or is removed where that is no_slot. The remaining
+  /// slots are numbered from 0 and keep their order.
+  void rename(std::span<const std::uint32_t> new_slots);
 
-  /// Appends every place whose box meets `box`. Returns the number of boxes tested.
+  /// Appends every slot whose box overlaps or touches `box`. Returns the number of boxes tested.
   std::uint64_t find(const Box& box, std::vector<std::uint32_t>& found) const;
-  /// Appends every pair of places whose boxes meet, of which the one in the lower slot is in a block of
-  /// [first, last). Returns the number of boxes tested.
+  /// Appends every pair of slots whose boxes overlap or touch and whose lower leaf is in a block of [first,
+  /// last). Returns the number of boxes tested.
   std::uint64_t find_pairs(std::uint32_t first_block, std::uint32_t last_block,
-                           std::vector<PlacePair>& found) const;
+                           std::vector<SlotPair>& found) const;
 
   [[nodiscard]] std::uint32_t block_count() const {
-    return static_cast<std::uint32_t>(place_of_.size()) / width;
+    return static_cast<std::uint32_t>(slot_of_.size()) / width;
   }
-  /// Slots, of which some are empty.
-  [[nodiscard]] std::size_t slot_count() const { return place_of_.size(); }
-  /// Slots that `add` gave since the last `build`.
-  [[nodiscard]] std::size_t unordered_count() const { return place_of_.size() - ordered_; }
-  /// Blocks that are more than twice as large as when they were ordered.
+  /// The number of leaves, empty ones included.
+  [[nodiscard]] std::size_t leaf_count() const { return slot_of_.size(); }
+  /// How many leaves `add` has created since the last `build`.
+  [[nodiscard]] std::size_t unordered_count() const { return slot_of_.size() - ordered_; }
+  /// How many blocks have a longest side of more than twice that at the last `build`.
   [[nodiscard]] std::size_t widened_blocks() const;
-  /// Makes room for so many boxes and slots.
-  void reserve(std::size_t boxes, std::size_t slots);
+  /// Reserves memory for that many boxes and leaves.
+  void reserve(std::size_t boxes, std::size_t leaves);
   [[nodiscard]] std::size_t byte_count() const;
 
-  /// Throws std::logic_error where a place is not in one slot with its box, or a node does not contain its
-  /// children. Without GRAZE_VALIDATE it is empty.
+  /// Throws std::logic_error if a slot is not in exactly one leaf with its box, or if a node does not contain
+  /// its children. Does nothing without GRAZE_VALIDATE.
   void validate(std::span<const Box> boxes) const;
 
  private:
   static constexpr std::uint32_t width = BoxOrder::block;
-  /// Levels above the slots are at most this many: 8^11 is more than there are slots.
+  /// The largest number of levels above the leaves: 8^11 is more than there can be leaves.
   static constexpr std::size_t most_levels = 12;
 
-  /// A box as (min, -max), finite, so that each number of one at most its partner of another's Reach means
-  /// that they meet, and the smaller numbers of two are the box of both. Infinite numbers are no box.
+  /// A box as (min, -max) with finite numbers. Two boxes meet when each number of one is at most the matching
+  /// number of the other's Reach. The box of both has the smaller of each two numbers. Infinite numbers mean
+  /// an empty box.
   using Limits = std::array<double, 6>;
   using Reach = std::array<double, 6>;  ///< (max, -min)
   static const Limits no_box;
@@ -81,18 +82,18 @@ class BoxTree {
   void refit_node(std::uint32_t level, std::uint32_t index);
   void refit_all(TaskPool& tasks);
   [[nodiscard]] double side_of_block(std::size_t block) const;
-  void put(std::uint32_t slot, const Box& box);
-  std::uint64_t find_pairs_of(std::uint32_t block, std::uint32_t other, std::vector<PlacePair>& found) const;
-  std::uint64_t find_pairs_of(std::uint32_t block, std::vector<PlacePair>& found) const;
+  void put(std::uint32_t leaf, const Box& box);
+  std::uint64_t find_pairs_of(std::uint32_t block, std::uint32_t other, std::vector<SlotPair>& found) const;
+  std::uint64_t find_pairs_of(std::uint32_t block, std::vector<SlotPair>& found) const;
 
   BoxOrder order_;
-  std::vector<std::vector<Limits>> levels_;  ///< of the slots, of the blocks, …, of one root
+  std::vector<std::vector<Limits>> levels_;  ///< of the leaves, of the blocks, …, of one root
   std::size_t level_count_ = 0;
-  std::vector<std::uint32_t> place_of_;  ///< by slot
-  std::vector<std::uint32_t> slot_of_;   ///< by place
-  std::uint32_t end_ = 0;                ///< slots from here on are empty
-  std::size_t ordered_ = 0;              ///< slots that the last build gave
-  std::vector<double> ordered_sides_;    ///< the blocks' longest sides then
+  std::vector<std::uint32_t> slot_of_;  ///< by leaf
+  std::vector<std::uint32_t> leaf_of_;  ///< by slot
+  std::uint32_t end_ = 0;               ///< all leaves from this one on are empty
+  std::size_t ordered_ = 0;             ///< the number of leaves at the last build
+  std::vector<double> ordered_sides_;   ///< the longest side of each block at the last build
 };
 
 }  // namespace graze

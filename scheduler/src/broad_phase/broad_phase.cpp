@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-// Work done at a time. How it is cut depends on the work alone, never on the number of threads.
+// Sizes of slices of work. They never depend on the number of threads.
 constexpr std::size_t objects_of_slice = 2048;
 constexpr std::uint32_t blocks_of_slice = 64;
 constexpr std::size_t queries_of_slice = 128;
@@ -17,20 +17,20 @@ constexpr std::size_t slices_of(std::size_t count, std::size_t slice) {
   return (count + slice - 1) / slice;
 }
 
-/// An object that moves steadily stays in its loose box for about so many steps.
+/// The slack of a loose box in steps of steady motion, within the bounds below.
 constexpr double steps_of_slack = 4;
-/// Bounds of the room to move, in parts of the box's longest side.
+/// The bounds of the slack, in parts of the longest side of the box.
 constexpr double least_slack = 1.0 / 32;
 constexpr double most_slack = 1.0 / 12;
 
-/// When objects have left their loose boxes that are more than this part of all, all pairs are found anew.
+/// If more than 1 in this many objects have left their loose boxes, all pairs are found anew.
 constexpr std::size_t few = 8;
 
-/// Making a new order takes about as long as this many tests for each object.
+/// A new order takes about as long as this many tests for each object.
 constexpr double tests_of_ordering = 64;
 
-/// A tree with more slots wants a new order.
-constexpr std::size_t most_slots(std::size_t objects) {
+/// A tree with more leaves than this gets a new order.
+constexpr std::size_t most_leaves(std::size_t objects) {
   return 2 * objects + 64;
 }
 
@@ -42,7 +42,8 @@ double longest_side(const Box& box) {
   return (box.max - box.min).maxCoeff();
 }
 
-/// Loose boxes are around `needed`, with room for the motion to go on; for a jump that says nothing.
+/// Grows `needed` by the slack. A large motion counts as a jump, which predicts nothing, and gives the least
+/// slack.
 Box loosened(const Box& needed, double motion) {
   const double side = longest_side(needed);
   const bool is_steady = motion <= most_slack * side;
@@ -51,7 +52,7 @@ Box loosened(const Box& needed, double motion) {
   return grown(needed, room);
 }
 
-/// Whether a loose box has become too loose: the object has shrunk, or its reach.
+/// Whether a loose box is too loose because the object or its reach has shrunk.
 bool is_too_loose(const Box& loose, const Box& needed) {
   const double side = longest_side(needed);
   const Box most = grown(needed, side);
@@ -60,12 +61,12 @@ bool is_too_loose(const Box& loose, const Box& needed) {
 
 }  // namespace
 
-std::span<const PlacePair> BroadPhase::find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
-                                            TaskPool& tasks) {
+std::span<const SlotPair> BroadPhase::find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
+                                           TaskPool& tasks) {
   counters_ = {};
   reaches_changed_ = half_reaches != half_reaches_;
   half_reaches_ = half_reaches;
-  follow(summaries);
+  update_slots(summaries);
   loosen(summaries, tasks);
   if (!left_.empty()) {
     if (left_.size() > loose_.size() / few || wants_new_order())
@@ -78,27 +79,27 @@ std::span<const PlacePair> BroadPhase::find(const ObjectSummaries& summaries, co
   return pairs_;
 }
 
-/// Takes objects out that are gone, and puts new ones in, which have no loose box yet.
-void BroadPhase::follow(const ObjectSummaries& summaries) {
-  const auto moves = summaries.moves();
-  if (!moves.empty()) {
-    tree_.rename(moves);
+/// Removes objects that are gone and adds new ones, which have no loose box yet.
+void BroadPhase::update_slots(const ObjectSummaries& summaries) {
+  const auto new_slots = summaries.new_slots();
+  if (!new_slots.empty()) {
+    tree_.rename(new_slots);
     std::size_t count = 0;
-    for (std::size_t place = 0; place < moves.size(); ++place)
-      if (moves[place] != no_place) loose_[count++] = loose_[place];
+    for (std::size_t slot = 0; slot < new_slots.size(); ++slot)
+      if (new_slots[slot] != no_slot) loose_[count++] = loose_[slot];
     loose_.resize(count);
     std::size_t kept = 0;
-    for (const PlacePair pair : pairs_)
-      if (const PlacePair moved = moved_pair(pair, moves); moved != no_pair) pairs_[kept++] = moved;
+    for (const SlotPair pair : pairs_)
+      if (const SlotPair moved = remapped_pair(pair, new_slots); moved != no_pair) pairs_[kept++] = moved;
     pairs_.resize(kept);
   }
-  for (std::size_t place = loose_.size(); place < summaries.all().size(); ++place) {
+  for (std::size_t slot = loose_.size(); slot < summaries.all().size(); ++slot) {
     loose_.emplace_back();
     tree_.add({});
   }
 }
 
-/// Gives those that have left their loose boxes new ones, and lists them.
+/// Gives every object that has left its loose box a new one, and lists these objects in `left_`.
 void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
   const std::size_t count = loose_.size();
   const std::size_t slices = slices_of(count, objects_of_slice);
@@ -108,12 +109,12 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
   const auto loosen_slice = [&](unsigned, std::size_t slice) {
     const std::size_t begin = slice * objects_of_slice;
     SliceObjects objects;
-    for (std::size_t place = begin; place < std::min(begin + objects_of_slice, count); ++place) {
-      const ObjectSummary& summary = summaries.all()[place];
-      const bool has_left = leaves(summary, loose_[place]);
-      has_left_[place] = has_left ? 1 : 0;
+    for (std::size_t slot = begin; slot < std::min(begin + objects_of_slice, count); ++slot) {
+      const ObjectSummary& summary = summaries.all()[slot];
+      const bool has_left = renew_if_left(summary, loose_[slot]);
+      has_left_[slot] = has_left ? 1 : 0;
       if (has_left)
-        left_[begin + objects.left++] = static_cast<std::uint32_t>(place);
+        left_[begin + objects.left++] = static_cast<std::uint32_t>(slot);
       else if (summary.moved)
         ++objects.in_slack;
     }
@@ -130,8 +131,8 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
   left_.resize(end);
 }
 
-/// Whether an object has left its loose box, which is then a new one.
-bool BroadPhase::leaves(const ObjectSummary& summary, Box& loose) const {
+/// Returns whether an object has left its loose box, and then replaces that box.
+bool BroadPhase::renew_if_left(const ObjectSummary& summary, Box& loose) const {
   const bool is_new = loose.empty();
   if (!summary.moved && !is_new && !reaches_changed_) return false;
   const Box needed = grown(summary.box, half_reaches_[summary.kind] + summary.margin);
@@ -142,7 +143,7 @@ bool BroadPhase::leaves(const ObjectSummary& summary, Box& loose) const {
 
 bool BroadPhase::wants_new_order() const {
   const std::size_t count = loose_.size();
-  return tree_.slot_count() > most_slots(count) || tree_.unordered_count() > count / few + 64 ||
+  return tree_.leaf_count() > most_leaves(count) || tree_.unordered_count() > count / few + 64 ||
          excess_tests_ > tests_of_ordering * static_cast<double>(count);
 }
 
@@ -187,32 +188,32 @@ std::uint64_t BroadPhase::sum_tests() {
   return tested;
 }
 
-/// Puts what the slices found into `pairs_`: by first object, then each object's row by itself.
+/// Collects the pairs of all slices in `pairs_`, sorted by first object and then by second.
 void BroadPhase::sort_rows(TaskPool& tasks) {
   const auto slices = std::span<const Slice>(slices_).first(slice_count_);
   const std::size_t objects = loose_.size();
   rows_.assign(objects + 1, 0);
   for (const Slice& slice : slices)
-    for (const PlacePair pair : slice.pairs) ++rows_[first_of(pair) + std::size_t{1}];
-  for (std::size_t place = 0; place < objects; ++place) rows_[place + 1] += rows_[place];
+    for (const SlotPair pair : slice.pairs) ++rows_[first_of(pair) + std::size_t{1}];
+  for (std::size_t slot = 0; slot < objects; ++slot) rows_[slot + 1] += rows_[slot];
   pairs_.resize(rows_[objects]);
   for (const Slice& slice : slices)
-    for (const PlacePair pair : slice.pairs) pairs_[rows_[first_of(pair)]++] = pair;
-  // Now rows_[i] is where row i ends.
+    for (const SlotPair pair : slice.pairs) pairs_[rows_[first_of(pair)]++] = pair;
+  // From here on rows_[i] is the end of row i.
   const auto sort_slice = [&](unsigned, std::size_t index) {
     const std::size_t begin = index * objects_of_slice;
     const std::size_t end = std::min(begin + objects_of_slice, objects);
-    for (std::size_t place = begin; place < end; ++place) {
-      const auto from = static_cast<std::ptrdiff_t>(place == 0 ? 0 : rows_[place - 1]);
-      std::sort(pairs_.begin() + from, pairs_.begin() + static_cast<std::ptrdiff_t>(rows_[place]));
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const auto from = static_cast<std::ptrdiff_t>(slot == 0 ? 0 : rows_[slot - 1]);
+      std::sort(pairs_.begin() + from, pairs_.begin() + static_cast<std::ptrdiff_t>(rows_[slot]));
     }
   };
   tasks.run(slices_of(objects, objects_of_slice), std::ref(sort_slice));
 }
 
-/// Finds the pairs of those few that have left their loose boxes; of the other pairs none has come or gone.
+/// Finds the pairs of the few objects that have left their loose boxes. No other pair can have come or gone.
 void BroadPhase::find_left(TaskPool& tasks) {
-  for (const std::uint32_t place : left_) tree_.move(place, loose_[place]);
+  for (const std::uint32_t slot : left_) tree_.move(slot, loose_[slot]);
   const auto slices = begin_slices(slices_of(left_.size(), queries_of_slice));
   const auto find_slice = [&](unsigned, std::size_t index) {
     Slice& slice = slices[index];
@@ -226,17 +227,17 @@ void BroadPhase::find_left(TaskPool& tasks) {
       std::max(0.0, static_cast<double>(sum_tests()) - expected * static_cast<double>(left_.size()));
 }
 
-void BroadPhase::find_one(std::uint32_t place, Slice& slice) const {
+void BroadPhase::find_one(std::uint32_t slot, Slice& slice) const {
   slice.found.clear();
-  slice.boxes_tested += tree_.find(loose_[place], slice.found);
+  slice.boxes_tested += tree_.find(loose_[slot], slice.found);
   for (const std::uint32_t other : slice.found) {
-    // Of two that have left, the lower finds the pair.
-    if (other == place || (has_left_[other] != 0 && other < place)) continue;
-    slice.pairs.push_back(pair_of(place, other));
+    // If both objects have left their loose boxes, the one in the lower slot finds the pair.
+    if (other == slot || (has_left_[other] != 0 && other < slot)) continue;
+    slice.pairs.push_back(pair_of(slot, other));
   }
 }
 
-/// Replaces the pairs of those that have left.
+/// Replaces the pairs of the objects that have left their loose boxes.
 void BroadPhase::merge() {
   new_pairs_.clear();
   for (const Slice& slice : std::span(slices_).first(slice_count_))
@@ -244,7 +245,7 @@ void BroadPhase::merge() {
   std::sort(new_pairs_.begin(), new_pairs_.end());
   merged_.clear();
   auto next = new_pairs_.begin();
-  for (const PlacePair pair : pairs_) {
+  for (const SlotPair pair : pairs_) {
     if (has_left_[first_of(pair)] != 0 || has_left_[second_of(pair)] != 0) continue;
     for (; next != new_pairs_.end() && *next < pair; ++next) merged_.push_back(*next);
     merged_.push_back(pair);
@@ -255,9 +256,9 @@ void BroadPhase::merge() {
 
 void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
   constexpr std::size_t most_of_each_slice = 4096;
-  const std::size_t slots = most_slots(objects);
+  const std::size_t leaves = most_leaves(objects);
   loose_.reserve(objects);
-  tree_.reserve(objects, slots);
+  tree_.reserve(objects, leaves);
   left_.reserve(objects);
   has_left_.reserve(objects);
   slice_objects_.reserve(slices_of(objects, objects_of_slice));
@@ -266,7 +267,7 @@ void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
   new_pairs_.reserve(pairs);
   merged_.reserve(pairs);
   pairs_of_each_slice_ = std::max(pairs_of_each_slice_, std::min(pairs, most_of_each_slice));
-  const std::size_t slices = slices_of(slots, std::size_t{BoxOrder::block} * blocks_of_slice);
+  const std::size_t slices = slices_of(leaves, std::size_t{BoxOrder::block} * blocks_of_slice);
   if (slices_.size() < slices) slices_.resize(slices);
   for (Slice& slice : slices_) reserve(slice);
 }

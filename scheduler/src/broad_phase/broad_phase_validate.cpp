@@ -8,7 +8,7 @@ namespace graze {
 #ifdef GRAZE_VALIDATE
 namespace {
 
-/// More objects than this are not looked at pair by pair.
+/// The pairs are compared one by one only up to this many objects.
 constexpr std::size_t most_objects = 200;
 
 void require(bool holds, const char* what, std::size_t index) {
@@ -27,12 +27,12 @@ bool meet(const Box& a, const Box& b) {
 }  // namespace
 
 void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& half_reaches,
-              std::span<const Box> loose, std::span<const PlacePair> pairs) {
+              std::span<const Box> loose, std::span<const SlotPair> pairs) {
   require(summaries.all().size() == loose.size(), "not every object has a loose box", loose.size());
-  for (std::size_t place = 0; place < loose.size(); ++place) {
-    const ObjectSummary& summary = summaries.all()[place];
-    require(contains(loose[place], grown(summary.box, half_reaches[summary.kind] + summary.margin)),
-            "a loose box does not contain its object", place);
+  for (std::size_t slot = 0; slot < loose.size(); ++slot) {
+    const ObjectSummary& summary = summaries.all()[slot];
+    require(contains(loose[slot], grown(summary.box, half_reaches[summary.kind] + summary.margin)),
+            "a loose box does not contain its object", slot);
   }
   for (std::size_t i = 1; i < pairs.size(); ++i) require(pairs[i - 1] < pairs[i], "pairs do not ascend", i);
   if (loose.size() > most_objects) return;
@@ -48,7 +48,7 @@ void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& h
 }
 #else
 void validate(const ObjectSummaries&, const BroadPhase::HalfReaches&, std::span<const Box>,
-              std::span<const PlacePair>) {}
+              std::span<const SlotPair>) {}
 #endif
 
 }  // namespace graze

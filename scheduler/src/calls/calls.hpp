@@ -15,7 +15,7 @@
 
 namespace graze {
 
-// The calls on a scene, as they wait for the next step. All were found good when they were made.
+// The calls on a scene that wait for the next step. All were valid when they were made.
 
 struct AddObject {
   ObjectId object;
@@ -29,7 +29,7 @@ struct SetPose {
   ObjectId object;
   std::array<double, 12> rows;
 };
-/// A pose that is none. The object's pairs are stale until a good one comes.
+/// A refused pose. The object's pairs are stale until a good pose comes.
 struct RefusePose {
   Diagnostic problem;  ///< names the object
 };
@@ -70,7 +70,7 @@ struct Reserve {
   SceneCapacity capacity;
 };
 
-/// The first holds nothing: it is what a call leaves when it was taken up.
+/// Any call. An applied call is replaced by an empty RemoveObject, which holds no memory.
 using Call = std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions,
                           UnbindPositions, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
 

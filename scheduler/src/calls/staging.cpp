@@ -29,7 +29,7 @@ void add_stale(CallQueue::Chain& calls, ObjectId object, const char* what) {
                   std::to_string(object.generation) + " names no object of this scene");
 }
 
-/// Whether a view can be the positions of an object; a diagnostic where not.
+/// Returns whether a view can be the positions of an object, and adds a diagnostic if not.
 bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const PositionView& view,
                 const char* what) {
   const auto problem = [&](DiagnosticKind kind, const std::string& got) {
@@ -48,7 +48,7 @@ bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& nam
   return true;
 }
 
-/// What one pass copies and a second one looks at while it is still in a cache.
+/// The number of vertices that one pass copies and a second pass reads while they are in a cache.
 constexpr std::uint32_t vertices_each = 1024;
 
 /// Copies the positions that faces use from `begin` to `end`.
@@ -125,7 +125,7 @@ Diagnostic Staging::lost_call(ObjectId object) {
 
 void Staging::step_failed() noexcept {
   const std::lock_guard lock(bindings_);
-  ids_.give_lost_back();
+  ids_.return_lost();
   if (failed_ + 1 != steps_) failed_after_ = steps_ - 1;
   failed_ = steps_;
 }
@@ -141,15 +141,15 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   if (const auto problem = problem_of(settings)) throw Error(*problem);
   const FloatingPointScope scope;
   AddObject call{{}, std::make_unique<Surface>(mesh), settings};
-  const ObjectId object = call.object = ids_.give(std::move(mesh), settings);
+  const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
   try {
     calls.add(std::move(call));
   } catch (...) {
-    ids_.take_back(object);
+    ids_.cancel(object);
     throw;
   }
-  // The id becomes good when the object's addition is queued, so that nothing said of it comes before.
+  // The id becomes valid once the object's addition is queued, so that no call about it comes before.
   calls.push();
   ids_.publish(object);
   return object;
@@ -161,11 +161,13 @@ void Staging::remove(ObjectId object) {
   if (!pinned || !ids_.remove(object))
     return make_or_lose(object, LostCalls::any, [&] { add_stale(calls, object, "remove"); });
   end_binding(*pinned);
-  // Queued while pinned, and so before the index is given again: the removal comes before its next addition.
+  // The removal is queued while the object is pinned, so before the index is allocated again. So it comes
+  // before the next addition with this index.
   try {
     calls.add(RemoveObject{object});
   } catch (...) {
-    const std::lock_guard lock(bindings_);  // so that a step which takes this has taken the addition
+    const std::lock_guard lock(
+        bindings_);  // so that a step that collects this loss has collected the addition
     ids_.lose(object.index, LostCalls::removal);
     pinned.keep();
   }
@@ -347,7 +349,7 @@ void Staging::positions_changed(std::span<const ObjectId> objects,
   for (std::size_t i = 0; i < objects.size(); ++i) try_change(calls, objects[i], max_displacements[i]);
 }
 
-/// Where there is no memory for it, the positions are read all the same.
+/// Adds the call. If there is no memory for it, the next step reads the positions without a promise.
 void Staging::try_change(Calls& calls, ObjectId object, double max_displacement) noexcept {
   make_or_lose(object, LostCalls::any | LostCalls::motion, [&] {
     if (check_deformable(calls, object, "positions_changed"))
@@ -410,7 +412,7 @@ bool Staging::check_deformable(Calls& calls, ObjectId object, const char* what) 
 }
 
 double Staging::promise_of(Calls& calls, ObjectId object, double max_displacement, const char* what) {
-  // A quiet comparison: NaN must not trap where the caller has traps enabled.
+  // This comparison is quiet, since NaN must not trap if the caller has enabled traps.
   if (std::isgreaterequal(max_displacement, 0.0)) return max_displacement;
   add_problem(calls, object, DiagnosticKind::broken_promise,
               std::string(what) + ": " + name(object) +

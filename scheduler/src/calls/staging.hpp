@@ -22,25 +22,25 @@
 
 namespace graze {
 
-/// Takes the calls on a scene from any thread and keeps them, in the order in which they were made, until a
-/// step takes them up. Ids are given and checked here, so an id is good or stale at the moment of the call.
-/// Nobody waits for another thread, but those that bind, unbind, or end the binding of an object in another
-/// way: they do so one after the other, so that what is bound is known when it is copied.
+/// Queues the calls on a scene from any thread, in the order in which they were made, until a step collects
+/// them. Ids are checked here, so an id is valid or stale at the moment of the call. No call waits for
+/// another thread, except calls that bind, unbind, or otherwise end a binding. These run one after the other,
+/// so that the binding is known when its memory is copied.
 ///
-/// The forms for many objects mean the same as single calls in the order of the spans, of which no other
-/// thread's calls come in between; spans that do not fit together are a diagnostic and nothing is taken.
+/// The forms for many objects mean single calls in the order of the spans, with no other thread's calls in
+/// between. Spans that do not fit together give a diagnostic, and no call is made.
 ///
-/// Only `add` and `reserve` throw. Where there is no memory for another call, a bit is set that takes none
-/// (LostCalls), and the next step says so. Nothing is read through a binding that such a call was to end.
+/// Only `add` and `reserve` throw. If there is no memory for another call, a bit is set that needs none
+/// (LostCalls), and the next step reports it. No binding that such a call was to end is read any more.
 class Staging {
  public:
-  /// Throws Error for no mesh or bad settings, and std::bad_alloc; nothing has changed then.
+  /// Throws Error for a missing mesh or bad settings, and std::bad_alloc. Nothing has changed then.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
   void remove(ObjectId object);
   void set_pose(ObjectId object, const std::array<double, 12>& rows);
-  /// With the last row of the matrix.
+  /// Sets a pose by all four rows of its matrix.
   void set_pose(ObjectId object, const std::array<double, 16>& rows);
-  /// 16 numbers for each object: a 4x4 matrix, column by column.
+  /// Sets poses by 16 numbers for each object: a 4x4 matrix in column-major order.
   void set_poses(std::span<const ObjectId> objects, std::span<const double> matrices);
   void set_positions(ObjectId object, const PositionView& positions, double max_displacement);
   void set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
@@ -56,43 +56,45 @@ class Staging {
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
   void reserve(const SceneCapacity& capacity);
 
-  /// What an id names now; empty where it names nothing.
+  /// Pins the object that an id names; the pin is empty if it names none.
   [[nodiscard]] ObjectIds::Pin find(ObjectId object) { return ids_.pin(object); }
   [[nodiscard]] bool contains(ObjectId object) const {
     return ids_.standing(object) != ObjectIds::Standing::stale;
   }
   [[nodiscard]] std::size_t object_count() const { return ids_.count(); }
-  /// Of what is told of objects, copies of positions, and waiting calls.
+  /// The bytes of the ids' data, of copied positions and of waiting calls.
   [[nodiscard]] std::size_t byte_count() const noexcept { return ids_.byte_count() + queue_.byte_count(); }
 
-  /// Takes the calls made so far out of the queue, for a step. Stepping thread only.
-  void take() {
+  /// Collects the calls made so far for a step. Stepping thread only.
+  void collect() {
     const std::lock_guard lock(bindings_);
-    queue_.take();
-    ids_.take_lost();
+    queue_.collect();
+    ids_.collect_lost();
     ++steps_;
   }
-  /// The step that took calls last came to no end. The next one takes up those that it has not visited.
+  /// Notes that the last step failed. The next one applies the calls that it has not visited.
   void step_failed() noexcept;
-  /// Calls `visit` with each call taken and not yet visited, in their order. Where a visit throws, that call
-  /// is the first of the next time. Stepping thread only.
+  /// Calls `visit` with each collected call in order. If a visit throws, the next time begins with that call.
+  /// Stepping thread only.
   template <typename Visitor>
-  void visit_taken(const Visitor& visit) {
-    queue_.visit_taken([&](auto& call) {
-      // The thread that adds may not have come so far yet; a report that names the object may not go ahead.
+  void visit_collected(const Visitor& visit) {
+    queue_.visit_collected([&](auto& call) {
+      // The adding thread may not have published the id yet. A report must not name an object before its id
+      // is valid.
       if constexpr (std::is_same_v<decltype(call), AddObject&>) ids_.publish(call.object);
       visit(call);
     });
     ids_.visit_lost([&](ObjectId object, std::uint8_t& lost) { visit_lost(visit, object, lost); });
-    if (unnamed_lost_.load(std::memory_order_relaxed) && unnamed_lost_.exchange(false)) unnamed_taken_ = true;
-    if (unnamed_taken_) visit_made(visit, lost_call({}));
-    unnamed_taken_ = false;
+    if (unnamed_lost_.load(std::memory_order_relaxed) && unnamed_lost_.exchange(false))
+      unnamed_collected_ = true;
+    if (unnamed_collected_) visit_made(visit, lost_call({}));
+    unnamed_collected_ = false;
   }
 
  private:
   using Calls = CallQueue::Chain;
 
-  /// Visits what stands for lost calls about an object, and clears their bits.
+  /// Visits replacements for the lost calls about an object, and clears their bits.
   template <typename Visitor>
   void visit_lost(const Visitor& visit, ObjectId object, std::uint8_t& lost) {
     const auto visit_one = [&](std::uint8_t bit, const auto& make) {
@@ -110,31 +112,32 @@ class Staging {
   static void visit_made(const Visitor& visit, OneCall call) {
     visit(call);
   }
-  /// A binding that ended without a copy of what was bound.
+  /// The end of a binding whose memory could not be copied.
   [[nodiscard]] static UnbindPositions lost_binding(ObjectId object) {
     UnbindPositions call;
     call.object = object;
     call.is_lost = true;
     return call;
   }
-  /// Says that a call about an object, or about none, was lost.
+  /// A diagnostic that says that a call about an object, or about none, was lost.
   [[nodiscard]] Diagnostic lost_call(ObjectId object);
-  /// Does `make`, or notes what is lost where there is no memory for it.
+  /// Calls `make`, or notes the lost call if there is no memory for it.
   template <typename Make>
   void make_or_lose(ObjectId object, std::uint8_t lost, const Make& make) noexcept;
   void lose(ObjectId object, std::uint8_t lost) noexcept;
-  /// The same of a call that ends the binding of an object: nothing is read through it any more.
+  /// Notes the loss of a call that ends an object's binding. The bound memory is not read any more.
   void lose_binding(ObjectId object) noexcept;
   [[nodiscard]] bool has_step_read(const Binding& binding) const;
 
-  // Each checks one call and adds it, or a diagnostic in its place, to `calls`; those that try note what is
-  // lost where there is no memory for that.
+  // Each of these checks one call and adds it, or a diagnostic instead, to `calls`. The `try_` forms note a
+  // lost call if there is no memory.
   void add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows,
                 const std::array<double, 4>& last_row = {0, 0, 0, 1});
   void add_positions(Calls& calls, ObjectId object, const PositionView& positions, double max_displacement);
   void try_positions(Calls& calls, ObjectId object, const PositionView& positions,
                      double max_displacement) noexcept;
-  /// A copy of positions and their box; none, and a diagnostic, where one is not finite or beyond 2^120.
+  /// Copies positions and computes their box. Returns null and a diagnostic if a coordinate is not finite or
+  /// beyond 2^120.
   SparePositions::Loan copy_good(ObjectId object, NamedObject& named, const PositionView& view,
                                  const char* consequence, Box& box, std::optional<Diagnostic>& problem);
   void add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy);
@@ -143,29 +146,31 @@ class Staging {
   void try_change(Calls& calls, ObjectId object, double max_displacement) noexcept;
   void add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored);
 
-  /// Whether there are as many `things` as objects; a diagnostic where not.
+  /// Returns whether there are as many `things` as objects, and adds a diagnostic if not.
   bool check_sizes(Calls& calls, std::size_t objects, std::size_t things, const char* what,
                    const char* name_of_things) noexcept;
-  /// Whether an id names a deformable object; a diagnostic where not. `what` is the call's name.
+  /// Returns whether an id names a deformable object, and adds a diagnostic if not. `what` is the call's
+  /// name.
   bool check_deformable(Calls& calls, ObjectId object, const char* what);
-  /// `max_displacement`, or no promise and a diagnostic where it is none.
+  /// Returns `max_displacement`. If it is negative or NaN, adds a diagnostic and returns infinity, which
+  /// promises nothing.
   double promise_of(Calls& calls, ObjectId object, double max_displacement, const char* what);
-  /// Nobody reads the memory that an object was bound to when this returns, or will.
+  /// Ends an object's binding. No thread reads the bound memory after this returns.
   void end_binding(NamedObject& object);
-  /// How a message names an object that is there or was a moment ago.
+  /// The name in messages of an object that exists or existed a moment ago.
   std::string name(ObjectId object);
 
-  // The queue goes first: its calls give their buffers back to the ids' places.
+  // The queue is destroyed first, since its calls return their buffers to the ids' slots.
   ObjectIds ids_;
   CallQueue queue_;
-  /// Held until the calls that bind or unbind have entered the queue, and while calls are taken out of it.
+  /// Held until calls that bind or unbind have entered the queue, and while calls are collected.
   std::mutex bindings_;
-  std::uint64_t steps_ = 0;  ///< that have taken calls
-  // Of the last steps, those after `failed_after_` up to `failed_` came to no end.
+  std::uint64_t steps_ = 0;  ///< the number of steps that have collected calls
+  // The last failed steps are those after `failed_after_` up to `failed_`.
   std::uint64_t failed_after_ = 0;
   std::uint64_t failed_ = 0;
-  std::atomic<bool> unnamed_lost_{false};  ///< calls about no object
-  bool unnamed_taken_ = false;             ///< and for the step at hand: the stepping thread's
+  std::atomic<bool> unnamed_lost_{false};  ///< calls about no object were lost
+  bool unnamed_collected_ = false;  ///< the same for the current step; only the stepping thread uses it
 };
 
 }  // namespace graze

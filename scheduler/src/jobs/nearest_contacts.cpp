@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-/// So many more than are kept are gathered at least before the nearest of them are chosen.
+/// The least number of contacts beyond the limit that are gathered before the nearest are selected.
 constexpr std::size_t least_to_spare = 1024;
 
 auto features_of(const Contact& contact) {
@@ -50,7 +50,7 @@ void NearestContacts::keep_nearest() {
     return jobs_[left] != jobs_[right] ? jobs_[left] < jobs_[right] : features_of(a) < features_of(b);
   });
   limit_ = contacts_[*(end - 1)].distance;
-  // In the order in which they were: so a job's stay together, and sorted.
+  // The order in which they were added is restored: the contacts of a job stay adjacent and sorted.
   std::sort(order_.begin(), end);
   for (std::size_t i = 0; i < most_; ++i) {
     contacts_[i] = contacts_[order_[i]];

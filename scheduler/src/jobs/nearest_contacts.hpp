@@ -10,17 +10,18 @@
 
 namespace graze {
 
-/// The nearest of the contacts of all jobs of a step, so many at most: by (distance, job, kind and features).
-/// What is kept does not depend on the order in which jobs are answered. One that is further than as many
-/// others as are kept stays out whatever comes later.
+/// Keeps the nearest contacts of all jobs of a step, up to a limit, ordered by (distance, job, kind and
+/// features). What it keeps does not depend on the order in which jobs are answered. A contact is left out
+/// once as many nearer ones as the limit have been added.
 class NearestContacts {
  public:
-  /// Forgets all. Of the next at most so many are kept; none is taken where that is 0.
+  /// Forgets all contacts and sets the limit; 0 keeps none.
   void begin(std::size_t most);
-  /// Takes a copy of a job's contacts, sorted by their features. Any number of threads at once.
+  /// Adds copies of a job's contacts, which are sorted by their features. Any number of threads may call this
+  /// at once.
   void add(std::uint32_t job, std::span<const Contact> contacts);
-  /// When all have been added: calls `visit(job, contacts)` for each job of which some are kept, with these,
-  /// sorted as they were, until the next `begin`.
+  /// Call this when all contacts have been added. Calls `visit(job, contacts)` for each job of which contacts
+  /// are kept. These contacts are sorted by their features and stay until the next `begin`.
   template <typename Visit>
   void finish(const Visit& visit) {
     keep_nearest();
@@ -36,12 +37,12 @@ class NearestContacts {
  private:
   void keep_nearest();
 
-  std::mutex mutex_;  ///< guards all that follows while contacts are added
+  std::mutex mutex_;  ///< guards all members below while contacts are added
   std::size_t most_ = 0;
-  std::vector<Contact> contacts_;    ///< up to twice as many as are kept; those of a job follow each other
-  std::vector<std::uint32_t> jobs_;  ///< of each
+  std::vector<Contact> contacts_;    ///< the limit and the spare ones at most; those of a job are adjacent
+  std::vector<std::uint32_t> jobs_;  ///< the job of each contact
   std::vector<std::uint32_t> order_;
-  double limit_ = std::numeric_limits<double>::infinity();  ///< of the distances that may be kept
+  double limit_ = std::numeric_limits<double>::infinity();  ///< contacts at a larger distance are left out
 };
 
 }  // namespace graze

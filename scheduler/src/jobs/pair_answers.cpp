@@ -25,7 +25,7 @@ void PairAnswers::repeat_without_contacts(std::size_t job, std::size_t contacts)
   answers_[job].contacts_left_out = static_cast<std::uint32_t>(contacts);
 }
 
-void PairAnswers::take_contacts(std::size_t job, std::span<const Contact> contacts) {
+void PairAnswers::set_contacts(std::size_t job, std::span<const Contact> contacts) {
   answers_[job].contacts = contacts;
   answers_[job].contacts_left_out -= static_cast<std::uint32_t>(contacts.size());
 }
@@ -34,9 +34,9 @@ void PairAnswers::refer_to(std::size_t job, const PairAnswer& answer) {
   answers_[job] = {answer, answer.contacts, answer.region_distances};
 }
 
-void PairAnswers::even_out() {
-  contacts_.even_out();
-  region_distances_.even_out();
+void PairAnswers::grow_to_demand() {
+  contacts_.grow_to_demand();
+  region_distances_.grow_to_demand();
 }
 
 void PairAnswers::reserve(std::size_t answers, std::size_t contacts, std::size_t region_distances) {

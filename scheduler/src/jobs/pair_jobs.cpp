@@ -15,43 +15,46 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// The end of a budget that began at `start`; no deadline where the clock cannot say it.
+/// The end of a budget that began at `start`, or no deadline if the clock cannot represent it.
 std::chrono::steady_clock::time_point deadline_of(std::chrono::steady_clock::time_point start,
                                                   std::optional<std::chrono::microseconds> budget) {
-  // Compared in microseconds: a nanosecond clock overflows on the largest of them.
+  // This compares microseconds, since a clock in nanoseconds overflows for the largest budgets.
   const auto longest = std::chrono::floor<std::chrono::microseconds>(PairQuery::no_deadline - start);
   if (!budget || *budget >= longest) return PairQuery::no_deadline;
   return start + *budget;
 }
 
-// What is kept back of a time budget for what comes after the jobs (measured, with room to spare): rows and
-// contacts are written.
+// The time of a budget that is kept back for writing rows and contacts after the jobs. The numbers were
+// measured and have a safety margin.
 constexpr std::chrono::nanoseconds after_each_pair{150};
 constexpr std::chrono::nanoseconds after_each_contact{60};
 constexpr std::chrono::microseconds after_all{50};
 
-/// So much of a time budget is kept back in a step after one that had no time left to even out memory.
+/// A step keeps back 1 in this many parts of its time budget if the last step had no time left to equalize
+/// capacity.
 constexpr int part_for_room = 5;
 
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
-/// Of lists as long as these the report takes the longest as it is, and a job that is expected to have such a
-/// one finds it in the report's memory: otherwise there would be as much memory once more.
+/// The report adopts the longest list of contacts if it has at least this many. A job that is expected to
+/// find such a list writes it into the report's memory. Without this the step would need as much memory once
+/// more.
 constexpr std::size_t longest_copied = 65536;
 
-/// Lists as long as these stay where they were found: what is shorter is copied, so that it lies close by.
+/// Lists of at least this many contacts stay where they were found. Shorter lists are copied, so that they
+/// are adjacent in memory.
 constexpr std::size_t long_list = 4096;
 
-/// Pairs of leaves in the fronts of all pairs of objects together, 16 bytes each.
+/// The largest number of leaf pairs in the fronts of all pairs of objects together; each takes 16 bytes.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 
-/// What each worker makes room for when room is reserved, of one pair: so many contacts, pairs of leaves, and
-/// contacts at the least distance. SceneCapacity says so.
+/// The number of contacts, of leaf pairs and of contacts at the least distance of one pair that each worker
+/// reserves. SceneCapacity states it.
 constexpr std::size_t reserved_of_pair = 1024;
 
-/// How far two surfaces have come in this step, as far as that tells how far they will in the next: one that
-/// has not moved since the last answer may have come far before that, and so may one that had no place
-/// before.
+/// How far two surfaces moved in this step, as an estimate of the next step's motion. A surface whose version
+/// is the answered one did not move in this step, so its last displacement does not count. Neither does the
+/// first placement of a surface.
 double motion_of(const PairJob& job) {
   constexpr std::uint64_t placed_once = 1;
   const auto of = [](const Surface& surface, std::uint64_t answered) {
@@ -65,8 +68,8 @@ double smaller_leaf_of(const PairJob& job) {
   return std::min(job.a->surface().leaf_size(), job.b->surface().leaf_size());
 }
 
-/// How loose a front is made: it lasts for some steps of the last motion, but is not so loose that it lists
-/// much that is not near.
+/// The slack of a front: it lasts for some steps of the last motion, but lists few leaf pairs that are not
+/// near.
 double slack_of(double motion, double leaf) {
   constexpr double steps = 6;
   constexpr double least_leaf_sizes = 1.0 / 64;
@@ -107,7 +110,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.contact_limit =
       std::min(settings_.max_contacts.value_or(no_limit), settings_.max_contacts_per_pair.value_or(no_limit));
   if (query.contact_limit == no_limit) query.contact_limit = 0;
-  // A list of features is only of use where all of them may be contacts, and never longer than need be.
+  // A list of features only helps if all of them may become contacts. It is made no longer than necessary.
   const bool may_be_cut =
       job.last == nullptr || job.last->contacts_cut || job.last->contact_count > query.contact_limit / 2;
   if (query.contact_limit > 0 && may_be_cut) query.list_slack = 0;
@@ -131,7 +134,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
   long_jobs_.clear();
   for (std::uint32_t index = 0; index < jobs_.size(); ++index) {
     const PairJob& job = jobs_[index];
-    if (!job.is_looked_at()) continue;
+    if (!job.is_tested()) continue;
     order_.push_back(index);
     if (!settings_.max_contacts && job.last != nullptr && job.last->contact_count >= long_list &&
         !is_large(job))
@@ -165,29 +168,30 @@ void PairJobs::lend_memory(ReportBuilder& report) {
 std::vector<Contact>* PairJobs::longest_list() {
   if (settings_.max_contacts || settings_.time_budget) return nullptr;
   std::vector<Contact>* longest = nullptr;
-  const auto look_at = [&](PairAnswer& answer) {
+  const auto consider = [&](PairAnswer& answer) {
     if (answer.contacts.size() >= (longest == nullptr ? longest_copied : longest->size()))
       longest = &answer.contacts;
   };
-  for (std::size_t i = 0; i < large_answer_count_; ++i) look_at(large_answers_[i]);
-  for (std::size_t i = 0; i < long_jobs_.size(); ++i) look_at(long_answers_[i]);
+  for (std::size_t i = 0; i < large_answer_count_; ++i) consider(large_answers_[i]);
+  for (std::size_t i = 0; i < long_jobs_.size(); ++i) consider(long_answers_[i]);
   for (Worker& worker : workers_)
-    for (PairAnswer& answer : worker.too_long) look_at(answer);
+    for (PairAnswer& answer : worker.too_long) consider(answer);
   return longest;
 }
 
-/// Which of all contacts are kept. Those of jobs that are not looked at have been found before. A pair that
-/// does not keep all of its own is to be looked at again, though it may not move: others may have less then.
+/// Selects the nearest contacts of all jobs. The contacts of jobs that did not test their pairs come from the
+/// last report. A pair that loses contacts is tested again in the next step even if it rests, since other
+/// pairs may then have fewer.
 void PairJobs::share_contacts(const FrameReport& previous) {
   for (std::uint32_t index = 0; index < jobs_.size(); ++index) {
     const PairJob& job = jobs_[index];
-    if (job.is_looked_at()) continue;
+    if (job.is_tested()) continue;
     const auto contacts = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
     answers_.repeat_without_contacts(index, contacts.size());
     nearest_.add(index, contacts);
   }
   nearest_.finish([&](std::uint32_t index, std::span<const Contact> contacts) {
-    answers_.take_contacts(index, contacts);
+    answers_.set_contacts(index, contacts);
   });
   for (std::uint32_t index = 0; index < jobs_.size(); ++index)
     if (answers_[index].contacts_left_out > 0) jobs_[index].memory->version_a = 0;
@@ -198,10 +202,11 @@ bool PairJobs::is_large(const PairJob& job) {
          LargePair::least_vertex_count;
 }
 
-/// Small pairs in batches and the begin of the large ones side by side, then the slices of the large ones.
+/// Runs the small pairs in batches while the large ones begin, then runs the slices of the large ones.
 ///
 /// A task writes the answers, fronts and memories of its own jobs, and the detector and counters of its own
-/// worker; a slice writes its own place in its pair. Surfaces are only read. AccessScope holds them to it.
+/// worker. A slice writes its own part of its pair. Surfaces are only read. AccessScope checks this in builds
+/// with GRAZE_VALIDATE.
 void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
   small_jobs_.clear();
   large_count_ = 0;
@@ -210,7 +215,7 @@ void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
       add_large(index);
     else
       small_jobs_.push_back(index);
-  // Enough batches for any number of threads, and few enough that taking one costs nothing.
+  // There are enough batches for any number of threads, and few enough that picking one costs nothing.
   const std::size_t each = std::clamp<std::size_t>(small_jobs_.size() / 256, 1, 16);
   const std::size_t batches = (small_jobs_.size() + each - 1) / each;
   large_answers_.resize(std::max(large_answers_.size(), large_answer_count_ + large_count_));
@@ -229,14 +234,14 @@ void PairJobs::add_large(std::uint32_t index) {
   large_[large_count_++].job = index;
 }
 
-/// The place of its answer, in which it stays until the next step.
-PairAnswer& PairJobs::answer_of_large(std::size_t place) {
-  require_write(StepData::pairs, &jobs_[large_[place].job]);
-  return large_answers_[large_answer_count_ + place];
+/// The answer of a large job, which stays in place until the next step.
+PairAnswer& PairJobs::answer_of_large(std::size_t index) {
+  require_write(StepData::pairs, &jobs_[large_[index].job]);
+  return large_answers_[large_answer_count_ + index];
 }
 
-void PairJobs::begin_large(std::size_t place, unsigned worker) {
-  LargeJob& large = large_[place];
+void PairJobs::begin_large(std::size_t index, unsigned worker) {
+  LargeJob& large = large_[index];
   const PairJob& job = jobs_[large.job];
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
   const Surface& a = job.a->surface();
@@ -244,7 +249,7 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
   PairQuery query = query_of(job);
   query.deadline = deadline_now();
   query.time_after_contact = after_each_contact;
-  PairAnswer& answer = answer_of_large(place);
+  PairAnswer& answer = answer_of_large(index);
   large.answered = is_late();
   if (large.answered) {
     PairDetector::outer_bounds(a, b, query, answer);
@@ -254,58 +259,59 @@ void PairJobs::begin_large(std::size_t place, unsigned worker) {
   LeafFront& front = job.memory_to_write().front;
   large.front_bytes = front.byte_count();
   large.pair.begin(a, b, query, front, answer);
-  advance_large(place, worker);
+  advance_large(index, worker);
 }
 
-void PairJobs::advance_large(std::size_t place, unsigned worker) {
-  LargeJob& large = large_[place];
+void PairJobs::advance_large(std::size_t index, unsigned worker) {
+  LargeJob& large = large_[index];
   const PairJob& job = jobs_[large.job];
   Worker& own = workers_[worker];
   large.answered = large.pair.advance(own.detector, own.counters);
   if (!large.answered) return;
-  PairAnswer& answer = answer_of_large(place);
+  PairAnswer& answer = answer_of_large(index);
   if (!make_room_in_report(answer.contacts.size()))
     PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job), answer);
   own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
-  was_detected(job, answer);
+  remember_answer(job, answer);
   refer_to(large.job, answer, worker);
 }
 
-/// The slices of all large pairs as one list, until every pair is answered.
+/// Runs the slices of all large pairs as one list, round after round, until every pair is answered.
 void PairJobs::run_rounds_of_slices() {
   while (true) {
     slices_.clear();
-    for (std::uint32_t place = 0; place < large_count_; ++place)
-      if (!large_[place].answered)
-        for (std::uint32_t slice = 0; slice < large_[place].pair.slice_count(); ++slice)
-          slices_.push_back({place, slice});
+    for (std::uint32_t index = 0; index < large_count_; ++index)
+      if (!large_[index].answered)
+        for (std::uint32_t slice = 0; slice < large_[index].pair.slice_count(); ++slice)
+          slices_.push_back({index, slice});
     if (slices_.empty()) return;
     tasks_.run(slices_.size(), [&](unsigned worker, std::size_t item) {
-      const auto [place, slice] = slices_[item];
+      const auto [large, slice] = slices_[item];
       const AccessScope access({AccessRight::read(), {}});
-      large_[place].pair.run_slice(slice, workers_[worker].detector, workers_[worker].counters);
+      large_[large].pair.run_slice(slice, workers_[worker].detector, workers_[worker].counters);
     });
-    tasks_.run(large_count_, [&](unsigned worker, std::size_t place) {
-      const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_[place].job])});
-      if (!large_[place].answered) advance_large(place, worker);
+    tasks_.run(large_count_, [&](unsigned worker, std::size_t index) {
+      const AccessScope access({AccessRight::read(), AccessRight::write(&jobs_[large_[index].job])});
+      if (!large_[index].answered) advance_large(index, worker);
     });
   }
 }
 
-/// For what is written after the jobs: rows, and contacts that are repeated.
+/// Moves the deadline forward by the time that writing rows and repeated contacts will take.
 void PairJobs::keep_time_back(std::size_t last_contacts, ReportBuilder& report) {
   contacts_found_.store(0, std::memory_order_relaxed);
   if (deadline_ == PairQuery::no_deadline) return;
   for (const std::uint32_t index : order_)
     if (jobs_[index].last != nullptr) last_contacts -= jobs_[index].last->contact_count;
   deadline_ -= after_all + pair_count_ * after_each_pair + last_contacts * after_each_contact;
-  if (owes_room_) deadline_ -= *settings_.time_budget / part_for_room;
+  if (owes_capacity_) deadline_ -= *settings_.time_budget / part_for_room;
   report_ = &report;
   contacts_with_room_ = last_contacts;
 }
 
-/// For so many more. Memory that is new to a report is met before the deadline, piece by piece: it costs many
-/// times what writing to it does later. Where there is no time for it now, there will be in the next steps.
+/// Makes room in the report for more contacts, and returns whether there is room. The first write to new
+/// memory costs many times more than later writes. So the report touches it before the deadline, piece by
+/// piece. If there is no time for it now, the next steps have time for it.
 bool PairJobs::make_room_in_report(std::size_t contacts) {
   if (deadline_ == PairQuery::no_deadline || contacts == 0) return true;
   const std::lock_guard lock(report_mutex_);
@@ -317,7 +323,7 @@ bool PairJobs::make_room_in_report(std::size_t contacts) {
   return true;
 }
 
-/// Contacts that pairs have found are written later, by all threads together.
+/// The deadline less the time in which all threads together will write the contacts found so far.
 PairJobs::Clock::time_point PairJobs::deadline_now() const {
   if (deadline_ == PairQuery::no_deadline) return deadline_;
   return deadline_ - contacts_found_.load(std::memory_order_relaxed) * after_each_contact / workers_.size();
@@ -348,27 +354,27 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
     own.front_bytes += front.byte_count();
     if (!make_room_in_report(answer.contacts.size())) PairDetector::outer_bounds(a, b, query, answer);
     if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, answer);
-    was_detected(job, answer);
+    remember_answer(job, answer);
   }
   require_write(StepData::pairs, &job);
-  take_answer(index, answer, worker);
+  store_answer(index, answer, worker);
 }
 
-/// Where the answer of a small job is to be put.
+/// The object that receives the answer of a small job.
 PairAnswer& PairJobs::answer_for(std::uint32_t index, Worker& worker) {
   const auto found = std::lower_bound(long_jobs_.begin(), long_jobs_.end(), index);
   if (found == long_jobs_.end() || *found != index) return worker.answer;
   return long_answers_[static_cast<std::size_t>(found - long_jobs_.begin())];
 }
 
-/// Takes an answer that stays where it is in this step.
+/// Keeps an answer whose lists stay in place until the next step.
 void PairJobs::refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker) {
   if (!settings_.max_contacts) return answers_.refer_to(index, answer);
   nearest_.add(index, answer.contacts);
   answers_.keep_without_contacts(index, answer, worker);
 }
 
-void PairJobs::take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker) {
+void PairJobs::store_answer(std::uint32_t index, PairAnswer& answer, unsigned worker) {
   if (settings_.max_contacts) return refer_to(index, answer, worker);
   Worker& own = workers_[worker];
   if (&answer != &own.answer) return answers_.refer_to(index, answer);
@@ -376,8 +382,8 @@ void PairJobs::take_answer(std::uint32_t index, PairAnswer& answer, unsigned wor
   answers_.refer_to(index, own.too_long.emplace_back(std::exchange(answer, {})));
 }
 
-/// Remembers what the answer was about.
-void PairJobs::was_detected(const PairJob& job, const PairAnswer& answer) const {
+/// Remembers for which positions and rules the answer holds.
+void PairJobs::remember_answer(const PairJob& job, const PairAnswer& answer) const {
   const bool whole = answer.complete && job.task == PairJob::Task::detect;
   PairMemory& memory = job.memory_to_write();
   memory.version_a = whole ? job.a->surface().version() : 0;
@@ -385,7 +391,7 @@ void PairJobs::was_detected(const PairJob& job, const PairAnswer& answer) const 
   memory.rules_version = rules_version_;
 }
 
-/// In contact first, then the smallest lower bound.
+/// Sorts jobs by urgency: pairs in contact first, then by the lower bound of their distance.
 void PairJobs::sort_by_urgency() {
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t left, std::uint32_t right) {
     const auto urgency = [&](std::uint32_t index) {
@@ -396,7 +402,8 @@ void PairJobs::sort_by_urgency() {
   });
 }
 
-/// A large pair has all threads to itself when its turn comes, so that no pair less urgent goes before it.
+/// Runs jobs by urgency. A large pair gets all threads when its turn comes, so that no less urgent pair goes
+/// first.
 void PairJobs::run_by_urgency() {
   const std::span<const std::uint32_t> order(order_);
   for (std::size_t begin = 0; begin < order.size();) {
@@ -408,8 +415,8 @@ void PairJobs::run_by_urgency() {
   }
 }
 
-/// One after the other: what a pair leaves of the budget is for the next, so the answer is the same on any
-/// machine.
+/// Runs jobs one after the other. Each gets the work that the jobs before it left over, so the answer is the
+/// same on any machine.
 void PairJobs::run_within_work(std::uint64_t budget) {
   const PairCounters& counters = workers_[0].counters;
   for (const std::uint32_t index : order_) {
@@ -427,14 +434,14 @@ PairCounters PairJobs::counters() const {
 
 // ---- Memory
 
-/// Which worker gets which job is chance; what one has needed all have room for.
-bool PairJobs::even_out_memory(Clock::time_point start) {
-  answers_.even_out();
+/// The workers get jobs by chance, so all of them get the capacity that any of them needed.
+bool PairJobs::equalize_capacity(Clock::time_point start) {
+  answers_.grow_to_demand();
   for (Worker& worker : workers_) {
     for (PairAnswer& answer : worker.too_long) long_answers_.push_back(std::move(answer));
     worker.too_long.clear();
   }
-  owes_room_ = true;  // until all is done
+  owes_capacity_ = true;  // stays true if this returns early
   const Clock::time_point end = deadline_of(start, settings_.time_budget);
   const auto is_over = [end] { return end != PairQuery::no_deadline && Clock::now() >= end; };
   Worker& first = workers_.front();
@@ -446,8 +453,8 @@ bool PairJobs::even_out_memory(Clock::time_point start) {
     if (is_over()) return false;
     worker.reserve_as(first);
   }
-  owes_room_ = is_over();  // for the reports
-  return !owes_room_;
+  owes_capacity_ = is_over();  // the reports have no time left either
+  return !owes_capacity_;
 }
 
 void PairJobs::reserve(std::size_t jobs, std::size_t contacts) {

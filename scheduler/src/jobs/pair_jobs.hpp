@@ -29,40 +29,41 @@ class PairJobs {
 
   PairJobs(const SceneSettings& settings, TaskPool& tasks);
 
-  /// Answers every job that is looked at; budgets began at `start`. `report` is where contacts will be put.
+  /// Answers every job that tests its pair. Budgets of time began at `start`. Contacts will be written into
+  /// `report`.
   void run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
            const FrameReport& previous, ReportBuilder& report);
 
-  /// Of the job at that place, where it is looked at; until `even_out_memory`. Where all contacts are
-  /// limited, of the others the contacts.
+  /// The answer of a job that tested its pair, valid until `equalize_capacity`. Where `max_contacts` is set,
+  /// the answers of the other jobs hold their contacts only.
   [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
-  /// The longest list of contacts that was not copied, where it is so long that it better never is; otherwise
-  /// null.
+  /// The longest list of contacts, if it has at least `longest_copied` contacts and so is better adopted than
+  /// copied; otherwise null.
   [[nodiscard]] std::vector<Contact>* longest_list();
   [[nodiscard]] PairCounters counters() const;
 
-  /// Makes room, so that a step like the last takes no memory, whichever worker gets what. The answers are
-  /// gone then. False where a time budget that began at `start` is over before all is done: the next step
-  /// then keeps time back for it.
-  [[nodiscard]] bool even_out_memory(Clock::time_point start);
-  /// Makes room for so many jobs, and contacts of all of them together.
+  /// Gives all workers the capacity that any of them needed, so that a step like the last one allocates
+  /// nothing, whichever worker gets which job. Discards the answers. Returns false if a time budget that
+  /// began at `start` ended before all was done. The next step then keeps time back for it.
+  [[nodiscard]] bool equalize_capacity(Clock::time_point start);
+  /// Reserves memory for that many jobs, and for the contacts of all of them together.
   void reserve(std::size_t jobs, std::size_t contacts);
-  /// Makes room for pairs of objects of that mesh.
+  /// Reserves memory for pairs with objects of that mesh.
   void reserve_for(const IndexedMesh& mesh);
-  /// Of what is here, and of what the fronts in the pairs' memories have grown by.
+  /// The bytes held here, and the growth of the fronts in the pairs' memories.
   [[nodiscard]] std::size_t byte_count() const;
-  /// Of the workers.
+  /// The bytes held by the workers.
   [[nodiscard]] std::size_t thread_byte_count() const;
 
  private:
-  /// Each worker's own, which only it touches while jobs run.
+  /// The data of one worker. Only that worker touches it while jobs run.
   struct Worker {
     PairDetector detector;
     PairCounters counters;
-    PairAnswer answer;                ///< of the job at hand
-    std::deque<PairAnswer> too_long;  ///< of this step, not expected to be so and not to be copied
-    /// That fronts have grown by since the scene began. Only the sum over all workers means something: one
-    /// may shrink a front that another has made grow.
+    PairAnswer answer;                ///< the answer of the current job
+    std::deque<PairAnswer> too_long;  ///< unexpectedly long answers of this step, which are not copied
+    /// The bytes by which fronts have grown since the scene began. Only the sum over all workers means
+    /// something, since one worker may shrink a front that another has made grow.
     std::size_t front_bytes = 0;
 
     void reserve_as(const Worker& other);
@@ -72,11 +73,11 @@ class PairJobs {
     std::uint32_t job = 0;
     LargePair pair;
     bool answered = false;
-    std::size_t front_bytes = 0;  ///< when it began
+    std::size_t front_bytes = 0;  ///< the bytes of the front when the job began
   };
   /// A slice of a large pair.
   struct LargeSlice {
-    std::uint32_t large;  ///< into large_
+    std::uint32_t large;  ///< index into large_
     std::uint32_t slice;
   };
 
@@ -85,20 +86,20 @@ class PairJobs {
   void run_group(std::span<const std::uint32_t> jobs);
   void run_rounds_of_slices();
   void add_large(std::uint32_t index);
-  [[nodiscard]] PairAnswer& answer_of_large(std::size_t place);
-  void begin_large(std::size_t place, unsigned worker);
-  void advance_large(std::size_t place, unsigned worker);
+  [[nodiscard]] PairAnswer& answer_of_large(std::size_t index);
+  void begin_large(std::size_t index, unsigned worker);
+  void advance_large(std::size_t index, unsigned worker);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
-  void was_detected(const PairJob& job, const PairAnswer& answer) const;
+  void remember_answer(const PairJob& job, const PairAnswer& answer) const;
   [[nodiscard]] PairAnswer& answer_for(std::uint32_t index, Worker& worker);
-  void take_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
+  void store_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
   void lend_memory(ReportBuilder& report);
   void refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker);
   void keep_time_back(std::size_t last_contacts, ReportBuilder& report);
   void share_contacts(const FrameReport& previous);
   [[nodiscard]] bool make_room_in_report(std::size_t contacts);
   [[nodiscard]] Clock::time_point deadline_now() const;
-  bool owes_room_ = false;  ///< the last step had no time to even out memory
+  bool owes_capacity_ = false;  ///< the last step had no time to equalize capacity
   [[nodiscard]] bool is_late() const;
   void sort_by_urgency();
   void run_by_urgency();
@@ -107,28 +108,29 @@ class PairJobs {
   const SceneSettings& settings_;
   TaskPool& tasks_;
   std::span<const PairJob> jobs_;
-  std::size_t pair_count_ = 0;  ///< of all pairs, those that rest included
+  std::size_t pair_count_ = 0;  ///< the number of all pairs, those at rest included
   std::uint64_t rules_version_ = 0;
-  Clock::time_point deadline_ = PairQuery::no_deadline;  ///< for all but the contacts that are found
-  std::atomic<std::size_t> contacts_found_{0};           ///< where there is a deadline
-  std::vector<Contact>* lent_ = nullptr;                 ///< the report's, for the answer of a job
-  std::uint32_t lent_to_ = 0;                            ///< that job
-  NearestContacts nearest_;                              ///< of all jobs, where contacts are limited
+  Clock::time_point deadline_ =
+      PairQuery::no_deadline;                   ///< without the time to write the contacts that are found
+  std::atomic<std::size_t> contacts_found_{0};  ///< counted if there is a deadline
+  std::vector<Contact>* lent_ = nullptr;        ///< the report's memory, lent to one job
+  std::uint32_t lent_to_ = 0;                   ///< the job that has it
+  NearestContacts nearest_;                     ///< of all jobs, if `max_contacts` is set
   std::mutex report_mutex_;
-  ReportBuilder* report_ = nullptr;     ///< where there is a deadline; `report_mutex_` guards it
-  std::size_t contacts_with_room_ = 0;  ///< in it; likewise
+  ReportBuilder* report_ = nullptr;     ///< set if there is a deadline; guarded by `report_mutex_`
+  std::size_t contacts_with_room_ = 0;  ///< contacts that the report has room for; guarded by `report_mutex_`
   PairAnswers answers_;
-  std::vector<std::uint32_t> order_;       ///< jobs that are looked at, by urgency where there is a budget
-  std::vector<std::uint32_t> small_jobs_;  ///< of one group
-  std::vector<LargeJob> large_;            ///< likewise; kept longer for their memory
+  std::vector<std::uint32_t> order_;       ///< jobs that test their pairs; by urgency if there is a budget
+  std::vector<std::uint32_t> small_jobs_;  ///< the small jobs of the current group
+  std::vector<LargeJob> large_;  ///< the large jobs of the current group; never shrinks, to keep memory
   std::size_t large_count_ = 0;
-  std::vector<PairAnswer> large_answers_;  ///< of all groups, one after the other; kept longer likewise
-  std::size_t large_answer_count_ = 0;     ///< of the groups before
-  std::vector<std::uint32_t> long_jobs_;   ///< small ones whose lists were long in the last step, ascending
-  std::vector<PairAnswer> long_answers_;   ///< of these; kept longer likewise
-  std::vector<LargeSlice> slices_;         ///< of all large jobs of the group
+  std::vector<PairAnswer> large_answers_;  ///< the answers of all groups' large jobs; never shrinks
+  std::size_t large_answer_count_ = 0;     ///< the large answers of earlier groups
+  std::vector<std::uint32_t> long_jobs_;   ///< small jobs with long lists in the last step, ascending
+  std::vector<PairAnswer> long_answers_;   ///< the answers of long_jobs_; never shrinks
+  std::vector<LargeSlice> slices_;         ///< the slices of all large jobs of the group
   std::vector<Worker> workers_;
-  PairRoom room_;  ///< what was reserved of the workers' memory
+  PairRoom room_;  ///< the capacity that was reserved for each worker
 };
 
 }  // namespace graze

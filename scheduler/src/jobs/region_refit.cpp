@@ -7,27 +7,28 @@
 namespace graze {
 namespace {
 
-/// Bounds of regions are made anew when vertices may have moved by this part of a leaf's size.
+/// The bounds of regions are refitted once vertices may have moved by this part of a leaf's size.
 constexpr double stale_leaf_sizes = 0.25;
-/// The same where no job went from region to region in the last step. Should one do so in this, it finds the
-/// bounds looser once.
+/// The corresponding part for an object whose regions no job walked in the last step. If a job walks them in
+/// this step, it finds looser bounds once.
 constexpr double stale_leaf_sizes_unwalked = 2;
 
-/// A small object of whose faces as many jobs want boxes is refitted whenever it moved: otherwise each of
-/// them makes boxes of its leaves for itself. Vertices are mostly found by stretches.
+/// A small object whose face boxes at least this many jobs need is refitted whenever it has moved. Otherwise
+/// each job would make the boxes of its leaves for itself. For vertices most jobs use stretches instead.
 constexpr std::size_t jobs_worth_a_refit = 3;
 
-/// Where few jobs look at a large surface, and all of them together at less than this part of its box, each
-/// makes blocks of that for itself.
+/// If few jobs test a large surface, and together need less than this share of its box, each makes blocks of
+/// its own part.
 constexpr std::size_t most_jobs_in_part = 8;
 constexpr double most_shares_in_part = 0.25;
 
-/// Vertices and faces of a large surface that one task goes through: some tens of microseconds.
+/// The number of vertices and faces of a large surface that one task processes, which takes some tens of
+/// microseconds.
 constexpr std::size_t work_each = 8192;
 
-/// Whether a pair is answered by a list that an earlier step has made, without boxes or blocks. Where there
-/// is nothing in contact any more, the closest points are looked for among the leaves of a front, or of
-/// bounds that are at most as loose as the list allows; vertices are then looked for in blocks.
+/// Whether a pair is answered by a list of an earlier step, which needs no boxes or blocks. Once nothing is
+/// in contact, the search for closest points uses the leaves of a front, or bounds at most as loose as the
+/// list allows. For vertices that search needs blocks.
 bool is_by_list(const PairJob& job, bool with_blocks) {
   const Surface& a = job.a->surface();
   const Surface& b = job.b->surface();
@@ -39,7 +40,7 @@ bool is_by_list(const PairJob& job, bool with_blocks) {
   return asks_contacts_alone || near->has_vertices_within(a, b, threshold);
 }
 
-/// Which part of a box another one in it is, by volume; a side without a length counts nothing.
+/// The share of the volume of `box` that `part` takes. A side of length 0 does not count.
 double share_of(const Box& box, const Box& part) {
   if (part.empty()) return 0;
   double share = 1;
@@ -49,7 +50,8 @@ double share_of(const Box& box, const Box& part) {
   return share;
 }
 
-/// How many vertices a region's bounds are made from; boxes but for leaves come from the children.
+/// The number of vertices and border faces from which a region's bounds are made. The boxes of inner regions
+/// come from their children instead.
 std::uint32_t work_of(const Region& region, RefitOf what) {
   if (what != RefitOf::radii && !region.is_leaf()) return 0;
   return region.vertex_count + (what == RefitOf::faces ? region.border_count : 0);
@@ -61,10 +63,10 @@ RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
     : tasks_(tasks),
       boxes_(boxes_for(settings.detail)),
       with_blocks_(wants_blocks(settings.detail, settings.accuracy.mode())),
-      to_the_letter_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
+      needs_paper_bounds_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
 
 void RegionRefit::run(std::span<const PairJob> jobs) {
-  if (with_blocks_ && !to_the_letter_) {
+  if (with_blocks_ && !needs_paper_bounds_) {
     list_objects(jobs, boxes_);
   } else {
     refit(jobs, boxes_);
@@ -73,7 +75,7 @@ void RegionRefit::run(std::span<const PairJob> jobs) {
   if (with_blocks_) make_blocks();
 }
 
-/// Of all objects that were listed last.
+/// Makes blocks or stretches of all objects listed last.
 void RegionRefit::make_blocks() {
   tasks_.run(objects_.size(), [&](unsigned, std::size_t item) {
     const AccessScope access({AccessRight::write(objects_[item]), {}});
@@ -82,8 +84,9 @@ void RegionRefit::make_blocks() {
   });
 }
 
-/// Whether jobs make blocks for themselves of what they look at. Not where there are some already, or are
-/// better made now, since it has not moved.
+/// Whether jobs make blocks of their own parts of an object. They do not if the object has blocks already.
+/// Nor do they if stretches of an earlier step are still valid: then the object has not moved, and blocks of
+/// all of it are better.
 bool RegionRefit::is_seen_in_part(const Object& object) {
   const Surface& surface = object.surface();
   return surface.mesh().has_stretches() && !surface.has_blocks() && !surface.has_stretches() &&
@@ -97,7 +100,7 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
     object->surface_to_write().begin_refit(what);
     list_parts(*object, what);
   }
-  // A task writes the bounds of its own object, or of its own regions of one.
+  // A task writes the bounds of its own object, or of its own regions of an object.
   tasks_.run(parts_.size() + small_.size(), [&](unsigned, std::size_t item) {
     if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()], what);
     const Part& part = parts_[item];
@@ -110,7 +113,7 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
   });
 }
 
-void RegionRefit::make_ready(Surface& surface) const {
+void RegionRefit::prepare(Surface& surface) const {
   surface.refit(boxes_);
   if (with_blocks_) surface.make_blocks();
   if (with_blocks_ && surface.mesh().has_stretches()) surface.make_stretches();
@@ -135,7 +138,7 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   ++refits_;
   objects_.clear();
   for (const PairJob& job : jobs)
-    if (job.is_looked_at() && (to_the_letter_ || !is_by_list(job, with_blocks_)))
+    if (job.is_tested() && (needs_paper_bounds_ || !is_by_list(job, with_blocks_)))
       for (const auto& [object, other] : {std::pair(job.a, job.b), {job.b, job.a}})
         count_job(*object, *other, job);
   small_.clear();
@@ -160,7 +163,7 @@ std::size_t RegionRefit::byte_count() const {
 bool RegionRefit::is_stale(const Object& object, RefitOf what) const {
   const Surface& surface = object.surface();
   const double allowed = object.asked.walked ? stale_leaf_sizes : stale_leaf_sizes_unwalked;
-  return surface.motion_since_refit(what) > (to_the_letter_ ? 0 : allowed * surface.leaf_size());
+  return surface.motion_since_refit(what) > (needs_paper_bounds_ ? 0 : allowed * surface.leaf_size());
 }
 
 void RegionRefit::list_parts(Object& object, RefitOf what) {

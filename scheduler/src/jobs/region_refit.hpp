@@ -10,22 +10,22 @@
 
 namespace graze {
 
-/// Brings the bounds of regions up to date that a step's jobs ask for. Stepping thread only.
+/// Refits the bounds of regions that a step's jobs need. Stepping thread only.
 class RegionRefit {
  public:
   RegionRefit(const SceneSettings& settings, TaskPool& tasks);
 
-  /// Refits every object that `jobs` look at and that has moved too far since its last refit.
+  /// Refits every object that `jobs` test and that has moved too far since its last refit.
   void run(std::span<const PairJob> jobs);
 
-  /// Makes room for so many jobs.
+  /// Reserves memory for that many jobs.
   void reserve(std::size_t jobs);
-  /// Makes a surface's bounds, so that its first job finds them.
-  void make_ready(Surface& surface) const;
+  /// Makes the bounds of a surface ahead of its first job.
+  void prepare(Surface& surface) const;
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// Regions of one object, refitted by one task.
+  /// A range of an object's regions that one task refits.
   struct Part {
     Object* object;
     std::uint32_t begin;
@@ -33,7 +33,7 @@ class RegionRefit {
   };
 
   void refit(std::span<const PairJob> jobs, RefitOf what);
-  [[nodiscard]] bool with_radii() const { return to_the_letter_ && boxes_ == RefitOf::vertices; }
+  [[nodiscard]] bool with_radii() const { return needs_paper_bounds_ && boxes_ == RefitOf::vertices; }
   void list_objects(std::span<const PairJob> jobs, RefitOf what);
   void count_job(Object& object, const Object& other, const PairJob& job);
   [[nodiscard]] bool is_stale(const Object& object, RefitOf what) const;
@@ -44,13 +44,13 @@ class RegionRefit {
 
   TaskPool& tasks_;
   RefitOf boxes_;
-  bool with_blocks_;              ///< of vertices
-  bool to_the_letter_;            ///< bounds are told of or compared as they are in the paper
-  std::uint64_t refits_ = 0;      ///< made so far, by which objects know the one under way
-  std::vector<Object*> objects_;  ///< of the jobs, each once
+  bool with_blocks_;              ///< jobs search in blocks of vertices
+  bool needs_paper_bounds_;       ///< the paper's bounds are reported or compared
+  std::uint64_t refits_ = 0;      ///< the number of refits so far, which identifies the current one
+  std::vector<Object*> objects_;  ///< the objects of the jobs, each once
   std::vector<Object*> small_;
-  std::vector<Object*> large_;  ///< that are refitted
-  std::vector<Part> parts_;     ///< of `large_`
+  std::vector<Object*> large_;  ///< large objects that are refitted
+  std::vector<Part> parts_;     ///< the parts of the objects in `large_`
 };
 
 }  // namespace graze

@@ -4,9 +4,10 @@
 
 namespace graze {
 
-/// How much further than need be two surfaces are looked at, so that what is found out lasts: for some steps
-/// of their last motion together, as long as that is far less than a leaf. For less than a few steps it does
-/// not pay. Measured over scenes played in slow motion (docs/tried.md).
+/// The slack with which two surfaces are tested, so that the result stays valid for some steps. The slack
+/// covers `most_steps` steps of their last motion together, up to `most_leaf_sizes` of a leaf's size. If it
+/// would cover fewer than `least_steps` steps it is 0, since it would not pay. The constants were measured
+/// over scenes played in slow motion (docs/tried.md).
 struct SlackOfMotion {
   double most_steps;
   double most_leaf_sizes;
@@ -18,7 +19,7 @@ struct SlackOfMotion {
   }
 };
 
-/// For the closest points, for lists of features, and for those of vertices.
+/// The slack of leaf tests for closest points, of lists of features, and of lists of vertices.
 inline constexpr SlackOfMotion leaf_test_slack{64, 1.0 / 64};
 inline constexpr SlackOfMotion list_slack_of_features{16, 1.0 / 64};
 inline constexpr SlackOfMotion list_slack_of_vertices{16, 1.0 / 32};

@@ -9,42 +9,43 @@
 
 namespace graze {
 
-// How one object is brought to where it is now: from a pose, from a copy of positions, or from the caller's
-// memory. ObjectStore decides when.
+// Functions that move one object's surface to its current positions: from a pose, from copied positions, or
+// from the caller's memory. ObjectStore decides when.
 
-/// Whether there is something to be read, or the object is to be looked at for another reason.
+/// Whether the object has something to read, or has to be processed in this read for another reason.
 [[nodiscard]] bool has_input(const Object& object);
-/// Whether an object that a survey has seen has been told nothing since: it is where that found it.
+/// Whether a surveyed object has received no call since its survey, so that it is where the survey found it.
 [[nodiscard]] bool stays_unread(const Object& object);
-/// Adds up what is promised of the motion since the surface's positions were read, this step's included.
+/// Adds this step's promise to the motion promised since the surface's positions were read.
 void add_promise(Object& object);
-/// Whether an object's box will do, unless that turns out to be near another: it was in no pair of the last
-/// step or can be viewed, and nobody will ask how far it has moved. What stands still is read, which then
-/// writes nothing, and so is what hardly moves, of which pairs have lists.
+/// Whether an object may be surveyed instead of read. It may if no pair tested it in the last step, or if it
+/// can be viewed. Objects that stand still are read, which writes nothing. So are nearly static objects,
+/// since their pairs have lists.
 [[nodiscard]] bool can_be_surveyed(const Object& object, bool with_views);
-/// Whether its box is known without a look at any vertex: from its pose, or since its positions were copied.
+/// Whether the object's box is known without reading a vertex: from its pose, or from copying its positions.
 [[nodiscard]] bool has_known_box(const Object& object);
-/// Whether its surface may look at what was surveyed in place of reading it.
+/// Whether the surface may view the surveyed memory instead of copying it.
 [[nodiscard]] bool can_be_viewed(const Object& object);
 
-/// What came of looking at all vertices.
-struct Looked {
-  bool to_write = false;  ///< all vertices, and then the read is to be finished
-  bool changed = false;   ///< the object stands elsewhere, or has begun or ceased to be frozen
+/// The result of reading or surveying all vertices of an object.
+struct ReadOutcome {
+  bool to_write = false;  ///< all vertices have to be written before `finish_read`
+  bool changed = false;   ///< the object has moved, or has become frozen or live
   std::optional<Diagnostic> problem;
-  bool taken = true;  ///< what was seen is where the object is
+  bool accepted = true;  ///< the object is at the positions that were read
 };
 
-/// Reads or surveys an object. Its blocks are left to the caller, but for what is viewed.
-Looked read_whole(Object& object);
+/// Reads or surveys an object. The caller makes its blocks, except those of a viewed object.
+ReadOutcome read_whole(Object& object);
 
-// The same in parts: looks at some vertices, takes what was seen of all or says why not, writes some, and
-// lets go of what was read after all was written. Bad memory is read again until it is good.
-[[nodiscard]] Surface::PartSeen look_at_part(const Object& object, std::uint32_t begin, std::uint32_t end);
-Looked take_seen(Object& object, const Surface::PartSeen& all);
+// Functions that read an object in parts. `scan_part` reads some vertices. `accept_scan` accepts the results
+// of all parts or says why not. `write_part` writes some vertices, and `finish_read` releases the input once
+// all are written. Bad memory is read again in every step until it is good.
+[[nodiscard]] Surface::PartSeen scan_part(const Object& object, std::uint32_t begin, std::uint32_t end);
+ReadOutcome accept_scan(Object& object, const Surface::PartSeen& all);
 void write_part(Object& object, std::uint32_t begin, std::uint32_t end);
-void finish_read(Object& object, bool taken);
-/// Has the surface look at the memory that was surveyed, until the next read.
+void finish_read(Object& object, bool accepted);
+/// Makes the surface view the surveyed memory until the next read.
 void view_memory(Object& object);
 
 }  // namespace graze

@@ -13,29 +13,30 @@
 namespace graze {
 namespace {
 
-/// Where structures are validated nothing is left unread, so that every promise is checked.
+/// Builds that validate structures leave nothing unread, so that they check every promise.
 #ifdef GRAZE_VALIDATE
 constexpr bool checks_every_promise = true;
 #else
 constexpr bool checks_every_promise = false;
 #endif
 
-/// Has room for one more, so that adding it does not throw.
+/// Reserves memory for one more element, so that adding it does not throw.
 template <typename Element>
 void make_room_for_one(std::vector<Element>& elements) {
   if (elements.size() == elements.capacity()) elements.reserve(2 * elements.size() + 1);
 }
 
-/// A removed object's copies have no use for anybody.
-void let_go(SparePositions::Loan& positions) {
+/// Frees a removed object's copy, which no object can use again.
+void discard(SparePositions::Loan& positions) {
   if (positions == nullptr) return;
   positions.get_deleter().is_last = true;
   positions.reset();
 }
 
-/// Surfaces of more vertices are read and refitted in parts, each of some tens of microseconds.
+/// Surfaces with more vertices than this are read and refitted in parts, each of which takes some tens of
+/// microseconds.
 constexpr std::uint32_t vertices_each = 8192;
-/// Small ones are read several at a time, in so many tasks at least: neighbours mostly lie beside each other
+/// The least number of tasks for small objects. Each task reads several of them, which are mostly neighbours
 /// in the caller's memory, too.
 constexpr std::size_t least_batches = 64;
 
@@ -76,9 +77,9 @@ void ObjectStore::apply(const RemoveObject& call) {
   by_index_[call.object.index] = nullptr;
   surface_bytes_ -= object->counted_bytes;
   object->removed = true;
-  const auto place = std::lower_bound(serials_.begin(), serials_.end(), object->serial) - serials_.begin();
+  const auto slot = std::lower_bound(serials_.begin(), serials_.end(), object->serial) - serials_.begin();
   departed_.push_back({object->id, object->serial});
-  removed_.push_back(std::move(objects_[static_cast<std::size_t>(place)]));
+  removed_.push_back(std::move(objects_[static_cast<std::size_t>(slot)]));
   will_have_changed_ = true;
 }
 
@@ -86,7 +87,7 @@ void ObjectStore::apply(const SetPose& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
   if (std::exchange(object->frozen, false)) will_have_changed_ = true;
-  // It stands there, or a survey has seen it there.
+  // The object already has this pose, or a survey has used it.
   if (object->standing_pose && std::memcmp(&*object->standing_pose, &call.rows, sizeof(Pose)) == 0) {
     object->pose.reset();
   } else {
@@ -95,7 +96,7 @@ void ObjectStore::apply(const SetPose& call) {
   }
 }
 
-/// A good pose of the same step that came before is not taken either.
+/// A good pose that came earlier in the same step is not accepted either.
 void ObjectStore::apply(const RefusePose& call) noexcept {
   Object* const object = find(call.problem.object);
   if (object == nullptr) return;
@@ -122,9 +123,9 @@ void ObjectStore::apply(const BindPositions& call) {
   object->bound = call.view;
   object->moved = true;  // it may be anywhere
   object->policy = call.policy;
-  object->told = true;
-  object->told_step = 0;
-  object->is_told_again = false;
+  object->is_notified = true;
+  object->notified_step = 0;
+  object->is_notified_again = false;
   object->is_new = true;
   object->promise = std::numeric_limits<double>::infinity();
   object->promises = false;
@@ -133,7 +134,7 @@ void ObjectStore::apply(const BindPositions& call) {
 void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics) {
   Object* const object = find(call.object);
   const bool is_bound = object != nullptr && object->bound;
-  // What was only surveyed has been read nowhere else.
+  // Positions that were only surveyed have not been read yet.
   const bool is_wanted = call.is_due || (is_bound && object->unread && object->surveyed);
   if (is_bound && is_wanted && call.positions) expect_input(*object);
   if (is_wanted && call.problem) diagnostics.push_back(std::move(*call.problem));
@@ -144,7 +145,7 @@ void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnost
   }
   object->bound.reset();
   if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
-  // What is frozen stays so: if it was surveyed before, nobody knows its last good positions.
+  // A frozen object stays frozen: if it was surveyed before, its last good positions are unknown.
   object->frozen = object->frozen || call.is_lost || (is_wanted && call.problem);
   object->unread = object->surveyed = false;
   will_have_changed_ = true;
@@ -158,14 +159,15 @@ void ObjectStore::apply(const PositionsChanged& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
   if (!object->bound) {
-    // A call with positions may have been lost, so that what is promised later is not of those seen last.
+    // A call with positions may have been lost. Later promises would then not count from the positions seen
+    // last.
     if (std::isinf(call.max_displacement)) object->promised = call.max_displacement;
     return;
   }
   expect_input(*object);
-  object->told = true;
-  if (object->told_step != steps_ + 1) object->is_told_again = object->told_step == steps_;
-  object->told_step = steps_ + 1;
+  object->is_notified = true;
+  if (object->notified_step != steps_ + 1) object->is_notified_again = object->notified_step == steps_;
+  object->notified_step = steps_ + 1;
   object->is_new = true;
   object->promise = call.max_displacement;
   object->promises = object->promises || std::isfinite(call.max_displacement);
@@ -205,13 +207,14 @@ void ObjectStore::forget() noexcept {
     if (object == nullptr) continue;
     if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
     object->surface_to_write().forget_bounds();
-    object->looked_at = object->asked_for_blocks = object->goes_by_lists = object->wanted = false;
+    object->tested = object->asked_for_blocks = object->goes_by_lists = object->wanted = false;
     object->to_block = object->to_view = object->to_survey = false;
     object->asked = {};
     object->may_have_input = false;
     count_bytes(*object);
   }
-  // The step may have been going through this list. Then some objects are in it twice, and none is missing.
+  // The step may have failed while it went through this list. Then some objects are listed twice, and none is
+  // missing.
   std::erase_if(with_input_, [](Object* object) { return std::exchange(object->may_have_input, true); });
   will_have_changed_ = true;
 }
@@ -220,17 +223,17 @@ void ObjectStore::drop_removed() {
   if (removed_.empty()) return;
   std::erase_if(with_input_, [](const Object* object) { return object->removed; });
   std::size_t kept = 0;
-  for (std::size_t place = 0; place < objects_.size(); ++place) {
-    if (objects_[place] == nullptr) continue;
-    serials_[kept] = serials_[place];
-    if (kept != place) objects_[kept] = std::move(objects_[place]);
+  for (std::size_t slot = 0; slot < objects_.size(); ++slot) {
+    if (objects_[slot] == nullptr) continue;
+    serials_[kept] = serials_[slot];
+    if (kept != slot) objects_[kept] = std::move(objects_[slot]);
     ++kept;
   }
   objects_.resize(kept);
   serials_.resize(kept);
   for (const auto& object : removed_) {
-    let_go(object->positions);
-    let_go(object->standing_positions);
+    discard(object->positions);
+    discard(object->standing_positions);
   }
   removed_.clear();
   std::sort(departed_.begin(), departed_.end(),
@@ -238,37 +241,37 @@ void ObjectStore::drop_removed() {
 }
 
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
-  tell_problems(diagnostics);  // those of a step that came to no end
+  report_problems(diagnostics);  // those of a step that came to no end
   changed_ = std::exchange(will_have_changed_, false);
   ++steps_;
   drop_removed();
   if (!std::exchange(promises_count_, true))
     for (const auto& object : objects_) object->promised = std::numeric_limits<double>::infinity();
-  begin_list();
+  clear_read_list();
   unread_count_ = surveyed_count_ = 0;
-  // One pass: by the next one the first objects would have left the caches.
+  // Everything is done in one pass, since a second pass would find the first objects out of the caches.
   std::erase_if(with_input_, [&](Object* object) {
     object->may_have_input = has_input(*object);
-    if (object->may_have_input) take_input(*object);
+    if (object->may_have_input) plan_read(*object);
     return !object->may_have_input;
   });
   read_listed(tasks, diagnostics);
-  see_new();
+  mark_new_seen();
 }
 
-/// Leaves an object unread where promises or a survey allow it, and lists it otherwise.
-void ObjectStore::take_input(Object& object) {
+/// Decides how an object with input is read. It stays unread if promises allow that, and is listed otherwise.
+void ObjectStore::plan_read(Object& object) {
   object.stays_unread = stays_unread(object);
   if (object.stays_unread) return;
   add_promise(object);
   if (std::exchange(object.viewed, false)) object.surface_to_write().end_view();
   object.to_survey = can_be_surveyed(object, with_blocks_);
   if (object.to_survey) ++surveyed_count_;
-  const bool was_looked_at = std::exchange(object.looked_at, false);
-  object.goes_by_lists = was_looked_at && !std::exchange(object.asked_for_blocks, false);
-  object.to_block = with_blocks_ && was_looked_at && !object.goes_by_lists;
+  const bool was_tested = std::exchange(object.tested, false);
+  object.goes_by_lists = was_tested && !std::exchange(object.asked_for_blocks, false);
+  object.to_block = with_blocks_ && was_tested && !object.goes_by_lists;
   const bool was_unread = object.unread;
-  // A pose that turns out to be none leaves the object as it is, read or not.
+  // A pose that is refused later leaves the object as it is, read or unread.
   if (!object.pose) object.unread = !checks_every_promise && !object.frozen && std::isfinite(object.promised);
   if ((was_unread && !object.to_survey) || object.unread) changed_ = true;
   if (!object.unread || object.pose) return list_to_read(object);
@@ -277,8 +280,8 @@ void ObjectStore::take_input(Object& object) {
   ++unread_count_;
 }
 
-/// From now on promises may speak of where new objects are that stand as they rest.
-void ObjectStore::see_new() {
+/// Lets promises count from the rest positions of new objects without input.
+void ObjectStore::mark_new_seen() {
   for (auto object = objects_.rbegin(); object != objects_.rend() && (*object)->serial >= first_unseen_;
        ++object)
     if (!has_input(**object)) (*object)->promised = 0;
@@ -287,7 +290,7 @@ void ObjectStore::see_new() {
 
 void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
                               std::vector<Diagnostic>& diagnostics) {
-  begin_list();
+  clear_read_list();
   for (Object* const object : wanted) {
     if (!object->surveyed) --unread_count_;
     object->wanted = object->to_survey = false;
@@ -299,11 +302,11 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
       list_to_read(*object);
   }
   read_listed(tasks, diagnostics);
-  // The next step finds what pairs have come by this.
+  // The next step has to look for the pairs that this read has brought near.
   will_have_changed_ = true;
 }
 
-void ObjectStore::begin_list() {
+void ObjectStore::clear_read_list() {
   to_read_.clear();
   large_.clear();
   parts_.clear();
@@ -317,23 +320,23 @@ void ObjectStore::list_to_read(Object& object) {
   large_.push_back({&object, parts_.size()});
 }
 
-/// Reads an object of `to_read_`, while other threads read others.
-void ObjectStore::read_small(std::size_t place) {
-  Object& object = *to_read_[place];
+/// Reads one object of `to_read_`. Other threads read other objects at the same time.
+void ObjectStore::read_small(std::size_t index) {
+  Object& object = *to_read_[index];
   const AccessScope access({AccessRight::write(&object), {}});
-  Looked looked = read_whole(object);
-  if (looked.changed) changed_.store(true, std::memory_order_relaxed);
-  if (looked.problem) {
-    read_problems_[place] = std::move(looked.problem);
+  ReadOutcome outcome = read_whole(object);
+  if (outcome.changed) changed_.store(true, std::memory_order_relaxed);
+  if (outcome.problem) {
+    read_problems_[index] = std::move(outcome.problem);
     some_problems_.store(true, std::memory_order_relaxed);
   }
-  // Last, since there may be no memory for it.
+  // This comes last, since it may throw for lack of memory.
   if (object.to_block && !object.to_survey) object.surface_to_write().make_blocks();
 }
 
 void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
-  // A task writes its own objects and their own places in read_problems_, or looks at its own vertices of an
-  // object and writes its own part; nothing is shared.
+  // A task writes its own objects and their own entries of read_problems_. Or it reads its own vertices of a
+  // large object and writes its own part. Tasks share no data that is written.
   if (read_problems_.size() < to_read_.size()) read_problems_.resize(to_read_.size());
   const std::size_t each = std::max<std::size_t>(1, to_read_.size() / least_batches);
   const std::size_t batches = (to_read_.size() + each - 1) / each;
@@ -341,28 +344,28 @@ void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnost
     if (item < parts_.size()) {
       Part& part = parts_[item];
       const AccessScope access({AccessRight::read(), {}});
-      part.seen = look_at_part(*part.object, part.begin, part.begin + part.count);
+      part.seen = scan_part(*part.object, part.begin, part.begin + part.count);
     } else {
       const std::size_t begin = (item - parts_.size()) * each;
       const std::size_t end = std::min(begin + each, to_read_.size());
-      for (std::size_t place = begin; place < end; ++place) read_small(place);
+      for (std::size_t index = begin; index < end; ++index) read_small(index);
     }
   });
-  take_large(tasks);
-  tell_problems(diagnostics);
+  finish_large(tasks);
+  report_problems(diagnostics);
 }
 
-/// Appends what the last read found wrong, in the objects' order. Where there is no memory for it, it is to
-/// be told still.
-void ObjectStore::tell_problems(std::vector<Diagnostic>& diagnostics) {
+/// Appends the problems that the last read found, in the order of the objects. If there is no memory for
+/// them, they stay for the next call.
+void ObjectStore::report_problems(std::vector<Diagnostic>& diagnostics) {
   if (!some_problems_) return;
   const auto gather = [&](const Object& object, std::optional<Diagnostic>& problem) {
     if (!problem) return;
     problems_.emplace_back(object.serial, std::move(*problem));
     problem.reset();
   };
-  for (std::size_t place = 0; place < std::min(to_read_.size(), read_problems_.size()); ++place)
-    gather(*to_read_[place], read_problems_[place]);
+  for (std::size_t index = 0; index < std::min(to_read_.size(), read_problems_.size()); ++index)
+    gather(*to_read_[index], read_problems_[index]);
   for (LargeObject& large : large_) gather(*large.object, large.problem);
   std::sort(problems_.begin(), problems_.end(),
             [](const auto& left, const auto& right) { return left.first < right.first; });
@@ -372,43 +375,45 @@ void ObjectStore::tell_problems(std::vector<Diagnostic>& diagnostics) {
   some_problems_ = false;
 }
 
-/// Takes what was seen of the large objects' parts, and writes those of the objects that changed.
-void ObjectStore::take_large(TaskPool& tasks) {
-  std::size_t taken = 0;
+/// Accepts the scans of the large objects, and writes the parts of those that changed.
+void ObjectStore::finish_large(TaskPool& tasks) {
+  std::size_t finished = 0;
   std::size_t to_write = 0;
-  const auto write_taken = [&] {
+  const auto write_finished = [&] {
     tasks.run(to_write, [&](unsigned, std::size_t item) {
-      // The last ones first, which are still in a cache.
+      // The last parts come first, since they are still in a cache.
       const auto& [object, begin, count, seen] = parts_[to_write - 1 - item];
       const AccessScope access({AccessRight::write(object), {}});
       write_part(*object, begin, begin + count);
     });
-    for (const LargeObject& large : std::span(large_).first(taken)) finish_read(*large.object, large.taken);
+    for (const LargeObject& large : std::span(large_).first(finished))
+      finish_read(*large.object, large.accepted);
   };
   try {
-    for (; taken < large_.size(); ++taken) take_parts(taken, to_write);
+    for (; finished < large_.size(); ++finished) finish_parts(finished, to_write);
   } catch (...) {
-    write_taken();  // what was taken has to be written, though there is no memory for the rest
+    write_finished();  // accepted objects have to be written even without memory for the rest
     throw;
   }
-  write_taken();
+  write_finished();
 }
 
-/// Takes what was seen of one of them, and lists its parts before `to_write` if they are to be written.
-void ObjectStore::take_parts(std::size_t place, std::size_t& to_write) {
-  auto& [object, end, problem, taken] = large_[place];
-  const std::size_t begin = place == 0 ? 0 : large_[place - 1].end;
+/// Accepts the scan of one large object. If it is to be written, its parts are moved to the front of
+/// `parts_`, before `to_write`.
+void ObjectStore::finish_parts(std::size_t index, std::size_t& to_write) {
+  auto& [object, end, problem, accepted] = large_[index];
+  const std::size_t begin = index == 0 ? 0 : large_[index - 1].end;
   Surface::PartSeen all;
   for (std::size_t part = begin; part < end; ++part) all.add(parts_[part].seen);
-  Looked looked = take_seen(*object, all);
+  ReadOutcome outcome = accept_scan(*object, all);
   if (object->to_survey && object->to_block && !object->frozen) view_memory(*object);
-  taken = looked.taken;
-  if (looked.changed) changed_ = true;
-  if (looked.problem) {
-    problem = std::move(looked.problem);
+  accepted = outcome.accepted;
+  if (outcome.changed) changed_ = true;
+  if (outcome.problem) {
+    problem = std::move(outcome.problem);
     some_problems_ = true;
   }
-  if (!looked.to_write) return;
+  if (!outcome.to_write) return;
   for (std::size_t part = begin; part < end; ++part) parts_[to_write++] = parts_[part];
 }
 

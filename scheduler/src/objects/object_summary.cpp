@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-/// Objects refreshed at a time.
+/// The number of objects that one task refreshes.
 constexpr std::size_t slice = 1024;
 
 ObjectSummary summary_of(const Object& object) {
@@ -31,40 +31,40 @@ double motion_between(const Box& before, const Box& now) {
 
 }  // namespace
 
-/// Numbers of addition ascend, so the last and their count say whether the objects are the same.
-void ObjectSummaries::follow(std::span<const std::unique_ptr<Object>> objects) {
-  moves_.clear();
+/// Serials ascend, so an equal count and an equal last serial mean that the objects are the same.
+void ObjectSummaries::update_slots(std::span<const std::unique_ptr<Object>> objects) {
+  new_slots_.clear();
   const std::size_t before = summaries_.size();
   if (objects.size() == before && (before == 0 || objects.back()->serial == summaries_.back().serial)) return;
   std::uint32_t now = 0;
-  moves_.resize(before);
-  for (std::size_t place = 0; place < before; ++place) {
-    const bool stays = now < objects.size() && objects[now]->serial == summaries_[place].serial;
-    moves_[place] = stays ? now : no_place;
-    if (stays) summaries_[now++] = summaries_[place];
+  new_slots_.resize(before);
+  for (std::size_t slot = 0; slot < before; ++slot) {
+    const bool stays = now < objects.size() && objects[now]->serial == summaries_[slot].serial;
+    new_slots_[slot] = stays ? now : no_slot;
+    if (stays) summaries_[now++] = summaries_[slot];
   }
   summaries_.resize(now);
-  if (now == before) moves_.clear();
+  if (now == before) new_slots_.clear();
   for (; now < objects.size(); ++now) summaries_.push_back(summary_of(*objects[now]));
 }
 
 void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks) {
-  follow(objects);
+  update_slots(objects);
   changed_.resize(objects.size());
   std::atomic<bool> some_unread = false;
   const auto refresh_slice = [&](unsigned, std::size_t index) {
     bool unread = false;
     const std::size_t end = std::min((index + 1) * slice, objects.size());
-    for (std::size_t place = index * slice; place < end; ++place) {
-      const Object& object = *objects[place];
-      ObjectSummary& summary = summaries_[place];
+    for (std::size_t slot = index * slice; slot < end; ++slot) {
+      const Object& object = *objects[slot];
+      ObjectSummary& summary = summaries_[slot];
       summary.motion = motion_between(summary.box, object.box);
       summary.moved = summary.read_late || !(summary.motion == 0);
       summary.read_late = false;
       const bool changed = !(summary.motion == 0) || summary.version != object.version ||
                            summary.frozen != object.frozen || summary.unread != object.unread ||
                            (object.unread && !object.stays_unread);
-      changed_[place] = changed ? 1 : 0;
+      changed_[slot] = changed ? 1 : 0;
       summary.box = object.box;
       summary.version = object.version;
       summary.frozen = object.frozen;
@@ -79,7 +79,7 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
 
 void ObjectSummaries::refresh(std::span<Object* const> read_late) {
   for (const Object* const object : read_late) {
-    ObjectSummary& summary = summaries_[place_of(*object)];
+    ObjectSummary& summary = summaries_[slot_of(*object)];
     summary.read_late = !(motion_between(summary.box, object->box) == 0);
     summary.box = object->box;
     summary.version = object->version;
@@ -88,7 +88,7 @@ void ObjectSummaries::refresh(std::span<Object* const> read_late) {
   }
 }
 
-std::uint32_t ObjectSummaries::place_of(const Object& object) const {
+std::uint32_t ObjectSummaries::slot_of(const Object& object) const {
   const auto found = std::lower_bound(
       summaries_.begin(), summaries_.end(), object.serial,
       [](const ObjectSummary& summary, std::uint64_t serial) { return summary.serial < serial; });

@@ -5,18 +5,18 @@
 #include <span>
 #include <vector>
 
-#include "base/place_pair.hpp"
+#include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "core/base/bytes_of.hpp"
 #include "objects/object_store.hpp"
 
 namespace graze {
 
-/// What the pair table asks of an object for each of its pairs.
+/// The data of an object that the pair table needs for each of its pairs.
 struct ObjectSummary {
   Box box;  ///< Object::box
   double margin = 0;
-  /// The largest number by which a side of the box has moved since the step before.
+  /// The largest distance by which a side of the box has moved since the step before.
   double motion = 0;
   std::uint64_t serial = 0;
   std::uint64_t version = 0;  ///< of its surface
@@ -31,42 +31,42 @@ struct ObjectSummary {
   bool read_late = false;  ///< the box has changed since the refresh
 };
 
-/// The summaries of all objects in one array, in their order of addition. Stepping thread only.
+/// The summaries of all objects in one array, in the order of addition. Stepping thread only.
 class ObjectSummaries {
  public:
-  /// Brings all up to date; the box of an object that is new has not moved.
+  /// Updates all summaries. The box of a new object counts as unmoved.
   void refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks);
-  /// The same for objects that were read since.
+  /// Updates the summaries of objects that were read after the last full refresh.
   void refresh(std::span<Object* const> read_late);
 
   [[nodiscard]] std::span<const ObjectSummary> all() const { return summaries_; }
-  [[nodiscard]] const ObjectSummary& operator[](std::uint32_t place) const { return summaries_[place]; }
-  /// Where an object stands.
-  [[nodiscard]] std::uint32_t place_of(const Object& object) const;
-  /// For each place before the last refresh that at which the object is now, or no_place; empty where all
-  /// are where they were. New objects stand behind all others.
-  [[nodiscard]] std::span<const std::uint32_t> moves() const { return moves_; }
+  [[nodiscard]] const ObjectSummary& operator[](std::uint32_t slot) const { return summaries_[slot]; }
+  /// The slot of an object.
+  [[nodiscard]] std::uint32_t slot_of(const Object& object) const;
+  /// The new slot of each object that existed before the last refresh, or no_slot for a removed one. It is
+  /// empty if no slot has changed. New objects get the last slots.
+  [[nodiscard]] std::span<const std::uint32_t> new_slots() const { return new_slots_; }
   [[nodiscard]] bool some_unread() const { return some_unread_; }
-  /// Whether an object may be otherwise than at the refresh before, or is unread. It says nothing of new
-  /// ones.
-  [[nodiscard]] bool changed(std::uint32_t place) const { return changed_[place] != 0; }
-  /// Makes room for so many objects.
+  /// Whether an object may have changed since the refresh before, or is unread. It means nothing for new
+  /// objects.
+  [[nodiscard]] bool changed(std::uint32_t slot) const { return changed_[slot] != 0; }
+  /// Reserves memory for that many objects.
   void reserve(std::size_t objects) {
     summaries_.reserve(objects);
-    moves_.reserve(objects);
+    new_slots_.reserve(objects);
     changed_.reserve(objects);
   }
   [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(summaries_) + bytes_of(moves_) + bytes_of(changed_);
+    return bytes_of(summaries_) + bytes_of(new_slots_) + bytes_of(changed_);
   }
 
  private:
-  /// Takes those out that are gone, and puts new ones in.
-  void follow(std::span<const std::unique_ptr<Object>> objects);
+  /// Removes the summaries of removed objects and adds those of new ones.
+  void update_slots(std::span<const std::unique_ptr<Object>> objects);
 
   std::vector<ObjectSummary> summaries_;
-  std::vector<std::uint32_t> moves_;
-  std::vector<std::uint8_t> changed_;  ///< side by side, since it is asked of both objects of every pair
+  std::vector<std::uint32_t> new_slots_;
+  std::vector<std::uint8_t> changed_;  ///< in one array, since every pair reads it for both objects
   bool some_unread_ = false;
 };
 

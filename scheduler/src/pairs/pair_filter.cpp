@@ -6,7 +6,7 @@
 namespace graze {
 namespace {
 
-/// DV's threshold: the last of the paper's numbers where there are any.
+/// The threshold of DV: the last of the paper's epsilons if there are any, otherwise the contact distance.
 double base_distance(double contact_distance, std::span<const double> epsilon) {
   return epsilon.empty() ? contact_distance : epsilon.back();
 }
@@ -23,7 +23,7 @@ PairFilter::PairFilter(const SceneSettings& settings) : settings_(settings) {
   half_reaches_.fill(distances_[0].reach() / 2);
 }
 
-std::size_t PairFilter::place_of(std::uint32_t kind_a, std::uint32_t kind_b) {
+std::size_t PairFilter::index_of(std::uint32_t kind_a, std::uint32_t kind_b) {
   return std::size_t{kind_a} * kind_count + kind_b;
 }
 
@@ -37,21 +37,22 @@ PairFilter::Distances PairFilter::distances_of(const PairRule& rule) const {
 void PairFilter::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule) {
   ++rules_version_;
   if (rule_of_.empty()) rule_of_.assign(std::size_t{kind_count} * kind_count, 0);
-  std::uint16_t& index = rule_of_[place_of(kind_a, kind_b)];
+  std::uint16_t& index = rule_of_[index_of(kind_a, kind_b)];
   if (index == 0) {
     distances_.reserve(distances_.size() + 1);  // rules are few; after both there is no more to throw
     rules_.emplace_back();
     distances_.emplace_back();
-    index = rule_of_[place_of(kind_b, kind_a)] = static_cast<std::uint16_t>(rules_.size());
+    index = rule_of_[index_of(kind_b, kind_a)] = static_cast<std::uint16_t>(rules_.size());
   }
-  // A rule's numbers are the vector's own memory, which stays where it is when rules move.
+  // The epsilons stay valid when rules move, since a vector keeps its memory when it is moved.
   rules_[index - std::size_t{1}] = std::move(rule);
   distances_[index] = distances_of(rules_[index - std::size_t{1}]);
   find_half_reach(kind_a);
   find_half_reach(kind_b);
 }
 
-/// Of two kinds each has at least half of what is between them.
+/// Finds the half reach of a kind: half of its largest reach to any kind. So the half reaches of two kinds
+/// add up to at least their reach.
 void PairFilter::find_half_reach(std::uint32_t kind) {
   double reach = 0;
   for (std::uint32_t other = 0; other < kind_count; ++other)
@@ -69,7 +70,8 @@ void PairFilter::set_ignored(const Object& a, const Object& b, bool ignored) {
   ignored_.insert(serials_of(a, b));
 }
 
-/// Not at once, since every pair has to be looked at for it: when there is something to be won.
+/// Defers the removal, since it visits every ignored pair. It happens once enough removed objects have
+/// gathered.
 void PairFilter::forget(const Object& object) {
   if (ignored_.size() == 0) return;
   forgotten_.push_back(object.serial);
@@ -91,7 +93,7 @@ PairVerdict PairFilter::verdict(const ObjectSummary& a, const ObjectSummary& b) 
   if ((a.layer & b.collides_with) == 0 || (b.layer & a.collides_with) == 0) return PairVerdict::layer;
   if (a.group != 0 && a.group == b.group) return PairVerdict::group;
   if (ignored_.size() > 0 && ignored_.contains(std::minmax(a.serial, b.serial))) return PairVerdict::ignored;
-  return PairVerdict::looked_at;
+  return PairVerdict::tested;
 }
 
 PairThresholds PairFilter::thresholds(const ObjectSummary& a, const ObjectSummary& b) const {

@@ -20,23 +20,24 @@ struct PairThresholds {
   std::span<const double> epsilon;
 };
 
-/// Which filter takes a pair out; where several would, the first.
+/// The filter that leaves a pair out. If several do, it is the first in this order.
 enum class PairVerdict : std::uint8_t {
-  looked_at,
+  tested,
   fixed,    ///< both are fixed
   layer,    ///< one's layer is not in the other's mask
   group,    ///< both are in one group
   ignored,  ///< by Scene::ignore
 };
 
-/// Which pairs are looked at, and how far. Stepping thread only, but for the const calls.
+/// Decides which pairs are tested and up to which distance. Stepping thread only, except for the const
+/// members.
 class PairFilter {
  public:
   explicit PairFilter(const SceneSettings& settings);
 
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule);
   void set_ignored(const Object& a, const Object& b, bool ignored);
-  /// Drops what is kept of the pairs of a removed object.
+  /// Forgets the ignored pairs of a removed object.
   void forget(const Object& object);
 
   [[nodiscard]] PairVerdict verdict(const ObjectSummary& a, const ObjectSummary& b) const;
@@ -46,16 +47,16 @@ class PairFilter {
     const Distances& distances = distances_of(a.kind, b.kind);
     return std::max(distances.range, distances.contact + (a.margin + b.margin));
   }
-  /// Changes with every rule.
+  /// A number that changes with every rule.
   [[nodiscard]] std::uint64_t rules_version() const { return rules_version_; }
-  /// The same, and with every pair that is ignored or is no longer.
+  /// A number that changes with every rule, and with every pair that becomes ignored or watched.
   [[nodiscard]] std::uint64_t version() const { return rules_version_ + ignored_version_; }
   [[nodiscard]] const BroadPhase::HalfReaches& half_reaches() const { return half_reaches_; }
 
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// Of a kind of pair, without margins.
+  /// The distances of a pair of kinds, without margins.
   struct Distances {
     double contact = 0;
     double range = 0;
@@ -65,9 +66,9 @@ class PairFilter {
   };
   [[nodiscard]] Distances distances_of(const PairRule& rule) const;
   [[nodiscard]] const Distances& distances_of(std::uint32_t kind_a, std::uint32_t kind_b) const {
-    return distances_[rule_of_.empty() ? 0 : rule_of_[place_of(kind_a, kind_b)]];
+    return distances_[rule_of_.empty() ? 0 : rule_of_[index_of(kind_a, kind_b)]];
   }
-  static std::size_t place_of(std::uint32_t kind_a, std::uint32_t kind_b);
+  static std::size_t index_of(std::uint32_t kind_a, std::uint32_t kind_b);
   void find_half_reach(std::uint32_t kind);
   void drop_forgotten();
 

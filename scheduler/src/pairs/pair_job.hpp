@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/access.hpp"
-#include "base/place_pair.hpp"
+#include "base/slot_pair.hpp"
 #include "objects/object_store.hpp"
 #include "pairs/pair_filter.hpp"
 #include "pairs/pair_memory.hpp"
@@ -16,42 +16,42 @@ inline bool is_contact(PairPhase phase) {
   return phase == PairPhase::began || phase == PairPhase::touching;
 }
 
-/// What is to be done about one pair in this step.
+/// The work of one step for one pair.
 struct PairJob {
   enum class Task : std::uint8_t {
-    detect,       ///< look at it
-    end,          ///< filtered out while in contact: its distance once more
-    repeat_last,  ///< an object is frozen: the last values
-    unchanged,    ///< nothing has moved since the last answer: it is this one's too
+    detect,       ///< test the pair
+    end,          ///< filtered out while in contact: find its distance once more
+    repeat_last,  ///< an object is frozen: repeat the last values
+    unchanged,    ///< nothing has moved since the last answer: repeat it
   };
   Task task = Task::detect;
-  bool allowed = true;  ///< by the filters
-  PlacePair places = 0;
+  bool allowed = true;  ///< whether the filters allow the pair
+  SlotPair slots = 0;
   Object* a = nullptr;
   Object* b = nullptr;
-  const PairReport* last = nullptr;  ///< in the previous report; null where it was not listed
-  PairMemory* memory = nullptr;      ///< for tasks through `memory_to_write`
+  const PairReport* last = nullptr;  ///< the row in the previous report; null if there was none
+  PairMemory* memory = nullptr;      ///< tasks use `memory_to_write`
   PairThresholds thresholds;
 
   [[nodiscard]] PairMemory& memory_to_write() const {
     require_write(StepData::pairs, this);
     return *memory;
   }
-  [[nodiscard]] bool is_looked_at() const { return task == Task::detect || task == Task::end; }
+  [[nodiscard]] bool is_tested() const { return task == Task::detect || task == Task::end; }
   [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }
 };
 
-/// Rows of the last report that this one has too, before a job's: some that rest and stand as they are, or
-/// one of which an object was removed, and which ends.
+/// Rows of the last report that this report repeats before the row of a job. They are rows of pairs at rest,
+/// or the row of a pair that ends because one of its objects was removed.
 struct LastRows {
   std::size_t job;
   std::uint32_t listed;  ///< the first, among the pairs that the last report lists
   std::uint32_t row;     ///< the first
   std::uint32_t count;
-  bool ended = false;  ///< then `listed` says nothing
+  bool ended = false;  ///< if true, `listed` is undefined
 };
 
-/// What is to be done and said about the pairs of a scene, in the order of addition of a, then b.
+/// All jobs and repeated rows of a step, ordered by the slots of objects a and b.
 struct PairList {
   std::span<const PairJob> jobs;
   std::span<const LastRows> last_rows;  ///< ascending by the job they stand before

@@ -7,35 +7,36 @@
 namespace graze {
 namespace {
 
-/// Which pair gets which memory is a matter of chance, and so is when one first needs room. Of so many each
-/// has it from the start, which is half a MiB; where there are more, reserving makes room.
+/// This many memories reserve room for their fronts when they are made, half a MiB in all. Which pair gets
+/// which memory, and so when a memory first needs room, is a matter of chance. For more pairs `reserve` makes
+/// room.
 constexpr std::size_t with_room_at_once = 512;
 
 }  // namespace
 
-PairMemories::Place PairMemories::take() {
+PairMemories::Index PairMemories::acquire() {
   if (free_.empty()) {
     memories_.emplace_back();
     if (memories_.size() <= with_room_at_once) make_room(memories_.back(), {leaf_pairs_of_front, 0});
-    return static_cast<Place>(memories_.size() - 1);
+    return static_cast<Index>(memories_.size() - 1);
   }
-  const Place place = free_.back();
+  const Index index = free_.back();
   free_.pop_back();
-  return place;
+  return index;
 }
 
-void PairMemories::release(Place place) {
-  PairMemory& memory = memories_[place];
+void PairMemories::release(Index index) {
+  PairMemory& memory = memories_[index];
   memory.front.forget();
   memory.version_a = memory.version_b = 0;
-  free_.push_back(place);
+  free_.push_back(index);
 }
 
 void PairMemories::reserve(std::size_t pairs, const PairMemoryRoom& room) {
   free_.reserve(pairs);
-  for (std::size_t place = memories_.size(); place < pairs; ++place) {
+  for (std::size_t index = memories_.size(); index < pairs; ++index) {
     memories_.emplace_back();
-    free_.push_back(static_cast<Place>(place));
+    free_.push_back(static_cast<Index>(index));
   }
   for (PairMemory& memory : memories_) make_room(memory, room);
 }

@@ -8,46 +8,47 @@
 
 namespace graze {
 
-/// What is remembered of a pair of objects from step to step.
+/// The data of a pair of objects that is kept from step to step.
 struct PairMemory {
   LeafFront front;
-  /// What the last complete answer was about; 0 where there was none.
+  /// The versions of surfaces and rules for which the last complete answer holds. The surface versions are 0
+  /// if there is none.
   std::uint64_t version_a = 0;
   std::uint64_t version_b = 0;
   std::uint64_t rules_version = 0;
 };
 
-/// How many pairs of leaves a front has room for where room is made ahead; SceneCapacity says so.
+/// The number of leaf pairs that a front has reserved room for; SceneCapacity states it.
 inline constexpr std::size_t leaf_pairs_of_front = 64;
 
-/// How much is remembered of a pair without taking memory.
+/// The capacity that a pair's memory gets ahead of time.
 struct PairMemoryRoom {
   std::size_t leaf_pairs = 0;  ///< of its front
   std::size_t features = 0;    ///< pairs of them, in its list
 };
 
-/// The memories of pairs of objects: only those of the n(n-1)/2 that are looked at have one (the paper's
+/// The memories of pairs of objects. Of the n(n-1)/2 pairs only those that are tested have one (the paper's
 /// numcd). Stepping thread only.
 class PairMemories {
  public:
-  /// Where a memory is.
-  using Place = std::uint32_t;
+  /// The index of a memory.
+  using Index = std::uint32_t;
 
-  /// A memory that knows nothing, which stays in place until it is released.
-  Place take();
-  void release(Place place);
-  [[nodiscard]] PairMemory& operator[](Place place) { return memories_[place]; }
+  /// Returns the index of an empty memory, which keeps its address until it is released.
+  Index acquire();
+  void release(Index index);
+  [[nodiscard]] PairMemory& operator[](Index index) { return memories_[index]; }
 
-  /// Makes room for so many pairs.
+  /// Reserves memory for that many pairs.
   void reserve(std::size_t pairs, const PairMemoryRoom& room);
-  /// Bytes held; of the fronts only what was reserved.
+  /// The bytes held. Of the fronts it counts only reserved memory.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   void make_room(PairMemory& memory, const PairMemoryRoom& room);
 
   std::deque<PairMemory> memories_;  ///< a deque, so that they stay in place
-  std::vector<Place> free_;
+  std::vector<Index> free_;
   std::size_t reserved_bytes_ = 0;  ///< of fronts
 };
 

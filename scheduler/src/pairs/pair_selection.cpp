@@ -10,36 +10,36 @@
 namespace graze {
 namespace {
 
-/// Pairs looked at at a time.
+/// The number of pairs that one task processes.
 constexpr std::size_t pairs_of_slice = 4096;
 static_assert(pairs_of_slice <= std::numeric_limits<decltype(SelectedPair::count)>::max());
 
-/// Where in an ascending array `pair` is or would be.
+/// The index in an ascending array at which `pair` is or would be.
 template <typename Array>
-std::size_t place_in(const Array& array, PlacePair pair) {
+std::size_t index_in(const Array& array, SlotPair pair) {
   const auto found = std::lower_bound(array.begin(), array.end(), pair,
-                                      [](const auto& each, PlacePair value) { return each.pair < value; });
+                                      [](const auto& each, SlotPair value) { return each.pair < value; });
   return static_cast<std::size_t>(found - array.begin());
 }
 
 }  // namespace
 
-/// What all tasks read.
+/// The input that all tasks read.
 struct PairSelection::Given {
-  std::span<const PlacePair> pairs;
+  std::span<const SlotPair> pairs;
   std::span<const ListedPair> listed;
   const ObjectSummaries& summaries;
   const PairFilter& filter;
   bool same_filter;
 
-  [[nodiscard]] bool stands(PlacePair pair) const {
+  [[nodiscard]] bool stands(SlotPair pair) const {
     return same_filter && !summaries.changed(first_of(pair)) && !summaries.changed(second_of(pair));
   }
 };
 
-/// One task: goes through its part of the pairs, of what was known and of what was listed side by side. It
-/// writes its own part of `known_` and `selected_`, and into that of `last_`, behind itself, the memories of
-/// those to be forgotten.
+/// The work of one task. It walks its ranges of the known pairs and of the listed pairs side by side. It
+/// writes its own ranges of `known_` and `selected_`. It writes the memories to be released into the part of
+/// its range of `last_` that it has already passed.
 class PairSelection::Walk {
  public:
   Walk(PairSelection& selection, const Given& given, Slice& slice)
@@ -50,52 +50,52 @@ class PairSelection::Walk {
         listed_(slice.listed_begin) {}
 
   void run() {
-    for (std::size_t place = slice_.begin; place < slice_.end; ++place) take(place);
-    pass_by(slice_.end < given_.pairs.size() ? given_.pairs[slice_.end] : no_pair);  // behind all others
+    for (std::size_t index = slice_.begin; index < slice_.end; ++index) visit(index);
+    drop_before(slice_.end < given_.pairs.size() ? given_.pairs[slice_.end] : no_pair);  // behind all others
   }
 
  private:
-  [[nodiscard]] bool is_known(PlacePair pair) const {
+  [[nodiscard]] bool is_known(SlotPair pair) const {
     return last_ < slice_.last_end && selection_.last_[last_].pair == pair;
   }
-  std::uint32_t next_listed(PlacePair pair) {
+  std::uint32_t next_listed(SlotPair pair) {
     if (listed_ == slice_.listed_end || given_.listed[listed_].pair != pair) return SelectedPair::none;
     return static_cast<std::uint32_t>(listed_++);
   }
 
-  /// Pairs below `end` that the broad phase keeps no longer.
-  void pass_by(PlacePair end) {
+  /// Drops the pairs below `end` that the broad phase no longer keeps.
+  void drop_before(SlotPair end) {
     while (true) {
-      PlacePair pair = end;
+      SlotPair pair = end;
       if (last_ < slice_.last_end) pair = std::min(pair, selection_.last_[last_].pair);
       if (listed_ < slice_.listed_end) pair = std::min(pair, given_.listed[listed_].pair);
       if (pair == end) return;
       const std::uint32_t memory = is_known(pair) ? selection_.last_[last_++].memory : SelectedPair::none;
-      leave({pair, SelectedPair::none, memory, next_listed(pair)});
+      drop({pair, SelectedPair::none, memory, next_listed(pair)});
     }
   }
 
-  void take(std::size_t place) {
-    const PlacePair pair = given_.pairs[place];
-    pass_by(pair);
+  void visit(std::size_t index) {
+    const SlotPair pair = given_.pairs[index];
+    drop_before(pair);
     Known known{pair};
     if (is_known(pair)) known = selection_.last_[last_++];
-    const SelectedPair selected{pair, static_cast<std::uint32_t>(place), known.memory, next_listed(pair)};
+    const SelectedPair selected{pair, static_cast<std::uint32_t>(index), known.memory, next_listed(pair)};
     if (!known.rests || !given_.stands(pair)) {
       known.fate =
           fate_of(given_.summaries[first_of(pair)], given_.summaries[second_of(pair)], given_.filter);
-      known.rests = known.fate != Fate::looked_at && known.fate != Fate::frozen;
+      known.rests = known.fate != Fate::tested && known.fate != Fate::frozen;
     }
     ++slice_.fates[static_cast<std::size_t>(known.fate)];
-    if (known.fate != Fate::looked_at) {
+    if (known.fate != Fate::tested) {
       known.memory = SelectedPair::none;
-      leave(selected);
+      drop(selected);
     } else if (known.rests) {
       add_resting(selected);
     } else {
       add(selected);
     }
-    selection_.known_[place] = known;
+    selection_.known_[index] = known;
   }
 
   void add(const SelectedPair& selected) {
@@ -116,12 +116,12 @@ class PairSelection::Walk {
     selected.kind = SelectedPair::Kind::resting;
     add(selected);
   }
-  void leave(SelectedPair selected) {
+  void drop(SelectedPair selected) {
     if (selected.listed != SelectedPair::none) {
       selected.kind = SelectedPair::Kind::not_selected;
       add(selected);
     } else if (selected.memory != SelectedPair::none) {
-      // It comes from a pair of `last_` that has been passed by.
+      // The memory belongs to a pair of `last_` that the walk has passed, so there is a free entry for it.
       selection_.last_[slice_.last_begin + slice_.forgotten++].memory = selected.memory;
     }
   }
@@ -133,15 +133,15 @@ class PairSelection::Walk {
   std::size_t listed_;
 };
 
-std::span<const SelectedPair> PairSelection::select(std::span<const PlacePair> pairs,
+std::span<const SelectedPair> PairSelection::select(std::span<const SlotPair> pairs,
                                                     std::span<const ListedPair> listed,
                                                     const ObjectSummaries& summaries,
                                                     const PairFilter& filter, TaskPool& tasks,
                                                     StepStatistics& statistics) {
-  for (const PairMemories::Place memory : leaving_) memories_.release(memory);
-  leaving_.clear();
+  for (const PairMemories::Index memory : temporary_) memories_.release(memory);
+  temporary_.clear();
   last_.swap(known_);
-  if (!summaries.moves().empty()) follow(summaries.moves());
+  if (!summaries.new_slots().empty()) remap(summaries.new_slots());
   known_.resize(pairs.size());
   cut(pairs, listed);
   const bool same_filter = std::exchange(filter_version_, filter.version()) == filter.version();
@@ -154,11 +154,11 @@ std::span<const SelectedPair> PairSelection::select(std::span<const PlacePair> p
   return std::span(selected_).first(gather());
 }
 
-/// Calls pairs by the places that their objects have now.
-void PairSelection::follow(std::span<const std::uint32_t> moves) {
+/// Renames pairs by the new slots of their objects.
+void PairSelection::remap(std::span<const std::uint32_t> new_slots) {
   std::size_t kept = 0;
   for (Known known : last_) {
-    known.pair = moved_pair(known.pair, moves);
+    known.pair = remapped_pair(known.pair, new_slots);
     if (known.pair != no_pair)
       last_[kept++] = known;
     else if (known.memory != SelectedPair::none)
@@ -167,15 +167,15 @@ void PairSelection::follow(std::span<const std::uint32_t> moves) {
   last_.resize(kept);
 }
 
-/// Where a slice begins in one of the three, it begins in the others.
-void PairSelection::cut(std::span<const PlacePair> pairs, std::span<const ListedPair> listed) {
+/// Cuts the three lists into slices at the same pairs.
+void PairSelection::cut(std::span<const SlotPair> pairs, std::span<const ListedPair> listed) {
   slices_.clear();
   Slice slice{};
   do {
     slice.end = std::min(slice.begin + pairs_of_slice, pairs.size());
     const bool is_last = slice.end == pairs.size();
-    slice.last_end = is_last ? last_.size() : place_in(last_, pairs[slice.end]);
-    slice.listed_end = is_last ? listed.size() : place_in(listed, pairs[slice.end]);
+    slice.last_end = is_last ? last_.size() : index_in(last_, pairs[slice.end]);
+    slice.listed_end = is_last ? listed.size() : index_in(listed, pairs[slice.end]);
     slice.selected_begin = slice.begin + slice.listed_begin;
     slices_.push_back(slice);
     slice.begin = slice.end;
@@ -196,14 +196,14 @@ PairSelection::Fate PairSelection::fate_of(const ObjectSummary& a, const ObjectS
       return Fate::group;
     case PairVerdict::ignored:
       return Fate::ignored;
-    case PairVerdict::looked_at:
+    case PairVerdict::tested:
       break;
   }
   if (!may_be_near(lower_distance(a.box, b.box), filter.reach(a, b))) return Fate::apart;
-  return a.frozen || b.frozen ? Fate::frozen : Fate::looked_at;
+  return a.frozen || b.frozen ? Fate::frozen : Fate::tested;
 }
 
-/// Puts what the slices found together, and releases the memories of which there is nothing to be said.
+/// Joins the selections of all slices, and releases the memories of pairs that no report lists.
 std::size_t PairSelection::gather() {
   std::size_t count = 0;
   for (const Slice& slice : slices_) {
@@ -232,14 +232,14 @@ void PairSelection::count(StepStatistics& statistics) const {
 }
 
 #ifdef GRAZE_VALIDATE
-/// What is known of pairs that rest is what a look at their objects says.
+/// Throws if what is known of a pair at rest differs from what its objects say.
 void PairSelection::validate(const Given& given) {
   for (const Known& known : known_) {
     if (!known.rests) continue;
     const ObjectSummary& a = given.summaries[first_of(known.pair)];
     const ObjectSummary& b = given.summaries[second_of(known.pair)];
     bool holds = known.fate == fate_of(a, b, given.filter);
-    if (known.fate == Fate::looked_at) {
+    if (known.fate == Fate::tested) {
       const PairMemory& memory = memories_[known.memory];
       holds = holds && memory.version_a == a.version && memory.version_b == b.version &&
               memory.rules_version == given.filter.rules_version();
@@ -252,12 +252,12 @@ void PairSelection::validate(const Given&) {}
 #endif
 
 PairMemory& PairSelection::memory_of(const SelectedPair& selected) {
-  const PairMemories::Place memory =
-      selected.memory == SelectedPair::none ? memories_.take() : selected.memory;
-  if (selected.place == SelectedPair::none)
-    leaving_.push_back(memory);
+  const PairMemories::Index memory =
+      selected.memory == SelectedPair::none ? memories_.acquire() : selected.memory;
+  if (selected.close_index == SelectedPair::none)
+    temporary_.push_back(memory);
   else
-    known_[selected.place].memory = memory;
+    known_[selected.close_index].memory = memory;
   return memories_[memory];
 }
 
@@ -269,13 +269,13 @@ void PairSelection::reserve(std::size_t pairs, const PairMemoryRoom& room) {
   memories_.reserve(pairs, room);
   known_.reserve(pairs);
   last_.reserve(pairs);
-  leaving_.reserve(pairs);
+  temporary_.reserve(pairs);
   selected_.reserve(2 * pairs);
   slices_.reserve(pairs / pairs_of_slice + 1);
 }
 
 std::size_t PairSelection::byte_count() const {
-  return memories_.byte_count() + bytes_of(known_) + bytes_of(last_) + bytes_of(leaving_) +
+  return memories_.byte_count() + bytes_of(known_) + bytes_of(last_) + bytes_of(temporary_) +
          bytes_of(selected_) + bytes_of(slices_);
 }
 

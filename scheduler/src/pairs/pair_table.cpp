@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-/// So many pairs before it is asked for a memory begins to come from further away.
+/// A memory is prefetched this many pairs before it is used.
 constexpr std::size_t ahead = 12;
 
 }  // namespace
@@ -25,24 +25,25 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), tasks);
   statistics.boxes_tested = broad_phase_.counters().boxes_tested;
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
-  if (summaries_.some_unread()) read_what_is_near(close, tasks, diagnostics);
+  if (summaries_.some_unread()) read_near_objects(close, tasks, diagnostics);
   list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);
-  // Those counted so far rest, and have no job.
+  // The pairs counted as unchanged so far are at rest and have no job.
   const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
   count_jobs(statistics);
   return {jobs_, last_rows_, pair_count};
 }
 
-/// The pairs that the last report lists, by the places that their objects have now.
+/// Finds the pairs of the last report by the current slots of their objects.
 void PairTable::find_listed(const FrameReport& previous) {
-  // Of another report where a step did not go through the pairs, or after one that came to no end.
+  // The rows are those of another report if a step did not list pairs, or after a failed step.
   if (rows_frame_ != previous.frame()) return look_up_listed(previous);
   listed_.swap(rows_);
-  const auto moves = summaries_.moves();
-  if (moves.empty()) return;
+  const auto new_slots = summaries_.new_slots();
+  if (new_slots.empty()) return;
   std::size_t kept = 0;
   for (const auto [pair, row] : listed_)
-    if (const PlacePair moved = moved_pair(pair, moves); moved != no_pair) listed_[kept++] = {moved, row};
+    if (const SlotPair moved = remapped_pair(pair, new_slots); moved != no_pair)
+      listed_[kept++] = {moved, row};
   listed_.resize(kept);
 }
 
@@ -52,11 +53,12 @@ void PairTable::look_up_listed(const FrameReport& previous) {
     const Object* const a = store_.find(previous.pairs()[row].a);
     const Object* const b = store_.find(previous.pairs()[row].b);
     if (a != nullptr && b != nullptr)
-      listed_.push_back({pair_of(summaries_.place_of(*a), summaries_.place_of(*b)), row});
+      listed_.push_back({pair_of(summaries_.slot_of(*a), summaries_.slot_of(*b)), row});
   }
 }
 
-/// The pairs that the last report has in contact and of which an object was removed since, in its order.
+/// Finds the pairs in contact in the last report of which an object was removed since, in that report's
+/// order.
 void PairTable::find_ended(const FrameReport& previous) {
   ended_.clear();
   ended_listed_ = 0;
@@ -69,7 +71,7 @@ void PairTable::find_ended(const FrameReport& previous) {
   }
 }
 
-/// Object::serial, also of an object that was removed since the last report.
+/// The serial of an object, which may have been removed since the last report.
 std::uint64_t PairTable::serial_of(ObjectId id) {
   if (const Object* const object = store_.find(id)) return object->serial;
   return std::lower_bound(store_.departed().begin(), store_.departed().end(), id,
@@ -77,7 +79,7 @@ std::uint64_t PairTable::serial_of(ObjectId id) {
       ->serial;
 }
 
-/// Has the rows of ended pairs that come before a pair stand before what is listed next.
+/// Lists the ended pairs that come before a pair.
 void PairTable::list_ended(SerialPair before) {
   for (; ended_listed_ < ended_.size() && ended_[ended_listed_].pair < before; ++ended_listed_)
     last_rows_.push_back({jobs_.size(), 0, ended_[ended_listed_].row, 1, true});
@@ -96,32 +98,32 @@ void PairTable::add_rows(const LastRows& rows) {
   for (std::uint32_t i = 0; i < rows.count; ++i) add_row(listed_[rows.listed + i].pair);
 }
 
-/// A pair of which one object was not read, because of a promise or since it was surveyed, is near only where
-/// their boxes are; then it is read after all. So is what the last report listed, since that has to be said
-/// of it again.
-void PairTable::read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
+/// Reads unread objects where their boxes show that they may be near another object, since a pair with one
+/// can only be near then. Also reads changed objects of the last report's pairs, since this report has to
+/// mention these pairs again.
+void PairTable::read_near_objects(std::span<const SlotPair> pairs, TaskPool& tasks,
                                   std::vector<Diagnostic>& diagnostics) {
   const auto objects = store_.objects();
   wanted_.clear();
   const bool same_filter = std::exchange(filter_version_, filter_.version()) == filter_.version();
-  const auto want = [&](std::uint32_t place) {
-    Object* const object = objects[place].get();
+  const auto want = [&](std::uint32_t slot) {
+    Object* const object = objects[slot].get();
     if (object->unread && !std::exchange(object->wanted, true)) wanted_.push_back(object);
   };
-  for (const PlacePair pair : pairs) {
-    // Both are read, or were found to be apart in an earlier step.
+  for (const SlotPair pair : pairs) {
+    // Both objects are read, or an earlier step found them apart.
     if (same_filter && !summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair))) continue;
     const ObjectSummary& a = summaries_[first_of(pair)];
     const ObjectSummary& b = summaries_[second_of(pair)];
-    if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::looked_at &&
+    if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::tested &&
         lower_distance(a.box, b.box) <= filter_.reach(a, b)) {
       want(first_of(pair));
       want(second_of(pair));
     }
   }
   for (const ListedPair& listed : listed_)
-    for (const std::uint32_t place : {first_of(listed.pair), second_of(listed.pair)})
-      if (summaries_.changed(place)) want(place);
+    for (const std::uint32_t slot : {first_of(listed.pair), second_of(listed.pair)})
+      if (summaries_.changed(slot)) want(slot);
   if (wanted_.empty()) return;
   store_.read_unread(wanted_, tasks, diagnostics);
   summaries_.refresh(wanted_);
@@ -141,7 +143,7 @@ void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameRep
       continue;
     }
     PairJob job = job_of(each, previous);
-    if (each.kind == SelectedPair::Kind::looked_at || says_something(job))
+    if (each.kind == SelectedPair::Kind::tested || says_something(job))
       add(job, each);
     else
       selection_.forget(each);
@@ -152,7 +154,7 @@ void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameRep
 
 PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previous) const {
   PairJob job;
-  job.places = selected.pair;
+  job.slots = selected.pair;
   job.a = store_.objects()[first_of(selected.pair)].get();
   job.b = store_.objects()[second_of(selected.pair)].get();
   if (selected.listed != SelectedPair::none) job.last = &previous.pairs()[listed_[selected.listed].row];
@@ -161,12 +163,12 @@ PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previ
   return job;
 }
 
-/// Decides about a pair that the last report listed and that is filtered out now, has parted, or is frozen:
-/// one that was in contact is listed once more however far it is.
+/// Decides whether the report mentions a pair of the last report that is now filtered out, apart or frozen. A
+/// pair that was in contact is listed once more, however far apart it is.
 bool PairTable::says_something(PairJob& job) const {
-  const ObjectSummary& a = summaries_[first_of(job.places)];
-  const ObjectSummary& b = summaries_[second_of(job.places)];
-  job.allowed = filter_.verdict(a, b) == PairVerdict::looked_at;
+  const ObjectSummary& a = summaries_[first_of(job.slots)];
+  const ObjectSummary& b = summaries_[second_of(job.slots)];
+  job.allowed = filter_.verdict(a, b) == PairVerdict::tested;
   if (!job.allowed && !job.was_in_contact()) return false;
   if (!job.allowed) job.task = PairJob::Task::end;
   if (a.frozen || b.frozen) {
@@ -180,23 +182,23 @@ void PairTable::add(PairJob job, const SelectedPair& selected) {
   job.memory = &selection_.memory_of(selected);
   if (job.task == PairJob::Task::detect && is_unchanged(job)) {
     job.task = PairJob::Task::unchanged;
-    if (may_rest_ && selected.kind == SelectedPair::Kind::looked_at) selection_.let_rest(selected);
+    if (may_rest_ && selected.kind == SelectedPair::Kind::tested) selection_.let_rest(selected);
   }
   jobs_.push_back(job);
 }
 
-/// Whether the last answer, about the same positions by the same rules, is also this one's.
+/// Whether the last answer still holds, since positions and rules are the same.
 bool PairTable::is_unchanged(const PairJob& job) const {
-  return job.memory->version_a == summaries_[first_of(job.places)].version &&
-         job.memory->version_b == summaries_[second_of(job.places)].version &&
+  return job.memory->version_a == summaries_[first_of(job.slots)].version &&
+         job.memory->version_b == summaries_[second_of(job.slots)].version &&
          job.memory->rules_version == filter_.rules_version();
 }
 
 void PairTable::count_jobs(StepStatistics& statistics) const {
   for (const PairJob& job : jobs_) {
-    if (job.is_looked_at()) {
+    if (job.is_tested()) {
       ++statistics.pairs_tested;
-      job.a->looked_at = job.b->looked_at = true;
+      job.a->tested = job.b->tested = true;
     }
     if (job.task == PairJob::Task::unchanged) ++statistics.pairs_unchanged;
   }

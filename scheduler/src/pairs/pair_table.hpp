@@ -15,8 +15,8 @@
 
 namespace graze {
 
-/// The n(n-1)/2 pairs of a scene's objects, of which only those that may be close have an entry (the paper's
-/// numcd). Stepping thread only.
+/// The pairs of a scene's objects. Of the n(n-1)/2 pairs only those that may be close have an entry (the
+/// paper's numcd). Stepping thread only.
 class PairTable {
  public:
   PairTable(const SceneSettings& settings, PairFilter& filter, ObjectStore& store)
@@ -24,28 +24,28 @@ class PairTable {
 
   [[nodiscard]] PairFilter& filter() { return filter_; }
 
-  /// The pairs that have to be looked at or said something about. Reads objects that promises left unread,
-  /// where they may be near after all. `previous` is the last report.
+  /// Lists the pairs that have to be tested or reported. Also reads objects that promises or surveys left
+  /// unread if they may be near after all. `previous` is the last report.
   PairList list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
                 StepStatistics& statistics);
 
-  /// Begins to be told which pairs a report lists, in its order.
+  /// Begins the list of a report's rows, which are added in its order.
   void begin_rows(std::uint64_t frame);
-  void add_row(const PairJob& job) { add_row(job.places); }
+  void add_row(const PairJob& job) { add_row(job.slots); }
   void add_rows(const LastRows& rows);
-  /// A row that the next step has nothing to say about.
+  /// Counts a row about which the next step has nothing to say.
   void pass_row() { ++row_count_; }
 
-  /// Makes room for so many objects, and pairs whose loose boxes meet.
-  /// Before a step's `list` only.
+  /// Reserves memory for that many objects and pairs whose loose boxes meet. Call it before the step's `list`
+  /// only.
   void reserve(std::size_t objects, std::size_t pairs, const PairMemoryRoom& room);
-  /// Of the fronts only what was reserved.
+  /// The bytes held. Of the fronts it counts only reserved memory.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// Two objects by Object::serial. Pairs of rows ascend by them.
+  /// A pair of objects by Object::serial. The rows of a report ascend by it.
   using SerialPair = std::pair<std::uint64_t, std::uint64_t>;
-  /// A pair that was in contact, of which an object was removed.
+  /// A pair in contact that ends because one of its objects was removed.
   struct EndedPair {
     SerialPair pair;
     std::uint32_t row;  ///< in the last report
@@ -56,7 +56,7 @@ class PairTable {
   void find_ended(const FrameReport& previous);
   [[nodiscard]] std::uint64_t serial_of(ObjectId id);
   void list_ended(SerialPair before);
-  void read_what_is_near(std::span<const PlacePair> pairs, TaskPool& tasks,
+  void read_near_objects(std::span<const SlotPair> pairs, TaskPool& tasks,
                          std::vector<Diagnostic>& diagnostics);
   void list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous);
   [[nodiscard]] PairJob job_of(const SelectedPair& selected, const FrameReport& previous) const;
@@ -64,7 +64,7 @@ class PairTable {
   [[nodiscard]] bool says_something(PairJob& job) const;
   [[nodiscard]] bool is_unchanged(const PairJob& job) const;
   void count_jobs(StepStatistics& statistics) const;
-  void add_row(PlacePair pair) { rows_.push_back({pair, row_count_++}); }
+  void add_row(SlotPair pair) { rows_.push_back({pair, row_count_++}); }
 
   ObjectStore& store_;
   PairFilter& filter_;

@@ -9,11 +9,12 @@
 namespace graze {
 namespace {
 
-/// What a task writes where there are several threads: some tens of microseconds. One thread writes all in
-/// one stretch: in many it takes a third longer for pairs of 10,000 contacts.
+/// The number of contacts that one of several threads writes at a time, which takes some tens of
+/// microseconds. One thread writes all contacts at once. In pieces that takes a third longer for pairs of
+/// 10,000 contacts.
 constexpr std::size_t contacts_each = 1024;
 
-/// What contacts are ordered by, as two numbers.
+/// The sort key of contacts as two numbers.
 struct Key {
   std::uint64_t of_a, of_b;
 
@@ -32,8 +33,8 @@ bool comes_before(const Contact& contact, const Key& key) {
   return key_of(contact) < key;
 }
 
-/// Writes some contacts of a pair, by those of the last report: a contact with the same features is the same
-/// one.
+/// Writes some contacts of a pair. A contact with the same features as one of the last report continues that
+/// contact.
 void write_contacts(std::span<const Contact> found, std::span<const Contact> last, std::span<Contact> rows,
                     std::uint64_t frame) {
   constexpr Key behind_all{~std::uint64_t{0}, 0};
@@ -48,8 +49,8 @@ void write_contacts(std::span<const Contact> found, std::span<const Contact> las
   }
 }
 
-/// The contacts of a pair that do not come before one. Searched for in the midst of a pair alone: of a whole
-/// pair that would read memory all over before it is read in order.
+/// The contacts of a pair from a given one on. This is only called for a part of a pair. For a whole pair the
+/// search would read memory at random before it is read in order.
 std::span<const Contact> from(std::span<const Contact> contacts, const Contact& first) {
   const auto begin = std::lower_bound(contacts.begin(), contacts.end(), key_of(first), comes_before);
   return contacts.subspan(static_cast<std::size_t>(begin - contacts.begin()));
@@ -57,29 +58,29 @@ std::span<const Contact> from(std::span<const Contact> contacts, const Contact& 
 
 }  // namespace
 
-void ContactRows::take(std::vector<Contact>& list, ReportBuilder& report) {
+void ContactRows::adopt_list(std::vector<Contact>& list, ReportBuilder& report) {
   const auto pair = std::find_if(pairs_.begin(), pairs_.end(),
                                  [&](const Pair& each) { return each.contacts.data() == list.data(); });
   if (pair == pairs_.end() || 2 * pair->contacts.size() < count_) return;
-  report.take(list, pair->first);
+  report.adopt_contacts(list, pair->first);
   pair->contacts = report.contacts().subspan(pair->first, pair->contacts.size());
 }
 
-/// A task writes a range of rows of its own, whichever pairs they are of.
+/// Each task writes its own range of rows, whichever pairs they belong to.
 void ContactRows::write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const {
   const std::size_t each = tasks.worker_count() > 1 ? contacts_each : std::max<std::size_t>(count_, 1);
   const auto write_stretch = [&](unsigned /*worker*/, std::size_t item) {
     const AccessScope access({{}, AccessRight::read()});
     write_range(rows, item * each, std::min((item + 1) * each, count_), frame);
   };
-  // By reference: what it captures is too much for a function that takes no memory.
+  // The lambda is passed by reference, since std::function would allocate for what it captures.
   tasks.run((count_ + each - 1) / each, std::cref(write_stretch));
 }
 
 void ContactRows::write_range(std::span<Contact> rows, std::size_t begin, std::size_t end,
                               std::uint64_t frame) const {
   auto pair = std::upper_bound(pairs_.begin(), pairs_.end(), begin,
-                               [](std::size_t place, const Pair& each) { return place < each.first; }) -
+                               [](std::size_t row, const Pair& each) { return row < each.first; }) -
               1;
   for (; begin < end; ++pair) {
     const std::size_t first = begin - pair->first;

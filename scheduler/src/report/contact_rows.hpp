@@ -11,29 +11,31 @@
 
 namespace graze {
 
-/// The contacts of all pairs of a report: first who has which, in the pairs' order, then they are written, by
-/// many threads where there are many. Stepping thread only.
+/// The contacts of all pairs of a report. First the pairs are added in their order, then all contacts are
+/// written, in parallel if there are many. Stepping thread only.
 class ContactRows {
  public:
   void begin() {
     pairs_.clear();
     count_ = 0;
   }
-  /// The next pair's, found in this step; `last` are its contacts of the last report. Both are sorted by
-  /// their features. What is given stays where it is until all are written.
+  /// Adds the contacts of the next pair, found in this step. `last` are its contacts in the last report. Both
+  /// are sorted by their features and stay valid until all are written.
   void add(std::span<const Contact> contacts, std::span<const Contact> last) {
     append({contacts, last, false, count_});
   }
-  /// The next pair's, as they were in the last report.
+  /// Adds the contacts of the next pair unchanged from the last report.
   void add_again(std::span<const Contact> contacts) { append({contacts, {}, true, count_}); }
-  /// Of all pairs.
+  /// The number of contacts of all pairs.
   [[nodiscard]] std::size_t count() const { return count_; }
-  /// Has the report take a list that is one of those added, where it is most of all: it is not copied then.
-  void take(std::vector<Contact>& list, ReportBuilder& report);
-  /// Writes them into `rows`, of which there are `count()`, and since which frame they have been there.
+  /// Lets the report adopt an added list instead of copying it, if the list has at least half of all
+  /// contacts.
+  void adopt_list(std::vector<Contact>& list, ReportBuilder& report);
+  /// Writes all contacts into `rows`, which has `count()` elements, and sets Contact::since. `frame` is the
+  /// number of the new report.
   void write(TaskPool& tasks, std::span<Contact> rows, std::uint64_t frame) const;
 
-  /// Makes room for so many pairs with contacts.
+  /// Reserves memory for that many pairs with contacts.
   void reserve(std::size_t pairs) { pairs_.reserve(pairs); }
   [[nodiscard]] std::size_t byte_count() const { return bytes_of(pairs_); }
 
@@ -42,7 +44,7 @@ class ContactRows {
     std::span<const Contact> contacts;
     std::span<const Contact> last;
     bool is_again;
-    std::size_t first;  ///< the place of its first contact
+    std::size_t first;  ///< the index of its first contact
   };
   void append(const Pair& pair) {
     if (pair.contacts.empty()) return;

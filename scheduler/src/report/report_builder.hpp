@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// How much reports have room for.
+/// The capacity of a report.
 struct ReportRoom {
   std::size_t pairs = 0;
   std::size_t contacts = 0;
@@ -24,12 +24,12 @@ struct ReportRoom {
   }
 };
 
-/// The one place that writes into a report, before it is published.
+/// The only class that writes into a report, before the report is published.
 class ReportBuilder {
  public:
   explicit ReportBuilder(FrameReport& report) : report_(report) {}
 
-  /// Empties the report and keeps its memory; its contacts are to be written over.
+  /// Empties the report and keeps its memory. Its contacts will be overwritten.
   void begin(std::uint64_t frame, std::uint64_t tag) {
     report_.frame_ = frame;
     report_.tag_ = tag;
@@ -40,7 +40,8 @@ class ReportBuilder {
     report_.diagnostics_.clear();
     report_.statistics_ = {};
   }
-  /// Appends a pair with what belongs to it, but for its contacts, which follow those of the pair before.
+  /// Appends a pair and its distances of regions, and counts its contacts. The contacts themselves are
+  /// written later, in the order of the pairs.
   void add(PairReport pair, std::size_t contact_count, std::span<const RegionDistance> region_distances) {
     pair.first_region_distance = report_.rows_.region_distances.size();
     pair.region_distance_count = region_distances.size();
@@ -51,8 +52,7 @@ class ReportBuilder {
     report_.rows_.pairs.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
   }
-  /// Appends pairs that followed each other in an earlier report, as they were there, with the distances of
-  /// regions that belonged to them.
+  /// Appends pairs that were adjacent in an earlier report, unchanged, with their distances of regions.
   void add_again(std::span<const PairReport> pairs, std::span<const RegionDistance> region_distances) {
     if (pairs.empty()) return;
     auto& rows = report_.rows_;
@@ -63,23 +63,23 @@ class ReportBuilder {
                                  region_distances.end());
     rows.pairs.insert(rows.pairs.end(), pairs.begin(), pairs.end());
     for (PairReport& pair : std::span(rows.pairs).subspan(count)) {
-      // Modulo 2^64 where they stand further ahead than they did.
+      // If the pairs move forward in the report, these sums wrap modulo 2^64 to the right numbers.
       pair.first_contact += contacts;
       pair.first_region_distance += regions;
       report_.complete_ = report_.complete_ && pair.complete;
     }
   }
-  /// Where the contacts of the pairs are to be written, when all pairs are there. What is there is of a
-  /// report before.
+  /// The memory for the contacts of all pairs, once all pairs are added. It holds contacts of an earlier
+  /// report.
   std::span<Contact> contacts() {
     resize_to_overwrite(report_.rows_.contacts, contact_count_of_pairs());
     return report_.rows_.contacts;
   }
-  /// The memory of its contacts, which may be used for something else until they are written.
+  /// The memory of the contacts, which may serve another purpose until they are written.
   std::vector<Contact>& contact_memory() { return report_.rows_.contacts; }
-  /// Takes a list of contacts together with its memory, when all pairs are there, and puts it where it
-  /// belongs, which begins at `first`. The list gets the memory that the report's contacts had.
-  void take(std::vector<Contact>& list, std::size_t first) {
+  /// Swaps a list of contacts with the report's contacts, and moves it to index `first`. All pairs have been
+  /// added before. The list gets the memory that the report's contacts had.
+  void adopt_contacts(std::vector<Contact>& list, std::size_t first) {
     auto& rows = report_.rows_.contacts;
     rows.swap(list);
     const auto end = static_cast<std::ptrdiff_t>(rows.size());
@@ -89,7 +89,8 @@ class ReportBuilder {
       std::move_backward(rows.begin(), rows.begin() + end,
                          rows.begin() + static_cast<std::ptrdiff_t>(first) + end);
   }
-  /// Makes room for so many contacts in small pieces, as long as `goes_on()`; whether there is room then.
+  /// Makes room for that many contacts in small pieces while `goes_on()` is true. Returns whether there is
+  /// room for all.
   template <typename GoesOn>
   bool make_room_while(std::size_t contacts, const GoesOn& goes_on) {
     constexpr std::size_t at_once = 128;
@@ -99,7 +100,8 @@ class ReportBuilder {
       rows.resize(std::min(contacts, rows.size() + at_once), Contact{});
     return rows.size() >= contacts;
   }
-  /// Shows the rows of another report, which must stay as it is while this one is read, in place of its own.
+  /// Shows the rows of another report instead of own ones. That report must not change while this one is
+  /// read.
   void show_rows_of(const FrameReport& other) {
     report_.shown_ = other.shown_;
     report_.complete_ = other.complete_;
@@ -108,13 +110,13 @@ class ReportBuilder {
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
 
-  /// Of a report that is to be filled: what it has no room for is gone.
+  /// Reserves room in a report that is to be filled. Lists that have to grow lose their content.
   void reserve(const ReportRoom& room) {
     reserve_to_overwrite(report_.rows_.pairs, room.pairs);
     reserve_to_overwrite(report_.rows_.contacts, room.contacts);
     reserve_to_overwrite(report_.rows_.region_distances, room.region_distances);
   }
-  /// Lets go of its rows and their memory.
+  /// Frees the rows of the report.
   void release() noexcept {
     report_.shown_ = &report_.rows_;
     report_.rows_ = {};

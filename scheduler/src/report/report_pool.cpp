@@ -62,10 +62,10 @@ void ReportPool::repeat_rows() {
   ReportBuilder(slot(filling_).report).show_rows_of(slot(last).report);
 }
 
-/// Those of slots that nobody reads.
+/// Ends the loans of all slots that nobody reads.
 void ReportPool::end_loans() {
-  // Where nobody has let go of any there are none, however many are held. One that is let go just now has its
-  // loan ended when it is filled.
+  // While no slot is free there is no loan to end, however many slots are held. A slot that is released just
+  // now has its loan ended when it is filled.
   if (free_count_.load(std::memory_order_acquire) == 0) return;
   for (std::uint32_t index = 0; loan_count_ > 0 && index < slot_count_; ++index)
     if (is_unread(index)) end_loan(index);
@@ -78,7 +78,7 @@ void ReportPool::end_loan(std::uint32_t index) {
   --loan_count_;
 }
 
-/// A slot that can be filled, better one that has room; slot_limit where there is none.
+/// Returns a free slot, if possible one with enough room, or slot_limit if none is free.
 std::uint32_t ReportPool::find_free() {
   std::uint32_t found = slot_limit;
   // Acquire: the last handle's reads are over before the slot is written again.
@@ -91,12 +91,12 @@ std::uint32_t ReportPool::find_free() {
   return found;
 }
 
-/// Whether nobody reads its report.
+/// Whether nobody reads the slot's report.
 bool ReportPool::is_unread(std::uint32_t index) {
   return index != published() && slot(index).references.load(std::memory_order_acquire) == 0;
 }
 
-/// Whether nobody reads what it holds.
+/// Whether nobody reads the slot's report or its rows.
 bool ReportPool::is_free(std::uint32_t index) {
   return slot(index).borrowers == 0 && is_unread(index);
 }
@@ -105,7 +105,7 @@ bool ReportPool::has_room(std::uint32_t index) {
   return ReportBuilder(slot(index).report).room().covers(room_);
 }
 
-/// A free one.
+/// Adds a free slot.
 std::uint32_t ReportPool::add_slot() {
   if (slot_count_ % chunk_size == 0) {
     chunks_[slot_count_ / chunk_size] = std::make_unique<Chunk>();
@@ -115,7 +115,7 @@ std::uint32_t ReportPool::add_slot() {
   return slot_count_++;
 }
 
-/// In a slot that nobody reads, and that is to be filled.
+/// Reserves room in a free slot.
 void ReportPool::make_room(std::uint32_t index) {
   ReportBuilder(slot(index).report).reserve(room_);
   count_bytes(index);
@@ -126,7 +126,7 @@ void ReportPool::count_bytes(std::uint32_t index) {
   byte_count_ += bytes - std::exchange(slot(index).counted_bytes, bytes);
 }
 
-void ReportPool::even_out(bool has_time) {
+void ReportPool::equalize_capacity(bool has_time) {
   const ReportRoom needed = ReportBuilder(slot(filling_).report).room();
   if (!room_.covers(needed)) all_have_room_ = false;
   room_.include(needed);
@@ -148,7 +148,7 @@ void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
     if (is_free(index)) make_room(index);
     if (has_room(index)) ++with_room;
   }
-  // One is published and one is filled while the others are held.
+  // Two slots are needed beside the held ones: one is published, and one is being filled.
   const std::size_t wanted = std::min<std::size_t>(held, slot_limit - 2) + 2;
   for (; with_room < wanted && slot_count_ < slot_limit; ++with_room) make_room(add_slot());
 }

@@ -10,45 +10,46 @@
 
 namespace graze {
 
-/// The reports of one scene: one published, any number still held by handles, the rest to be used again.
+/// The reports of one scene. One is published, any number are still held by handles, and the rest are free to
+/// be filled again.
 ///
-/// `current_` holds the published slot and, in its low bits, how many handles were taken of it, so that
-/// taking one is a single fetch_add: no retry, no lock. A slot's `references` starts at `bias` when it is
-/// published, goes down by one with each handle destroyed, and when the slot is retired gets the number of
-/// handles taken added and the bias taken away; it is zero exactly when the slot is retired and no handle is
-/// left. Only the stepping thread looks for such slots and fills them again, so a reader that sleeps costs
-/// one slot and nobody waits for it.
+/// `current_` holds the published slot and, in its low bits, how many handles were taken of it. So taking a
+/// handle is a single fetch_add without a retry or a lock. A slot's `references` starts at `bias` when the
+/// slot is published, and each destroyed handle subtracts 1. When the slot is retired, the number of handles
+/// taken is added and the bias subtracted. It is 0 exactly when the slot is retired and no handle is left.
+/// Only the stepping thread looks for such slots and fills them again. So a reader that sleeps costs one
+/// slot, and nobody waits for it.
 ///
-/// A report may show the rows of an earlier one, its lender, whose slot is filled again only when no report
-/// that can still be read shows them. The stepping thread alone keeps count of that.
+/// A report may show the rows of an earlier report, its lender. The lender's slot is filled again only when
+/// no readable report shows its rows. Only the stepping thread keeps count of loans.
 ///
-/// The pool lives until its scene is gone and every handle is: `owners_` counts the scene and every retired
-/// slot that is still referenced.
+/// The pool lives until its scene and all handles are gone: `owners_` counts the scene and every retired slot
+/// that is still referenced.
 class ReportPool {
  public:
-  /// With an empty report of frame 0 published.
+  /// Creates a pool that has published an empty report of frame 0.
   static ReportPool* create() { return new ReportPool; }
-  /// The scene's end. Handles stay valid.
+  /// Ends the scene's ownership. Handles stay valid.
   void close();
 
-  /// The published report. Wait-free, from any thread while the scene lives.
+  /// The published report. Any thread may call this while the scene lives; it is wait-free.
   [[nodiscard]] ReportHandle latest() noexcept;
 
-  /// A report that nobody reads, to be filled. Stepping thread only. Throws Error when all slots are held,
-  /// and std::bad_alloc; nothing has begun then.
+  /// Returns a report that nobody reads, to be filled. Stepping thread only. Throws Error if all slots are
+  /// held, and std::bad_alloc; nothing has begun then.
   [[nodiscard]] FrameReport& begin();
-  /// Gives up filling the report of the last `begin`, and lets go of the memory of all that nobody reads.
+  /// Gives up the report of the last `begin`, and frees the memory of all reports that nobody reads.
   void cancel() noexcept;
-  /// Has the report of the last `begin` show the rows of the published one. Stepping thread only, as is all
-  /// that follows.
+  /// Makes the report of the last `begin` show the rows of the published one. Only the stepping thread calls
+  /// this and the members below.
   void repeat_rows();
-  /// Gives every report that nobody reads as much room as any has needed, the others as soon as they are let
-  /// go of: whichever is next, a step like an earlier one takes no memory. Where there is no time for that
-  /// now, a later call does it.
-  void even_out(bool has_time);
-  /// Makes room for so many reports held at once, beside the published one, of that size.
+  /// Gives every report that nobody reads the capacity that any report has needed, and the others once their
+  /// handles are gone. Then a step like an earlier one allocates nothing, whichever report is next. Without
+  /// time for this now, a later call does it.
+  void equalize_capacity(bool has_time);
+  /// Reserves room for that many held reports beside the published one, each of that capacity.
   void reserve(std::size_t held, const ReportRoom& room);
-  /// Of all reports, as of the last `even_out`.
+  /// The bytes of all reports, as of the last `equalize_capacity`.
   [[nodiscard]] std::size_t byte_count() const { return byte_count_; }
 
   /// Publishes the report of the last `begin`.
@@ -102,10 +103,9 @@ class ReportPool {
 
   std::atomic<std::uint64_t> current_{0};
   std::atomic<std::int64_t> owners_{1};
-  /// Slots that can be filled again; a look through them all is saved while there are none.
+  /// The number of slots that can be filled again. While it is 0 no search is needed.
   std::atomic<std::uint32_t> free_count_{0};
-  // A chunk is written before any slot of it is published, and read only through an index taken from
-  // `current_`.
+  // A chunk is written before any of its slots is published, and read only through an index from `current_`.
   std::array<std::unique_ptr<Chunk>, chunk_capacity> chunks_;
   std::uint32_t slot_count_ = 0;
   std::uint32_t filling_ = 0;

@@ -8,10 +8,10 @@
 
 namespace graze {
 
-/// What a report says of a pair that was looked at; nothing where it is not listed.
+/// The row of a pair that was tested, or nothing if the report does not list it.
 std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer);
 
-/// The same of a pair that was not looked at: its last row again.
+/// The row of a pair that was not tested: its last row again, or nothing if the report does not list it.
 std::optional<PairReport> repeated_row(const PairJob& job);
 
 }  // namespace graze

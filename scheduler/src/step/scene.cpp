@@ -20,7 +20,7 @@ const SceneSettings& checked(const SceneSettings& settings) {
   return settings;
 }
 
-/// Makes what pairs of an object will ask its mesh for, so that no step waits for it.
+/// Prepares what pairs of an object will need of its mesh, so that no step waits for it.
 void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneSettings& scene) {
   const ContactDetail detail = scene.detail;
   if (wants_blocks(detail, scene.accuracy.mode())) mesh.prepare_for(IndexedMesh::Use::blocks);
@@ -31,7 +31,8 @@ void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneS
   if (object.motion != Motion::deformable) mesh.prepare_for(IndexedMesh::Use::poses);
 }
 
-/// Says whether a step runs. Shared with the step, so that it can be told to a scene that then goes away.
+/// Says whether a step runs. The step shares it, since the scene may be destroyed before the step has cleared
+/// it.
 using Stepping = std::shared_ptr<std::atomic<bool>>;
 
 void begin_stepping(const Stepping& stepping) {
@@ -39,7 +40,7 @@ void begin_stepping(const Stepping& stepping) {
     throw Error("scene: a step of this scene is already running on another thread");
 }
 
-/// Says that it runs no more, when this goes.
+/// Clears the flag when it is destroyed.
 class SteppingEnd {
  public:
   explicit SteppingEnd(Stepping stepping) : stepping_(std::move(stepping)) {}
@@ -50,7 +51,7 @@ class SteppingEnd {
   }
   SteppingEnd(const SteppingEnd&) = delete;
   SteppingEnd& operator=(const SteppingEnd&) = delete;
-  /// Leaves it to another.
+  /// Leaves clearing the flag to another object.
   void leave() noexcept { stepping_ = nullptr; }
 
  private:
@@ -162,7 +163,7 @@ void Scene::reserve(const SceneCapacity& capacity) {
 ReportHandle Scene::step(std::uint64_t tag) {
   begin_stepping(state_->stepping);
   const SteppingEnd end(state_->stepping);
-  state_->stepper.take_calls();
+  state_->stepper.collect_calls();
   return state_->stepper.run(tag);
 }
 
@@ -170,7 +171,7 @@ void Scene::step_async(std::uint64_t tag) {
   begin_stepping(state_->stepping);
   SteppingEnd unless_started(state_->stepping);
   State* const state = state_.get();
-  state->stepper.take_calls();
+  state->stepper.collect_calls();
   state->stepper.start([state, tag] {
     // After this the scene may be gone.
     const SteppingEnd end(state->stepping);

@@ -9,8 +9,8 @@
 
 namespace graze {
 
-/// What a scene holds whatever its steps remember: its objects, which of their pairs are looked at, what room
-/// was reserved. It is whole also after a step that came to no end. Stepping thread only.
+/// The part of a scene that does not depend on what steps remember: its objects, its filters, and the
+/// reserved capacity. It stays whole after a failed step. Stepping thread only.
 struct SceneContent {
   explicit SceneContent(const SceneSettings& settings)
       : tasks(settings.threads, settings.arena),
@@ -20,7 +20,7 @@ struct SceneContent {
   TaskPool tasks;
   ObjectStore store;
   PairFilter filter;
-  SceneCapacity reserved;  ///< of every number the largest for which there was memory
+  SceneCapacity reserved;  ///< the largest of each number for which there was memory
 };
 
 }  // namespace graze

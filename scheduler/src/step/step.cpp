@@ -16,8 +16,8 @@ struct Overloaded : Visitors... {
 template <typename... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
-/// How many pairs of features a reserved pair's list has room for, for each of its part of the contacts;
-/// SceneCapacity says so.
+/// A reserved pair's list has room for this many pairs of features for each of its share of the contacts;
+/// SceneCapacity states it.
 constexpr std::size_t features_of_contact = 4;
 
 PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
@@ -26,7 +26,7 @@ PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
   return {leaf_pairs_of_front, has_lists ? features_of_contact * contacts : 0};
 }
 
-/// Milliseconds since the last call, or since it was made.
+/// A clock that returns the milliseconds since its last call, or since it was made.
 class Lap {
  public:
   explicit Lap(std::chrono::steady_clock::time_point start) : last_(start) {}
@@ -43,7 +43,7 @@ bool is_nothing(const SceneCapacity& capacity) {
   return capacity.objects == 0 && capacity.near_pairs == 0 && capacity.contacts == 0 && capacity.reports == 0;
 }
 
-/// The largest of each number.
+/// The larger of each two numbers.
 SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
   return {std::max(left.objects, right.objects), std::max(left.calls_per_step, right.calls_per_step),
           std::max(left.near_pairs, right.near_pairs), std::max(left.contacts, right.contacts),
@@ -69,10 +69,10 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
   ReportBuilder builder(report);
   StepStatistics& statistics = builder.statistics();
 
-  take_up_calls(builder.diagnostics());
+  apply_calls(builder.diagnostics());
   store_.read_positions(tasks_, builder.diagnostics());
   statistics.read_ms = lap();
-  if (std::exchange(is_settled_, false) && !store_.changed()) {
+  if (std::exchange(can_repeat_report_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
   } else {
     const PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
@@ -83,7 +83,7 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
-    even_out(start);
+    equalize_capacity(start);
     count_bytes_of_pairs(list.jobs, statistics);
   }
   statistics.objects_unread = store_.unread_count();
@@ -95,44 +95,43 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
   statistics.step_ms = Lap(start)();
 }
 
-void Step::take_up_calls(std::vector<Diagnostic>& diagnostics) {
-  staging_.visit_taken(
-      Overloaded{[&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
-                 [&](SetRule& rule) {
-                   pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
-                   is_settled_ = false;
-                 },
-                 [&](IgnorePair& pair) {
-                   is_settled_ = false;
-                   const Object* const a = store_.find(pair.a);
-                   const Object* const b = store_.find(pair.b);
-                   if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
-                 },
-                 [&](RemoveObject& removed) {
-                   if (const Object* const object = store_.find(removed.object))
-                     pairs_.filter().forget(*object);
-                   store_.apply(removed);
-                 },
-                 [&](RefusePose& refused) {
-                   diagnostics.push_back(refused.problem);
-                   store_.apply(refused);
-                 },
-                 [&](BindPositions& bound) {
-                   store_.apply(bound);
-                   Object* const object = store_.find(bound.object);
-                   if (is_reserved_ && object != nullptr) make_ready_to_copy(*object);
-                 },
-                 [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
-                 [&](Reserve& call) {
-                   is_settled_ = false;  // a step that repeats rows does not count what is made room for
-                   // Where there is no memory for it, it is not tried again: the scene may do without.
-                   reserve(std::exchange(call.capacity, {}));
-                 },
-                 [&](AddObject& added) {
-                   if (is_reserved_) make_ready(*added.surface, added.settings.motion);
-                   store_.apply(added);
-                 },
-                 [&](auto& other) { store_.apply(other); }});
+void Step::apply_calls(std::vector<Diagnostic>& diagnostics) {
+  staging_.visit_collected(Overloaded{
+      [&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
+      [&](SetRule& rule) {
+        pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
+        can_repeat_report_ = false;
+      },
+      [&](IgnorePair& pair) {
+        can_repeat_report_ = false;
+        const Object* const a = store_.find(pair.a);
+        const Object* const b = store_.find(pair.b);
+        if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
+      },
+      [&](RemoveObject& removed) {
+        if (const Object* const object = store_.find(removed.object)) pairs_.filter().forget(*object);
+        store_.apply(removed);
+      },
+      [&](RefusePose& refused) {
+        diagnostics.push_back(refused.problem);
+        store_.apply(refused);
+      },
+      [&](BindPositions& bound) {
+        store_.apply(bound);
+        Object* const object = store_.find(bound.object);
+        if (is_reserved_ && object != nullptr) prepare_copy(*object);
+      },
+      [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
+      [&](Reserve& call) {
+        can_repeat_report_ = false;  // a step that repeats rows does not count what is made room for
+        // If there is no memory for it, it is not tried again: the scene does without it.
+        reserve(std::exchange(call.capacity, {}));
+      },
+      [&](AddObject& added) {
+        if (is_reserved_) prepare_surface(*added.surface, added.settings.motion);
+        store_.apply(added);
+      },
+      [&](auto& other) { store_.apply(other); }});
 }
 
 void Step::reserve(const SceneCapacity& capacity) {
@@ -154,23 +153,23 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
     if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
-    make_ready(object->surface_to_write(), object->settings.motion);
+    prepare_surface(object->surface_to_write(), object->settings.motion);
     store_.count_bytes(*object);
-    make_ready_to_copy(*object);
+    prepare_copy(*object);
   }
 }
 
-/// Makes room for the first pair of an object: bounds of its regions, its leaves in working memory, and what
-/// it has by its pose.
-void Step::make_ready(Surface& surface, Motion motion) {
+/// Prepares an object for its first pair: the bounds of its regions, room for its leaves in working memory,
+/// and positions by pose.
+void Step::prepare_surface(Surface& surface, Motion motion) {
   if (motion != Motion::deformable) surface.reserve_positions(true);
-  refit_.make_ready(surface);
+  refit_.prepare(surface);
   jobs_.reserve_for(surface.mesh());
 }
 
-/// Makes room for the positions of an object that is bound, which are copied when it comes near another;
-/// where they are viewed they never are.
-void Step::make_ready_to_copy(Object& object) {
+/// Reserves memory for the positions of a bound object, which are copied when it comes near another. An
+/// object that can be viewed needs no copy.
+void Step::prepare_copy(Object& object) {
   if (!object.bound) return;
   const bool is_viewed = wants_blocks(settings_.detail, settings_.accuracy.mode()) &&
                          settings_.region_distances == 0 && object.surface().can_view(*object.bound);
@@ -179,7 +178,8 @@ void Step::make_ready_to_copy(Object& object) {
   store_.count_bytes(object);
 }
 
-/// The end of a step: jobs ran in any order, but their answers are put together in the order of the pairs.
+/// Writes the pairs of the report. Jobs ran in any order, but their answers are written in the order of the
+/// pairs.
 void Step::write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
   rows_again_ = 0;
@@ -195,15 +195,15 @@ void Step::write_pairs(const PairList& list, const FrameReport& previous, Report
     write_pair(list.jobs[index], index, previous, builder);
   }
   write_rows_before(list.jobs.size());
-  if (std::vector<Contact>* const longest = jobs_.longest_list()) contacts_.take(*longest, builder);
+  if (std::vector<Contact>* const longest = jobs_.longest_list()) contacts_.adopt_list(*longest, builder);
   contacts_.write(tasks_, builder.contacts(), builder.frame());
-  is_settled_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
+  can_repeat_report_ = statistics.pairs_tested == 0 && rows_again_ == statistics.pairs_near;
 }
 
 void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& previous,
                       ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
-  const bool repeats = !job.is_looked_at();
+  const bool repeats = !job.is_tested();
   std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
   if (!row) return;
   if (repeats && !job.allowed) row->phase = PairPhase::ended;
@@ -230,7 +230,7 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   statistics.contacts_left_out += std::max<std::size_t>(left_out, 1);
 }
 
-/// The last row of a pair of which an object was removed while it was in contact.
+/// Writes the last row of a pair in contact that ends because one of its objects was removed.
 void Step::end_pair(PairReport row, ReportBuilder& builder) {
   row.phase = PairPhase::ended;
   row.complete = true;
@@ -240,7 +240,7 @@ void Step::end_pair(PairReport row, ReportBuilder& builder) {
   ++builder.statistics().pairs_near;
 }
 
-/// Rows of the last report, with all that belongs to them.
+/// Repeats rows of the last report with their contacts and distances of regions.
 void Step::repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder) {
   StepStatistics& statistics = builder.statistics();
   const auto rows = previous.pairs().subspan(resting.row, resting.count);
@@ -266,23 +266,23 @@ void Step::repeat_pairs(const LastRows& resting, const FrameReport& previous, Re
   }
 }
 
-/// The rows of the last report again, which looked at no pair.
+/// Repeats all rows of the last report, in which no pair was tested.
 void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) {
   reports_.repeat_rows();
   const double read_ms = statistics.read_ms;
   statistics = previous.statistics();
   statistics.read_ms = read_ms;
   statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
-  // Of objects without pairs.
+  // The counters of the broad phase are 0, since it does not run.
   statistics.boxes_tested = statistics.objects_in_slack = 0;
-  is_settled_ = true;
+  can_repeat_report_ = true;
 }
 
-/// Makes room for steps like this one. A step is complete without: where there is no memory for that, or no
-/// time within the budget, later steps take some.
-void Step::even_out(Clock::time_point start) {
+/// Grows capacities so that steps like this one allocate nothing. If memory or the time budget does not
+/// suffice, later steps allocate instead. The step's result does not depend on it.
+void Step::equalize_capacity(Clock::time_point start) {
   try {
-    reports_.even_out(jobs_.even_out_memory(start));
+    reports_.equalize_capacity(jobs_.equalize_capacity(start));
   } catch (const std::bad_alloc&) {
     return;
   }
@@ -301,11 +301,12 @@ void Step::sum_counters(StepStatistics& statistics) {
   statistics.regions_expanded = sum.regions_expanded;
 }
 
-/// Of what nothing touches in a step that repeats rows, where counting it would be a third of the work.
+/// Counts the bytes of pairs. A step that repeats rows changes none of them, and counting would be a third of
+/// its work.
 void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics) {
-  // Only what a job looked at may have got memory for its regions.
+  // Only a job that tested a pair can have allocated memory for its objects' regions.
   for (const PairJob& job : jobs)
-    if (job.is_looked_at())
+    if (job.is_tested())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
   statistics.pair_bytes =
       pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() + contacts_.byte_count();

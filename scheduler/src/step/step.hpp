@@ -16,30 +16,30 @@
 
 namespace graze {
 
-/// What one step does, and what is remembered from step to step. Stepping thread only.
+/// Does the work of a step, and holds what is remembered from step to step. Stepping thread only.
 class Step {
  public:
   Step(const SceneSettings& settings, SceneContent& content, Staging& staging, ReportPool& reports);
 
-  /// Fills `report`, the last that the reports' pool has begun, which follows `previous`. Where it throws the
-  /// report is of no use, nor is this.
+  /// Fills `report`, the last one that the pool has begun, which follows `previous`. If it throws, neither
+  /// the report nor this object can be used again.
   void run(const FrameReport& previous, FrameReport& report);
-  /// Makes room ahead of time, where any number is not 0.
+  /// Reserves memory ahead of time, unless all numbers are 0.
   void reserve(const SceneCapacity& capacity);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void take_up_calls(std::vector<Diagnostic>& diagnostics);
+  void apply_calls(std::vector<Diagnostic>& diagnostics);
   void reserve_for_pairs(const SceneCapacity& capacity);
-  void make_ready(Surface& surface, Motion motion);
-  void make_ready_to_copy(Object& object);
+  void prepare_surface(Surface& surface, Motion motion);
+  void prepare_copy(Object& object);
   void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
   void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);
   void end_pair(PairReport row, ReportBuilder& builder);
   void repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder);
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
-  void even_out(Clock::time_point start);
+  void equalize_capacity(Clock::time_point start);
   void sum_counters(StepStatistics& statistics);
   void count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics);
 
@@ -53,11 +53,11 @@ class Step {
   RegionRefit refit_;
   PairJobs jobs_;
   ContactRows contacts_;
-  bool is_reserved_ = false;    ///< room for near pairs, also of objects that come
-  std::size_t rows_again_ = 0;  ///< of the report being written, as they were in the last
-  /// The last step looked at no pair and all its rows were as before: so will be the next one's if nothing
-  /// changes.
-  bool is_settled_ = false;
+  bool is_reserved_ = false;    ///< near pairs have reserved room, also those of later objects
+  std::size_t rows_again_ = 0;  ///< rows of the current report that are unchanged from the last
+  /// The last step tested no pair and all its rows were repeated. If nothing changes, the next step can
+  /// repeat its report.
+  bool can_repeat_report_ = false;
 };
 
 }  // namespace graze

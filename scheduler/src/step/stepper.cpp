@@ -35,8 +35,8 @@ void Stepper::step_failed() noexcept {
   content_.store.forget_promises();
 }
 
-/// With the room that was reserved. Where there is no memory for that it is not tried again: the scene may do
-/// without.
+/// Creates a step with the reserved capacity. If there is no memory for that capacity, the scene does without
+/// it and does not try again.
 std::unique_ptr<Step> Stepper::begun_afresh() {
   auto step = std::make_unique<Step>(settings_, content_, staging_, reports_);
   step->reserve(std::exchange(content_.reserved, {}));

@@ -14,21 +14,21 @@
 
 namespace graze {
 
-/// Takes the steps of a scene, one after the other. Stepping thread only.
+/// Runs the steps of a scene, one after the other. Stepping thread only.
 ///
-/// A step that throws leaves the last report published and the scene's content whole, wherever it throws.
-/// Calls that it has taken up are done. The others wait for the next step, as do its diagnostics. All that
-/// steps remember of pairs and bounds is forgotten at once, with its memory. The next step makes it anew from
-/// where the objects are and from the published report.
+/// A step that throws leaves the last report published and the scene's content whole, wherever it throws. The
+/// calls that it has applied stay applied. The other calls and its diagnostics wait for the next step. All
+/// that steps remember of pairs and bounds is freed at once. The next step builds it again from the objects'
+/// positions and the published report.
 class Stepper {
  public:
   Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports);
 
-  /// Takes the calls made so far for the next `run`.
-  void take_calls() { staging_.take(); }
-  /// Fills and publishes the report that follows the published one, with the caller's tag.
+  /// Collects the calls made so far for the next `run`.
+  void collect_calls() { staging_.collect(); }
+  /// Fills and publishes the next report, with the caller's tag.
   ReportHandle run(std::uint64_t tag);
-  /// Begins what calls `run`, after `take_calls`, on another thread; it must not throw.
+  /// Starts `work` on another thread, after `collect_calls`. `work` calls `run` and must not throw.
   void start(std::function<void()> work);
 
  private:
@@ -40,8 +40,8 @@ class Stepper {
   Staging& staging_;
   ReportPool& reports_;
   SceneContent content_;
-  std::unique_ptr<Step> step_;      ///< null after a step that failed
-  std::vector<Diagnostic> untold_;  ///< by a step that failed
+  std::unique_ptr<Step> step_;      ///< null after a failed step
+  std::vector<Diagnostic> untold_;  ///< diagnostics of a failed step, not reported yet
 };
 
 }  // namespace graze

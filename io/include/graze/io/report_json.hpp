@@ -73,7 +73,8 @@ struct ReportedObject {
 
 /// A contact in a report file.
 struct ReportedContact {
-  /// The contact. An index of an edge is that of the mesh that the writer had.
+  /// The contact. An index of an edge is that of the mesh that the writer had. Contact::since counts in the
+  /// numbers of the file, as ReportedFrame::frame does.
   Contact contact;
   /// The vertices of feature a, if it is an edge.
   EdgeVertices edge_a{};

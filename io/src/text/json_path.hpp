@@ -19,9 +19,9 @@ nlohmann::json parse_json_file(const std::filesystem::path& path);
 /// A JSON value that knows where it stands, so that what is wrong with it can be said in one line. Every
 /// reading member throws InputError: `scene.json: objects[2].margin: expected …, got "x"; remedy`. The value
 /// must outlive it.
-class JsonPlace {
+class JsonPath {
  public:
-  JsonPlace(std::string file, const nlohmann::json& value) : file_(std::move(file)), value_(&value) {}
+  JsonPath(std::string file, const nlohmann::json& value) : file_(std::move(file)), value_(&value) {}
 
   [[nodiscard]] const nlohmann::json& value() const { return *value_; }
   /// `scene.json: objects[2].margin`; the file alone for the whole document.
@@ -31,12 +31,12 @@ class JsonPlace {
 
   /// An object with no other keys than these.
   void expect_keys(std::initializer_list<std::string_view> keys) const;
-  [[nodiscard]] std::optional<JsonPlace> find(std::string_view key) const;
-  [[nodiscard]] JsonPlace require(std::string_view key, std::string_view remedy) const;
+  [[nodiscard]] std::optional<JsonPath> find(std::string_view key) const;
+  [[nodiscard]] JsonPath require(std::string_view key, std::string_view remedy) const;
 
   /// An array's length; `item(i)` its parts.
   [[nodiscard]] std::size_t array_size(std::string_view remedy) const;
-  [[nodiscard]] JsonPlace item(std::size_t index) const;
+  [[nodiscard]] JsonPath item(std::size_t index) const;
 
   [[nodiscard]] double number() const;
   [[nodiscard]] double number_not_negative() const;
@@ -49,7 +49,7 @@ class JsonPlace {
   [[nodiscard]] std::vector<double> numbers(std::size_t count, std::string_view remedy) const;
 
  private:
-  JsonPlace(std::string file, std::string path, const nlohmann::json& value)
+  JsonPath(std::string file, std::string path, const nlohmann::json& value)
       : file_(std::move(file)), path_(std::move(path)), value_(&value) {}
 
   std::string file_;

@@ -98,7 +98,7 @@ void change(std::size_t frame, Told& told) {
 struct Tally {
   std::uint64_t by_list = 0;
   std::uint64_t tested = 0;
-  std::uint64_t surveyed_when_calm = 0;
+  std::uint64_t surveyed_when_static = 0;
   std::size_t rows = 0;
 };
 
@@ -125,13 +125,13 @@ void play(const SceneSettings& settings, double tremor, Tally& tally) {
     tally.rows += rows.size();
     tally.by_list += report->statistics().pairs_by_list;
     tally.tested += report->statistics().pairs_tested;
-    if (frame % 11 == 6) tally.surveyed_when_calm += report->statistics().objects_surveyed;
+    if (frame % 11 == 6) tally.surveyed_when_static += report->statistics().objects_surveyed;
   }
 }
 
 }  // namespace
 
-TEST_CASE("calm: in a heap that trembles lists spare searches, and show in no report") {
+TEST_CASE("nearly static: in a trembling heap lists spare searches, and no report shows it") {
   for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices})
     for (const double tremor : {1e-6, 1e-4}) {
       Tally tally;
@@ -142,12 +142,12 @@ TEST_CASE("calm: in a heap that trembles lists spare searches, and show in no re
       }
       CHECK(tally.rows > 1000);
       CHECK(tally.by_list * 2 > tally.tested);
-      CHECK(tally.surveyed_when_calm == 0);
+      CHECK(tally.surveyed_when_static == 0);
       std::cout << tally.by_list << " of " << tally.tested << " pairs by lists, " << tally.rows << " rows\n";
     }
 }
 
-TEST_CASE("calm: distances of regions are those of now, whatever pairs are answered from") {
+TEST_CASE("nearly static: distances of regions are current, whatever pairs are answered from") {
   Heap heap(mesh_of(models::sphere(16, 10)));
   SceneSettings settings = settings_of(0.04, 0.1);
   settings.region_distances = 100'000;
@@ -176,7 +176,7 @@ TEST_CASE("calm: distances of regions are those of now, whatever pairs are answe
   CHECK(by_list > 200);
 }
 
-TEST_CASE("calm: where a box keeps still about vertices that move far, no motion is asked for in vain") {
+TEST_CASE("nearly static: where a box keeps still about vertices that move far, objects are surveyed") {
   Heap heap(mesh_of(models::sphere(16, 10)));
   const std::size_t vertices = heap.at(0).size();
   Scene scene(settings_of(0.04, 0.04, ContactDetail::vertices));

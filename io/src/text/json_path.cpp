@@ -1,4 +1,4 @@
-#include "text/json_place.hpp"
+#include "text/json_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,20 +98,20 @@ nlohmann::json parse_json_file(const std::filesystem::path& path) {
   }
 }
 
-std::string JsonPlace::where() const {
+std::string JsonPath::where() const {
   return path_.empty() ? file_ : file_ + ": " + path_;
 }
 
-void JsonPlace::fail(std::string_view expected, std::string_view remedy) const {
+void JsonPath::fail(std::string_view expected, std::string_view remedy) const {
   throw InputError(where() + ": expected " + std::string(expected) + ", got " + shown(*value_) + "; " +
                    std::string(remedy));
 }
 
-void JsonPlace::refuse(std::string_view problem) const {
+void JsonPath::refuse(std::string_view problem) const {
   throw InputError(where() + ": " + std::string(problem));
 }
 
-void JsonPlace::expect_keys(std::initializer_list<std::string_view> keys) const {
+void JsonPath::expect_keys(std::initializer_list<std::string_view> keys) const {
   if (!value_->is_object()) fail("an object", "write { } with keys inside");
   for (const auto& [key, unused] : value_->items()) {
     if (std::ranges::find(keys, key) != keys.end()) continue;
@@ -121,44 +121,44 @@ void JsonPlace::expect_keys(std::initializer_list<std::string_view> keys) const 
   }
 }
 
-std::optional<JsonPlace> JsonPlace::find(std::string_view key) const {
+std::optional<JsonPath> JsonPath::find(std::string_view key) const {
   const auto found = value_->find(key);
   if (found == value_->end()) return std::nullopt;
-  return JsonPlace(file_, path_ + (path_.empty() ? "" : ".") + std::string(key), *found);
+  return JsonPath(file_, path_ + (path_.empty() ? "" : ".") + std::string(key), *found);
 }
 
-JsonPlace JsonPlace::require(std::string_view key, std::string_view remedy) const {
+JsonPath JsonPath::require(std::string_view key, std::string_view remedy) const {
   if (auto found = find(key)) return *found;
   throw InputError(where() + ": key \"" + std::string(key) + "\" is missing; " + std::string(remedy));
 }
 
-std::size_t JsonPlace::array_size(std::string_view remedy) const {
+std::size_t JsonPath::array_size(std::string_view remedy) const {
   if (!value_->is_array()) fail("an array", remedy);
   return value_->size();
 }
 
-JsonPlace JsonPlace::item(std::size_t index) const {
+JsonPath JsonPath::item(std::size_t index) const {
   return {file_, path_ + "[" + std::to_string(index) + "]", (*value_)[index]};
 }
 
-double JsonPlace::number() const {
+double JsonPath::number() const {
   if (!value_->is_number()) fail("a number", "write one without quotes, such as 0.5");
   return value_->get<double>();
 }
 
-double JsonPlace::number_not_negative() const {
+double JsonPath::number_not_negative() const {
   if (!value_->is_number() || value_->get<double>() < 0)
     fail("a number that is not negative", "write 0 or more, without quotes");
   return value_->get<double>();
 }
 
-double JsonPlace::number_positive() const {
+double JsonPath::number_positive() const {
   if (!value_->is_number() || value_->get<double>() <= 0)
     fail("a number above 0", "write one without quotes, such as 0.5");
   return value_->get<double>();
 }
 
-std::uint32_t JsonPlace::whole_number(std::uint32_t least, std::uint32_t most) const {
+std::uint32_t JsonPath::whole_number(std::uint32_t least, std::uint32_t most) const {
   const bool fits = value_->is_number_unsigned() && value_->get<std::uint64_t>() >= least &&
                     value_->get<std::uint64_t>() <= most;
   if (!fits)
@@ -167,20 +167,20 @@ std::uint32_t JsonPlace::whole_number(std::uint32_t least, std::uint32_t most) c
   return value_->get<std::uint32_t>();
 }
 
-std::string JsonPlace::text() const {
+std::string JsonPath::text() const {
   if (!value_->is_string() || value_->get_ref<const std::string&>().empty())
     fail("a text", "write it in double quotes, not empty");
   return value_->get<std::string>();
 }
 
-std::vector<double> JsonPlace::numbers(std::size_t count, std::string_view remedy) const {
+std::vector<double> JsonPath::numbers(std::size_t count, std::string_view remedy) const {
   if (!value_->is_array() || value_->size() != count) fail(std::to_string(count) + " numbers", remedy);
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(item(i).number());
   return values;
 }
 
-Eigen::Vector3d JsonPlace::point() const {
+Eigen::Vector3d JsonPath::point() const {
   if (!value_->is_array() || value_->size() != 3) fail("three numbers", "write [x, y, z]");
   return {item(0).number(), item(1).number(), item(2).number()};
 }

@@ -9,28 +9,29 @@
 
 namespace graze {
 
-/// Elements that are lent and given back from any thread without a lock, and named by indices. They never
-/// move, and what is lent is never taken from the allocator while one given back is left.
+/// A pool of elements, named by indices, that any thread may acquire and release without a lock. Elements
+/// never move. The pool allocates only when no released element is left.
 ///
-/// The free ones are a stack linked by `next`. Its head holds a tag beside the index, which changes with
-/// every take: without it a thread that has read the head and that element's link, and then sleeps while the
-/// element is taken and given back, would put a link in place that is no longer so. (The tag would have to
-/// come round, 2^32 takes, during that sleep.)
+/// The free elements form a stack linked by `next`. The head of the stack holds a tag beside the index, and
+/// each acquisition changes the tag. The tag solves the ABA problem. Suppose that a thread reads the head and
+/// the link of that element, and then sleeps. Meanwhile other threads may acquire and release the element.
+/// Without the tag the thread would then install an outdated link. It would take 2^32 acquisitions during
+/// that sleep to make the tag equal again.
 template <typename Element>
-class IndexPool {
+class LockFreePool {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  /// Lends an element, as it was given back or, a new one, default-constructed. Where there is no memory for
-  /// that (std::bad_alloc), no index is used up.
-  [[nodiscard]] std::uint32_t take() {
+  /// Returns the index of an element: a released one as it was left, or a new, default-constructed one. If
+  /// there is no memory for a new one it throws std::bad_alloc and uses up no index.
+  [[nodiscard]] std::uint32_t acquire() {
     std::uint64_t head = free_.load(std::memory_order_acquire);
     while (index_of(head) != none) {
-      // The link may be read while another thread that has just taken the element writes it; then the head
-      // has another tag, and what was read is not used.
+      // Another thread that has just acquired this element may write the link at the same time. The head then
+      // has another tag, so the exchange below fails and the value is not used.
       const std::uint32_t next = link(index_of(head)).load(std::memory_order_relaxed);
-      // Acquire: whoever gave the element back has done with it. (Takes between are read-modify-writes, which
-      // keep the release of the one who gave back.)
+      // Acquire: the thread that released the element no longer uses it. Acquisitions in between are
+      // read-modify-writes, which continue the release sequence.
       if (free_.compare_exchange_weak(head, head_of(next, tag_of(head) + 1), std::memory_order_acquire))
         return index_of(head);
     }
@@ -40,34 +41,34 @@ class IndexPool {
     return index;
   }
 
-  void give_back(std::uint32_t index) noexcept { give_back(index, index); }
-  /// Gives back a chain: `last` is reached from `first` by links.
-  void give_back(std::uint32_t first, std::uint32_t last) noexcept {
+  void release(std::uint32_t index) noexcept { release(index, index); }
+  /// Releases a chain of elements in which links lead from `first` to `last`.
+  void release(std::uint32_t first, std::uint32_t last) noexcept {
     std::uint64_t head = free_.load(std::memory_order_relaxed);
     do link(last).store(index_of(head), std::memory_order_relaxed);
     while (!free_.compare_exchange_weak(head, head_of(first, tag_of(head)), std::memory_order_release,
                                         std::memory_order_relaxed));
   }
 
-  /// Indices that were lent once are below this.
+  /// Every index that was ever returned is below this number.
   [[nodiscard]] std::uint32_t made_count() const noexcept { return made_.load(std::memory_order_relaxed); }
-  /// An element that was lent once.
+  /// The element at an index that was returned at least once.
   [[nodiscard]] Element& operator[](std::uint32_t index) const noexcept { return entries_[index].element; }
-  /// The same of any index: null where no element was made.
+  /// The element at any index, or null where no element was made.
   [[nodiscard]] Element* find(std::uint32_t index) const noexcept {
     auto* const entry = entries_.find(index);
     return entry == nullptr ? nullptr : &entry->element;
   }
-  /// Its holder's to use, for chains of elements.
+  /// The link of an element. The thread that holds the element may use it to form chains.
   [[nodiscard]] std::atomic<std::uint32_t>& link(std::uint32_t index) const noexcept {
     return entries_[index].next;
   }
 
-  /// Makes that many elements.
+  /// Makes `count` elements.
   void reserve(std::size_t count) {
     for (std::size_t index = 0; index < count; ++index) entries_.make(static_cast<std::uint32_t>(index));
   }
-  /// Bytes of the elements made; not what they hold themselves.
+  /// The bytes of the elements made, without the memory that these hold.
   [[nodiscard]] std::size_t byte_count() const noexcept { return entries_.byte_count(); }
 
  private:
