@@ -239,7 +239,7 @@ class ParallelContacts {
   const FeaturePairKey& nearest_;
   bool touches_;  ///< the least distance is 0
   ParallelScratch& scratch_;
-  std::optional<FeaturePairKey> lowest_;  ///< the lowest key of those still searched for, the end
+  std::optional<FeaturePairKey> lowest_;  ///< only keys below this are still searched for
   std::optional<TwoFeatures> found_;
 };
 
