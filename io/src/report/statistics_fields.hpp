@@ -58,4 +58,9 @@ inline constexpr std::array<std::pair<std::string_view, double StepStatistics::*
     {"step_ms", &StepStatistics::step_ms},
 }};
 
+static_assert(sizeof(StepStatistics) ==
+                  sizeof(StepStatistics::regions_expanded) +
+                      sizeof(std::uint64_t) * (counter_fields.size() + 1 + time_fields.size()),
+              "every statistic has a name");
+
 }  // namespace graze::io

@@ -288,16 +288,32 @@ void Step::equalize_capacity(Clock::time_point start) {
   }
 }
 
+namespace {
+
+/// The statistic of a step that holds each counter of the searches.
+struct CounterOfStep {
+  std::uint64_t PairCounters::*of_pairs;
+  std::uint64_t StepStatistics::*of_step;
+};
+constexpr std::array counters_of_step{
+    CounterOfStep{&PairCounters::region_pairs_tested, &StepStatistics::region_pairs_tested},
+    CounterOfStep{&PairCounters::leaf_pairs_tested, &StepStatistics::leaf_pairs_tested},
+    CounterOfStep{&PairCounters::discarded_in_float, &StepStatistics::discarded_in_float},
+    CounterOfStep{&PairCounters::named_in_float, &StepStatistics::named_in_float},
+    CounterOfStep{&PairCounters::decided_in_double, &StepStatistics::decided_in_double},
+    CounterOfStep{&PairCounters::exact_decisions, &StepStatistics::exact_decisions},
+    CounterOfStep{&PairCounters::fronts_left_out, &StepStatistics::fronts_left_out},
+    CounterOfStep{&PairCounters::pairs_by_list, &StepStatistics::pairs_by_list},
+};
+static_assert(sizeof(PairCounters) ==
+                  counters_of_step.size() * sizeof(std::uint64_t) + sizeof(PairCounters::regions_expanded),
+              "every counter has its statistic");
+
+}  // namespace
+
 void Step::sum_counters(StepStatistics& statistics) {
   const PairCounters sum = jobs_.counters();
-  statistics.region_pairs_tested = sum.region_pairs_tested;
-  statistics.leaf_pairs_tested = sum.leaf_pairs_tested;
-  statistics.discarded_in_float = sum.discarded_in_float;
-  statistics.named_in_float = sum.named_in_float;
-  statistics.decided_in_double = sum.decided_in_double;
-  statistics.exact_decisions = sum.exact_decisions;
-  statistics.fronts_left_out = sum.fronts_left_out;
-  statistics.pairs_by_list = sum.pairs_by_list;
+  for (const CounterOfStep& counter : counters_of_step) statistics.*counter.of_step = sum.*counter.of_pairs;
   statistics.regions_expanded = sum.regions_expanded;
 }
 

@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// Work done for a pair, or for many.
+/// The work done for a pair, or for many. Every member is a 64-bit counter, or an array of them.
 struct GRAZE_API PairCounters {
   std::uint64_t region_pairs_tested = 0;
   std::uint64_t leaf_pairs_tested = 0;
@@ -21,6 +21,7 @@ struct GRAZE_API PairCounters {
   /// Pairs of regions expanded, by level.
   std::array<std::uint64_t, RegionTree::max_level + 1> regions_expanded{};
 
+  /// Adds every counter of `other`.
   void add(const PairCounters& other);
 };
 
