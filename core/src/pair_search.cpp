@@ -33,8 +33,6 @@ constexpr std::size_t blocks_each = 64;
 /// At least so long a name takes to be found.
 constexpr std::chrono::nanoseconds to_find_one{5};
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A bound that is not negative in half of the memory.
 float rounded_down(double lower) {
   constexpr double least = std::numeric_limits<float>::min();
@@ -581,7 +579,7 @@ void PairSearch::finish_closest(Worker& worker) {
     // Settled, unless something outside the front may be as near as what is in it.
     if (ClosestRange(worker.pair, query_, ties(), closest_).keep(beyond_front_)) {
       from_front_ = certainly_apart_ = false;
-      closest_.lower = infinity;
+      closest_.lower = std::numeric_limits<double>::infinity();
       return approach(worker);
     }
     const double motion = front_->motion_now(*a_, *b_);

@@ -15,10 +15,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
 /// Nodes of a level that are refitted, or slots that are filled, at a time.
-constexpr std::size_t slice = 512;
+constexpr std::size_t boxes_of_slice = 512;
 
 constexpr std::size_t slices_of(std::size_t count) {
-  return (count + slice - 1) / slice;
+  return (count + boxes_of_slice - 1) / boxes_of_slice;
 }
 
 }  // namespace
@@ -92,8 +92,8 @@ std::size_t BoxTree::widened_blocks() const {
 
 void BoxTree::move_all(std::span<const Box> boxes, TaskPool& tasks) {
   const auto fill = [&](unsigned, std::size_t index) {
-    const std::size_t end = std::min((index + 1) * slice, place_of_.size());
-    for (std::size_t slot = index * slice; slot < end; ++slot)
+    const std::size_t end = std::min((index + 1) * boxes_of_slice, place_of_.size());
+    for (std::size_t slot = index * boxes_of_slice; slot < end; ++slot)
       levels_[0][slot] = place_of_[slot] == no_place ? no_box : limits_of(boxes[place_of_[slot]]);
   };
   tasks.run(slices_of(place_of_.size()), std::ref(fill));
@@ -104,8 +104,8 @@ void BoxTree::refit_all(TaskPool& tasks) {
   for (std::uint32_t level = 1; level < level_count_; ++level) {
     const std::size_t count = (levels_[level - 1].size()) / width;
     const auto refit = [&](unsigned, std::size_t index) {
-      const std::size_t end = std::min((index + 1) * slice, count);
-      for (std::size_t node = index * slice; node < end; ++node)
+      const std::size_t end = std::min((index + 1) * boxes_of_slice, count);
+      for (std::size_t node = index * boxes_of_slice; node < end; ++node)
         refit_node(level, static_cast<std::uint32_t>(node));
     };
     tasks.run(slices_of(count), std::ref(refit));

@@ -34,7 +34,7 @@ void let_go(SparePositions::Loan& positions) {
 }
 
 /// Surfaces of more vertices are read and refitted in parts, each of some tens of microseconds.
-constexpr std::uint32_t vertices_each = 8192;
+constexpr std::uint32_t vertices_of_part = 8192;
 /// Small ones are read several at a time, in so many tasks at least: neighbours mostly lie beside each other
 /// in the caller's memory, too.
 constexpr std::size_t least_batches = 64;
@@ -60,7 +60,7 @@ void ObjectStore::apply(AddObject& call) {
   object->box = object->seen = object->surface().box();
   object->version = object->surface().version();
   object->mesh = &object->surface().mesh();
-  object->in_parts = object->mesh->vertex_count() > vertices_each;
+  object->in_parts = object->mesh->vertex_count() > vertices_of_part;
   count_bytes(*object);
   by_index_[call.object.index] = object.get();
   serials_.push_back(object->serial);
@@ -312,8 +312,8 @@ void ObjectStore::begin_list() {
 void ObjectStore::list_to_read(Object& object) {
   if (!object.in_parts || (object.to_survey && has_known_box(object))) return to_read_.push_back(&object);
   const std::uint32_t count = object.mesh->vertex_count();
-  for (std::uint32_t begin = 0; begin < count; begin += vertices_each)
-    parts_.push_back({&object, begin, std::min(vertices_each, count - begin), {}});
+  for (std::uint32_t begin = 0; begin < count; begin += vertices_of_part)
+    parts_.push_back({&object, begin, std::min(vertices_of_part, count - begin), {}});
   large_.push_back({&object, parts_.size()});
 }
 
