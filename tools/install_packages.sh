@@ -1,14 +1,16 @@
 #!/bin/sh
-# Installs the Debian packages that graze is built, run and tested with. With the argument `peers` it also installs the
-# libraries that `graze bench` compares graze with, what kernels are timed and instructions are counted with, and Doxygen.
-# Run as root, or where sudo asks for no word.
+# Installs the Debian packages that graze is built, run and tested with. With the argument `demo` these are only the
+# packages that the demonstration needs. With the argument `peers` they are also the libraries that `graze bench`
+# compares graze with, and the programs that measure and check the sources. Run it as root, or where sudo asks for no
+# password.
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
-  libtinyobjloader-dev nlohmann-json3-dev libcli11-dev libpng-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
+  nlohmann-json3-dev libcli11-dev libpng-dev"
+[ "${1:-}" = demo ] || packages="$packages libtinyobjloader-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
   libmd4c-html0-dev libmd4c-dev python3"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
-  libbenchmark-dev valgrind doxygen doxygen-awesome-css"
+  libbenchmark-dev valgrind clang-format clang-tidy shellcheck pyflakes3 doxygen doxygen-awesome-css"
 
 missing=""
 for package in $packages; do

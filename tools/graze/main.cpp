@@ -15,7 +15,9 @@
 #include "command_mistake.hpp"
 #include "inspect_command.hpp"
 #include "run_command.hpp"
+#if GRAZE_HAS_STRESS
 #include "stress/command.hpp"
+#endif
 
 namespace {
 
@@ -35,12 +37,18 @@ int run_program(int argument_count, char** arguments) {
   app.require_subcommand(1);
   graze::tools::add_run_command(app);
   graze::tools::add_inspect_command(app);
+#if GRAZE_HAS_STRESS
   graze::tools::add_stress_command(app);
+#endif
 #if GRAZE_HAS_BENCH
   graze::tools::add_bench_command(app);
-#else
+#elif GRAZE_HAS_STRESS
   app.footer(
       "Built without bench, accuracy and experiment: configure graze with -DGRAZE_STUDIES=ON for them.");
+#else
+  app.footer(
+      "Built without stress, bench, accuracy and experiment: cmake --preset release builds a graze with "
+      "them.");
 #endif
 #if GRAZE_HAS_ORACLES
   graze::tools::add_accuracy_command(app);

@@ -40,7 +40,7 @@ double molar(const Vector3d& point) {
   return blended(crown(p), root(p), 0.16);
 }
 
-double edge_length(const Vector3d& p) {
+double molar_edge_length(const Vector3d& p) {
   return p.z() > 0.35 ? 0.8 : 1.0;
 }
 
@@ -48,7 +48,7 @@ double edge_length(const Vector3d& p) {
 
 MeshData tooth() {
   const TriangleMesh fine = surface_net(molar, {0.8, 0.8, 1.1}, 0.05);
-  const TriangleMesh mesh = thinned(fine, molar, edge_length, 1202);
+  const TriangleMesh mesh = thinned(fine, molar, molar_edge_length, 1202);
   MeshData result;
   result.positions = mesh.positions;
   for (const auto& triangle : mesh.triangles) result.add_face({triangle[0], triangle[1], triangle[2]});

@@ -10,7 +10,7 @@ namespace {
 
 using Plain = Vector<double>;
 
-constexpr double unit = 0x1p-53;
+constexpr double roundoff = 0x1p-53;
 
 /// Squares of lengths between which neither products of four of them overflow nor rounding to denormals
 /// matters.
@@ -23,14 +23,14 @@ bool is_in_range(double square) {
 
 /// The range of the squared distance of two points `x` apart.
 SquaredRange range_of_points(double xx) {
-  return {xx * (1 - 8 * unit), xx * (1 + 8 * unit)};
+  return {xx * (1 - 8 * roundoff), xx * (1 + 8 * roundoff)};
 }
 
 /// The range of the squared distance of a point `x` from a point of a line along `direction`.
 SquaredRange range_to_line(const Plain& direction, double length_squared, const Plain& x, double xx) {
   const Plain area = cross(direction, x);
   const double squared = dot(area, area) / length_squared;
-  return {std::max(squared - 32 * unit * xx, 0.0), squared + 32 * unit * xx};
+  return {std::max(squared - 32 * roundoff * xx, 0.0), squared + 32 * roundoff * xx};
 }
 
 /// The range of the squared distance of a point `x` from a plane, or of two lines through points `x` apart.
@@ -39,7 +39,7 @@ SquaredRange range_along(const Plain& normal, double normal_squared, double uu, 
                          double xx) {
   const double height = dot(normal, x);
   const double squared = height * height / normal_squared;
-  const double off = 48 * unit * xx * (uu * vv / normal_squared);
+  const double off = 48 * roundoff * xx * (uu * vv / normal_squared);
   return {std::max(squared - off, 0.0), squared + off};
 }
 
@@ -90,8 +90,8 @@ bool certain_voronoi(const Eigen::Vector3d& point, const std::array<Eigen::Vecto
   if (!is_in_range(uu) || !is_in_range(vv) || !is_in_range(furthest)) return false;
   if (!is_long(normal_squared, uu, vv)) return false;
   const double product = longest * furthest;
-  const double off2 = 16 * unit * std::sqrt(product);
-  const double off4 = 32 * unit * product;
+  const double off2 = 16 * roundoff * std::sqrt(product);
+  const double off4 = 32 * roundoff * product;
 
   const double u0 = dot(u, from0);
   const double v0 = dot(v, from0);
@@ -159,12 +159,13 @@ bool is_end_over_inside(const Segment& segment, Along along, const Segment& othe
   const double furthest = std::max(xx, yy);
   if (!is_in_range(furthest)) return false;
   const double vx = dot(other.along, x);
-  const double off = 8 * unit * std::sqrt(other.length_squared * furthest);
+  const double off = 8 * roundoff * std::sqrt(other.length_squared * furthest);
   if (!(vx > off && dot(other.along, y) < -off)) return false;
   const double sign = end == 0 ? 1 : -1;
   const double away =
       sign * (dot(segment.along, x) * other.length_squared - vx * dot(segment.along, other.along));
-  if (!(away > 32 * unit * other.length_squared * std::sqrt(segment.length_squared * furthest))) return false;
+  if (!(away > 32 * roundoff * other.length_squared * std::sqrt(segment.length_squared * furthest)))
+    return false;
   squared = range_to_line(other.along, other.length_squared, x, xx);
   return true;
 }
@@ -178,8 +179,8 @@ bool are_ends(const Segment& a, Along along_a, const Segment& b, Along along_b, 
   if (!is_in_range(xx)) return false;
   const double away_a = (end_a == 0 ? 1 : -1) * dot(a.along, x);
   const double away_b = (end_b == 0 ? -1 : 1) * dot(b.along, x);
-  if (!(away_a > 8 * unit * std::sqrt(a.length_squared * xx))) return false;
-  if (!(away_b > 8 * unit * std::sqrt(b.length_squared * xx))) return false;
+  if (!(away_a > 8 * roundoff * std::sqrt(a.length_squared * xx))) return false;
+  if (!(away_b > 8 * roundoff * std::sqrt(b.length_squared * xx))) return false;
   squared = range_of_points(xx);
   return true;
 }
@@ -204,9 +205,9 @@ bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eig
   const double determinant = dot(normal, normal);
   const double s = dot(cross(w, second.along), normal);
   const double t = dot(cross(w, first.along), normal);
-  const double off = 16 * unit * uu * vv;
-  const double off_s = 16 * unit * std::sqrt(uu * ww) * vv;
-  const double off_t = 16 * unit * std::sqrt(vv * ww) * uu;
+  const double off = 16 * roundoff * uu * vv;
+  const double off_s = 16 * roundoff * std::sqrt(uu * ww) * vv;
+  const double off_t = 16 * roundoff * std::sqrt(vv * ww) * uu;
   if (is_long(determinant, uu, vv) && s > off_s && determinant - s > off + off_s && t > off_t &&
       determinant - t > off + off_t && ww >= least_square) {
     along = {Along::inside, Along::inside};
@@ -242,8 +243,8 @@ Passing certain_passing(const std::array<Eigen::Vector3d, 2>& segment,
                                    std::max(dot(to[2], to[2]), dot(to_second, to_second)));
   const double length_squared = dot(along, along);
   if (!is_in_range(sides) || !is_in_range(furthest) || !is_in_range(length_squared)) return Passing::unsure;
-  const double off_side = 16 * unit * sides * std::sqrt(furthest);
-  const double off_turn = 16 * unit * furthest * std::sqrt(length_squared);
+  const double off_side = 16 * roundoff * sides * std::sqrt(furthest);
+  const double off_turn = 16 * roundoff * furthest * std::sqrt(length_squared);
 
   const Plain normal = cross(u, v);
   const double first = -dot(normal, to[0]);

@@ -21,7 +21,7 @@ double epsilon_of(const SurfacePair& pair, const PairQuery& query, const Region&
 }
 
 /// The range of a search for pairs of vertices nearer than the threshold.
-struct BelowThreshold {
+struct VerticesBelow {
   double threshold;
 
   [[nodiscard]] double limit() const { return threshold; }
@@ -85,7 +85,7 @@ class Paper {
   }
 
   void add_close_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b) {
-    const BelowThreshold range{query_.threshold};
+    const VerticesBelow range{query_.threshold};
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch_.leaves, range,
                          [&](std::uint32_t a, std::uint32_t b) {
                            const auto key = FeaturePairKey::of(vertex_piece(a), vertex_piece(b));

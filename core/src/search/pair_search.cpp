@@ -35,8 +35,6 @@ constexpr std::size_t blocks_each = 64;
 /// At least so long a key takes to be found.
 constexpr std::chrono::nanoseconds to_find_one{5};
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A bound that is not negative in half of the memory.
 float rounded_down(double lower) {
   constexpr double least = std::numeric_limits<float>::min();
@@ -584,7 +582,7 @@ void PairSearch::finish_closest(Worker& worker) {
     // The answer is decided, unless something outside the front may be as near as the nearest in it.
     if (ClosestRange(worker.pair, query_, ties(), closest_).keep(unlisted_lower_bound_)) {
       from_front_ = certainly_apart_ = false;
-      closest_.lower = infinity;
+      closest_.lower = std::numeric_limits<double>::infinity();
       return approach(worker);
     }
     const double motion = front_->motion_now(*a_, *b_);

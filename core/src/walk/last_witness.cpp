@@ -10,7 +10,7 @@ namespace graze {
 namespace {
 
 /// From 0 to 1; 0 for NaN.
-double to_unit_interval(double share) {
+double clamped_share(double share) {
   return share > 0 ? std::min(share, 1.0) : 0;
 }
 
@@ -35,8 +35,8 @@ SurfacePoint surface_point(const Surface& surface, const FeaturePiece& piece, co
     share_u = (vv * along_u - uv * along_v) / area;
     share_v = (uu * along_v - uv * along_u) / area;
   }
-  share_u = to_unit_interval(share_u);
-  share_v = std::min(to_unit_interval(share_v), 1 - share_u);
+  share_u = clamped_share(share_u);
+  share_v = std::min(clamped_share(share_v), 1 - share_u);
   on.share = {static_cast<float>(share_u), static_cast<float>(share_v)};
   return on;
 }

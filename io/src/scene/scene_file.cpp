@@ -168,7 +168,7 @@ void read_settings(const JsonPath& json, SceneSettings& settings) {
     settings.max_contacts_per_pair = most->whole_number(1, any_number);
 }
 
-void read_objects(const JsonPath& json, const std::filesystem::path& folder, SceneDescription& scene) {
+void read_scene_objects(const JsonPath& json, const std::filesystem::path& folder, SceneDescription& scene) {
   constexpr std::string_view remedy = R"(write [{"mesh": "file.obj"}, ...])";
   if (json.array_size(remedy) == 0) json.fail("at least one object", remedy);
   std::set<std::string> names;
@@ -199,7 +199,7 @@ SceneDescription read_scene_file(const std::filesystem::path& path) {
   if (const auto rate = root.find("frames_per_second")) scene.frames_per_second = rate->number_positive();
   if (const auto up = root.find("up")) scene.up = read_up(*up);
   if (const auto unit = root.find("unit")) scene.metres_per_unit = read_unit(*unit);
-  read_objects(root.require("objects", "list the objects of the scene"), path.parent_path(), scene);
+  read_scene_objects(root.require("objects", "list the objects of the scene"), path.parent_path(), scene);
   if (const auto rules = root.find("rules"))
     for (std::size_t i = 0; i < rules->array_size(R"(write [{"kinds": [0, 1], ...}])"); ++i)
       scene.rules.push_back(read_rule(rules->item(i)));

@@ -16,10 +16,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
 /// The number of nodes that one task refits, or of leaves that one task fills.
-constexpr std::size_t slice = 512;
+constexpr std::size_t boxes_of_slice = 512;
 
 constexpr std::size_t slices_of(std::size_t count) {
-  return (count + slice - 1) / slice;
+  return (count + boxes_of_slice - 1) / boxes_of_slice;
 }
 
 }  // namespace
@@ -93,8 +93,8 @@ std::size_t BoxTree::widened_blocks() const {
 
 void BoxTree::move_all(std::span<const Box> boxes, TaskPool& tasks) {
   const auto fill = [&](unsigned, std::size_t index) {
-    const std::size_t end = std::min((index + 1) * slice, slot_of_.size());
-    for (std::size_t leaf = index * slice; leaf < end; ++leaf)
+    const std::size_t end = std::min((index + 1) * boxes_of_slice, slot_of_.size());
+    for (std::size_t leaf = index * boxes_of_slice; leaf < end; ++leaf)
       levels_[0][leaf] = slot_of_[leaf] == no_slot ? no_box : limits_of(boxes[slot_of_[leaf]]);
   };
   tasks.run(slices_of(slot_of_.size()), std::ref(fill));
@@ -105,8 +105,8 @@ void BoxTree::refit_all(TaskPool& tasks) {
   for (std::uint32_t level = 1; level < level_count_; ++level) {
     const std::size_t count = (levels_[level - 1].size()) / width;
     const auto refit = [&](unsigned, std::size_t index) {
-      const std::size_t end = std::min((index + 1) * slice, count);
-      for (std::size_t node = index * slice; node < end; ++node)
+      const std::size_t end = std::min((index + 1) * boxes_of_slice, count);
+      for (std::size_t node = index * boxes_of_slice; node < end; ++node)
         refit_node(level, static_cast<std::uint32_t>(node));
     };
     tasks.run(slices_of(count), std::ref(refit));

@@ -49,7 +49,7 @@ bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& nam
 }
 
 /// The number of vertices that one pass copies and a second pass reads while they are in a cache.
-constexpr std::uint32_t vertices_each = 1024;
+constexpr std::uint32_t vertices_of_pass = 1024;
 
 /// Copies the positions that faces use from `begin` to `end`.
 void copy_some(const IndexedMesh& mesh, const PositionView& view, CopiedPositions& positions,
@@ -74,8 +74,8 @@ void copy_some(const IndexedMesh& mesh, const PositionView& view, CopiedPosition
 Surface::PartSeen copy_used(const IndexedMesh& mesh, const PositionView& view, CopiedPositions& positions) {
   Surface::PartSeen all;
   const std::uint32_t count = mesh.vertex_count();
-  for (std::uint32_t begin = 0; begin < count; begin += vertices_each) {
-    const std::uint32_t end = std::min(begin + vertices_each, count);
+  for (std::uint32_t begin = 0; begin < count; begin += vertices_of_pass) {
+    const std::uint32_t end = std::min(begin + vertices_of_pass, count);
     copy_some(mesh, view, positions, begin, end);
     all.add(Surface::survey(mesh, positions.view(), begin, end));
     if (all.bad_vertex != Surface::ReadResult::no_vertex) break;

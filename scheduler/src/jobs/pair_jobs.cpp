@@ -12,7 +12,6 @@
 namespace graze {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 /// The end of a budget that began at `start`, or no deadline if the clock cannot represent it.
@@ -99,7 +98,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.region_distance_limit = settings_.region_distances == 0
                                     ? 0
                                     : std::max<std::size_t>(1, settings_.region_distances / pair_count_);
-  if (job.was_in_contact()) query.reach = infinity;
+  if (job.was_in_contact()) query.reach = std::numeric_limits<double>::infinity();
   const double motion = motion_of(job);
   const double leaf = smaller_leaf_of(job);
   query.slack = slack_of(motion, leaf);

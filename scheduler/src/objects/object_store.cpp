@@ -35,7 +35,7 @@ void discard(SparePositions::Loan& positions) {
 
 /// Surfaces with more vertices than this are read and refitted in parts, each of which takes some tens of
 /// microseconds.
-constexpr std::uint32_t vertices_each = 8192;
+constexpr std::uint32_t vertices_of_part = 8192;
 /// The least number of tasks for small objects. Each task reads several of them, which are mostly neighbours
 /// in the caller's memory, too.
 constexpr std::size_t least_batches = 64;
@@ -61,7 +61,7 @@ void ObjectStore::apply(AddObject& call) {
   object->box = object->seen = object->surface().box();
   object->version = object->surface().version();
   object->mesh = &object->surface().mesh();
-  object->in_parts = object->mesh->vertex_count() > vertices_each;
+  object->in_parts = object->mesh->vertex_count() > vertices_of_part;
   count_bytes(*object);
   by_index_[call.object.index] = object.get();
   serials_.push_back(object->serial);
@@ -315,8 +315,8 @@ void ObjectStore::clear_read_list() {
 void ObjectStore::list_to_read(Object& object) {
   if (!object.in_parts || (object.to_survey && has_known_box(object))) return to_read_.push_back(&object);
   const std::uint32_t count = object.mesh->vertex_count();
-  for (std::uint32_t begin = 0; begin < count; begin += vertices_each)
-    parts_.push_back({&object, begin, std::min(vertices_each, count - begin), {}});
+  for (std::uint32_t begin = 0; begin < count; begin += vertices_of_part)
+    parts_.push_back({&object, begin, std::min(vertices_of_part, count - begin), {}});
   large_.push_back({&object, parts_.size()});
 }
 

@@ -9,7 +9,7 @@ namespace graze {
 namespace {
 
 /// The number of objects that one task refreshes.
-constexpr std::size_t slice = 1024;
+constexpr std::size_t objects_at_once = 1024;
 
 ObjectSummary summary_of(const Object& object) {
   ObjectSummary summary;
@@ -24,7 +24,7 @@ ObjectSummary summary_of(const Object& object) {
   return summary;
 }
 
-double motion_between(const Box& before, const Box& now) {
+double shift_of(const Box& before, const Box& now) {
   return std::max((now.min - before.min).lpNorm<Eigen::Infinity>(),
                   (now.max - before.max).lpNorm<Eigen::Infinity>());
 }
@@ -54,11 +54,11 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
   std::atomic<bool> some_unread = false;
   const auto refresh_slice = [&](unsigned, std::size_t index) {
     bool unread = false;
-    const std::size_t end = std::min((index + 1) * slice, objects.size());
-    for (std::size_t slot = index * slice; slot < end; ++slot) {
+    const std::size_t end = std::min((index + 1) * objects_at_once, objects.size());
+    for (std::size_t slot = index * objects_at_once; slot < end; ++slot) {
       const Object& object = *objects[slot];
       ObjectSummary& summary = summaries_[slot];
-      summary.motion = motion_between(summary.box, object.box);
+      summary.motion = shift_of(summary.box, object.box);
       summary.moved = summary.read_late || !(summary.motion == 0);
       summary.read_late = false;
       const bool changed = !(summary.motion == 0) || summary.version != object.version ||
@@ -73,14 +73,14 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
     }
     if (unread) some_unread.store(true, std::memory_order_relaxed);
   };
-  tasks.run((objects.size() + slice - 1) / slice, std::ref(refresh_slice));
+  tasks.run((objects.size() + objects_at_once - 1) / objects_at_once, std::ref(refresh_slice));
   some_unread_ = some_unread;
 }
 
 void ObjectSummaries::refresh(std::span<Object* const> read_late) {
   for (const Object* const object : read_late) {
     ObjectSummary& summary = summaries_[slot_of(*object)];
-    summary.read_late = !(motion_between(summary.box, object->box) == 0);
+    summary.read_late = !(shift_of(summary.box, object->box) == 0);
     summary.box = object->box;
     summary.version = object->version;
     summary.frozen = object->frozen;

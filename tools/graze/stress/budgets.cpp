@@ -17,6 +17,7 @@
 #include "progress.hpp"
 #include "scenes/random.hpp"
 #include "stress/clocks.hpp"
+#include "stress/details.hpp"
 #include "stress/distribution.hpp"
 
 namespace graze::tools {
@@ -24,13 +25,6 @@ namespace {
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-struct Detail {
-  ContactDetail detail;
-  const char* name;
-};
-constexpr std::array details{Detail{ContactDetail::none, "none"}, Detail{ContactDetail::closest, "closest"},
-                             Detail{ContactDetail::vertices, "vertices"},
-                             Detail{ContactDetail::features, "features"}};
 constexpr std::array thresholds{0.5, 2.0, 5.0};
 constexpr std::array budgets_ms{2, 10};
 
@@ -115,9 +109,9 @@ StressResult run_budgets_study(const BudgetsOptions& options) {
   std::printf("%-9s %8s %9s %7s | %8s %8s %8s | %8s %8s %8s | %10s\n", "detail", "vertices", "threshold",
               "budget", "p50", "p99", "worst", "cpu p50", "cpu p99", "worst", "pairs done");
   const std::array meshes{sphere_of(42, 19), sphere_of(95, 41)};
-  Progress progress("scene", details.size() * thresholds.size() * meshes.size() * budgets_ms.size());
+  Progress progress("scene", timed_details.size() * thresholds.size() * meshes.size() * budgets_ms.size());
   std::uint64_t done = 0;
-  for (const Detail& detail : details)
+  for (const NamedDetail& detail : timed_details)
     for (const auto& mesh : meshes)
       for (const double threshold : thresholds)
         for (const int budget : budgets_ms) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/coinciding_scenes.hpp"
+#include "stress/details.hpp"
 
 namespace graze::tools {
 namespace {
@@ -24,28 +25,19 @@ constexpr std::array<Couple, 7> couples = {{{"layers_on", "layers_off"},
                                             {"copies", ""},
                                             {"character", ""}}};
 
-struct Detail {
-  const char* name;
-  ContactDetail detail;
-};
-constexpr std::array<Detail, 4> details = {{{"none", ContactDetail::none},
-                                            {"closest", ContactDetail::closest},
-                                            {"vertices", ContactDetail::vertices},
-                                            {"features", ContactDetail::features}}};
-
-struct Played {
+struct Timed {
   double median_ms = 0;
   std::size_t contacts = 0;  ///< of the last step
 };
 
-Played play(std::string_view name, ContactDetail detail, std::size_t frames) {
+Timed time_of(std::string_view name, ContactDetail detail, std::size_t frames) {
   const auto played = scenes::make_coinciding_scene(name);
   SceneSettings settings = played->settings();
   settings.detail = detail;
   settings.threads = 1;
   Scene scene(settings);
   std::vector<double> times;
-  Played result;
+  Timed result;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     played->advance(scene, frame);
     const ReportHandle report = scene.step();
@@ -66,14 +58,14 @@ StressResult run_coinciding_study(std::size_t frames) {
   std::printf("%-14s %-9s %10s %9s   %-12s %10s %9s %6s\n", "scene", "detail", "ms a step", "contacts",
               "neighbour", "ms a step", "contacts", "ratio");
   for (const Couple& couple : couples)
-    for (const Detail& detail : details) {
-      const Played on = play(couple.scene, detail.detail, frames);
+    for (const NamedDetail& detail : timed_details) {
+      const Timed on = time_of(couple.scene, detail.detail, frames);
       std::printf("%-14s %-9s %10.3f %9zu", couple.scene.data(), detail.name, on.median_ms, on.contacts);
       auto& figures = result.figures["scenes"].emplace_back();
       figures = {
           {"scene", couple.scene}, {"detail", detail.name}, {"ms", on.median_ms}, {"contacts", on.contacts}};
       if (!couple.neighbour.empty()) {
-        const Played off = play(couple.neighbour, detail.detail, frames);
+        const Timed off = time_of(couple.neighbour, detail.detail, frames);
         std::printf("   %-12s %10.3f %9zu %6.2f", couple.neighbour.data(), off.median_ms, off.contacts,
                     on.median_ms / off.median_ms);
         figures["neighbour"] = {
