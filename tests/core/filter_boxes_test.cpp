@@ -56,7 +56,7 @@ void check_clip(const FeatureBlock<Corners>& block, const std::vector<Corner<Cor
   kernels::BoxInFrame found = empty_box();
   SelectedFeatures<Corners> taken;
   const kernels::BoxInFrame local = frame.to_local(box);
-  taken.take(block, {local, local, frame.to_local(slab, middle), limit}, &found);
+  taken.select_near(block, {local, local, frame.to_local(slab, middle), limit}, &found);
   std::vector<bool> is_kept(features.size(), false);
   for (std::size_t i = 0; i < taken.count(); ++i) {
     const std::uint32_t feature = taken.index()[i];

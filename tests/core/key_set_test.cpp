@@ -31,9 +31,9 @@ TEST_CASE("key set: each key is kept once, and merge_runs() sorts them") {
       REQUIRE(keys.contains(key) == (expected.count(key) != 0));
       if (!expected.insert(key).second) continue;
       keys.add(key);
-      if (random.below(500) == 0) keys.settle();
+      if (random.below(500) == 0) keys.merge_runs();
     }
-    keys.settle();
+    keys.merge_runs();
     CHECK(keys.keys() == std::vector<FeaturePairKey>(expected.begin(), expected.end()));
     CHECK(keys.front() == *expected.begin());
     keys.assign(key_of(7, 7));

@@ -43,7 +43,7 @@ struct PassesOf {
   double (*furthest)(const Number* now, const Number* before, std::size_t count);
   /// Listed points in a frame, as `lay_out_…` of Filter reads them.
   void (*to_frame)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,
-                   const PointFrame& frame, Point* brought);
+                   const PointFrame& frame, Point* converted);
   /// The boxes of listed points, one for each eight of them, about `origin`: differences of coordinates,
   /// rounded to Number and then to float, in six rows.
   void (*box_blocks)(const PointArray<Number>& points, const std::uint32_t* listed, std::size_t count,

@@ -261,7 +261,7 @@ void PairSearch::slice_front() {
 }
 
 /// Selects from a slice of the front the pairs that are not further than a distance.
-void PairSearch::take_front(Slice& slice, double distance, Worker& worker) const {
+void PairSearch::select_from_front(Slice& slice, double distance, Worker& worker) const {
   worker.leaf_pairs.select_from(*front_, slice.begin, slice.end, distance, certainly_apart_, slice.found);
 }
 
@@ -369,14 +369,14 @@ void PairSearch::run_vertices(Slice& slice, Worker& worker) {
   NearVertices vertices(worker.pair, wanted_, near_blocks_, worker.scratch.vertices);
   const std::size_t each = is_limited() ? 1 : slice.end - slice.begin;
   for (std::size_t begin = slice.begin; begin < slice.end && slice.complete; begin += each) {
-    slice.complete =
-        vertices.key(begin, begin + each, threshold_now(worker), worker.meter, slice.keys, listing_in(slice));
+    slice.complete = vertices.append_near(begin, begin + each, threshold_now(worker), worker.meter,
+                                          slice.keys, listing_in(slice));
     hand_over_if_many(slice, worker);
   }
 }
 
 void PairSearch::run_reach(Slice& slice, Worker& worker) {
-  if (from_front_) return take_front(slice, wanted_, worker);
+  if (from_front_) return select_from_front(slice, wanted_, worker);
   if (slice.start.empty()) return;
   slice.complete = worker.leaf_pairs.walk(
       slice.start, may_touch_within_slack(), [](const RegionPair&) {}, slice.found);
@@ -507,7 +507,7 @@ void PairSearch::seed(Slice& slice) const {
 }
 
 void PairSearch::run_approach(Slice& slice, Worker& worker) {
-  if (from_front_) return take_front(slice, closest_.closest.upper, worker);
+  if (from_front_) return select_from_front(slice, closest_.closest.upper, worker);
   if (slice.start.empty()) return;
   seed(slice);
   ClosestRange range(worker.pair, query_, ties(), slice.closest);

@@ -172,7 +172,7 @@ class PairSearch {
   void add_slices_of(std::span<const RegionPair> pairs, std::size_t each);
   void add_slices_of(std::size_t begin, std::size_t end, std::size_t each);
   void slice_front();
-  void take_front(Slice& slice, double distance, Worker& worker) const;
+  void select_from_front(Slice& slice, double distance, Worker& worker) const;
   void slice_leaves_in_contact();
   template <typename Keep, typename Meet>
   void slice_walk(Worker& worker, const Keep& keep, const Meet& meet);

@@ -13,7 +13,7 @@ namespace {
 static_assert(VertexBlocks::block_size == kernels::block_size);
 
 /// A level of so many groups is tested as quickly as another level would be made.
-constexpr std::size_t few_groups = 8;
+constexpr std::size_t most_groups_to_scan = 8;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void VertexBlocks::lay_out_levels() {
     const std::size_t stride = in_whole_groups(count);
     levels_[level_count_++] = {first, stride, count};
     first += 6 * stride;
-    if (stride / group_size <= few_groups) break;
+    if (stride / group_size <= most_groups_to_scan) break;
     count = stride / group_size;
   }
   boxes_.assign(first, std::numeric_limits<float>::quiet_NaN());

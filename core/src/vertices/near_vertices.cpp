@@ -162,8 +162,8 @@ void NearVertices::for_each_near(std::uint32_t block_of_a, const Visit& visit) {
   }
 }
 
-bool NearVertices::key(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
-                       std::vector<FeaturePairKey>& keys, const NearListing& listing) {
+bool NearVertices::append_near(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
+                               std::vector<FeaturePairKey>& keys, const NearListing& listing) {
   const auto listed = near_.a.listed();
   const bool are_many = !near_.is_linear_scan || near_.boxes.stride > most_boxes_at_once;
   while (begin < end) {

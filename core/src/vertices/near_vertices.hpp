@@ -73,8 +73,8 @@ class NearVertices {
   /// the points of a and then of b. Lists all pairs that are not certainly further than the limit. Returns
   /// false when the budget ran out. Reads the lists of blocks alone, so that several threads may call it at
   /// once.
-  bool key(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
-           std::vector<FeaturePairKey>& keys, const NearListing& listing);
+  bool append_near(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
+                   std::vector<FeaturePairKey>& keys, const NearListing& listing);
   /// Offers the nearest pairs of all listed blocks, and those met before them; false when the budget ran out.
   /// Does not search where pairs would be of no use beside the nearest so far.
   bool offer(WorkMeter& meter, ClosestRange& nearest);

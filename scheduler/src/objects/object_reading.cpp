@@ -179,7 +179,7 @@ ReadOutcome accept_survey(Object& object, const Surface::PartSeen& all) {
 Surface::ReadResult accept_positions(Object& object, const Surface::PartSeen& all) {
   Surface& surface = object.surface_to_write();
   if (!object.positions) {
-    const Surface::ReadResult result = surface.take(all);
+    const Surface::ReadResult result = surface.accept(all);
     if (result.changed) object.standing_positions.reset();
     return result;
   }
@@ -238,7 +238,7 @@ Surface::PartSeen scan_part(const Object& object, std::uint32_t begin, std::uint
 }
 
 ReadOutcome accept_scan(Object& object, const Surface::PartSeen& all) {
-  if (is_posed(object)) return accept_pose(object, object.surface_to_write().take(all));
+  if (is_posed(object)) return accept_pose(object, object.surface_to_write().accept(all));
   if (object.to_survey) return accept_survey(object, all);
   const bool was_behind = object.surface().is_behind();
   const bool seems_at_rest = was_behind && is_same(object.box, all.box);

@@ -175,12 +175,12 @@ class CandidateKernels final : public Contender {
     const float limit = scratch_.frame.to_local_limit(world_.distance);
     const kernels::BoxInFrame box_b = scratch_.frame.to_local(pair.b.box());
     kernels::BoxInFrame near_a = empty_box();
-    scratch_.a.take(one_.features, {box_b, box_b, no_slab, limit}, &near_a);
+    scratch_.a.select_near(one_.features, {box_b, box_b, no_slab, limit}, &near_a);
     if (is_empty(near_a)) return;
     kernels::BoxInFrame near_b = empty_box();
-    scratch_.b.take(others_.features, {near_a, near_a, no_slab, limit}, &near_b);
+    scratch_.b.select_near(others_.features, {near_a, near_a, no_slab, limit}, &near_b);
     if (is_empty(near_b)) return;
-    scratch_.a.take(one_.features, {near_b, near_b, no_slab, limit}, nullptr);
+    scratch_.a.select_near(one_.features, {near_b, near_b, no_slab, limit}, nullptr);
     features.add_taken();
   }
 
