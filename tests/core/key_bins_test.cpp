@@ -15,7 +15,7 @@
 namespace graze::tests {
 namespace {
 
-FeaturePiece random_piece(oracle::Random& random, const Mesh& mesh) {
+FeaturePiece random_piece(oracle::Random& random, const IndexedMesh& mesh) {
   const auto kind = static_cast<FeatureKind>(random.below(3));
   const std::uint32_t count = kind == FeatureKind::vertex ? mesh.vertex_count()
                               : kind == FeatureKind::edge ? mesh.edge_count()
@@ -24,7 +24,8 @@ FeaturePiece random_piece(oracle::Random& random, const Mesh& mesh) {
   return {{kind, random.chance(0.1) ? count - 1 : random.below(count)}, static_cast<Piece>(random.below(3))};
 }
 
-std::vector<FeaturePairKey> random_keys(oracle::Random& random, const Mesh& mesh, std::uint32_t count) {
+std::vector<FeaturePairKey> random_keys(oracle::Random& random, const IndexedMesh& mesh,
+                                        std::uint32_t count) {
   std::vector<FeaturePairKey> keys;
   for (std::uint32_t i = 0; i < count; ++i) {
     const FeaturePiece a = random_piece(random, mesh);
