@@ -137,7 +137,7 @@ class CandidateKernels final : public Contender {
     object.vertices.resize(count);
     for (std::size_t vertex = all_.size(); vertex < count; ++vertex)
       all_.push_back(static_cast<std::uint32_t>(vertex));
-    bring(object.surface, std::span(all_).first(count), scratch_.frame, object.vertices.data());
+    to_frame(object.surface, std::span(all_).first(count), scratch_.frame, object.vertices.data());
     return object;
   }
 
@@ -181,7 +181,7 @@ class CandidateKernels final : public Contender {
     scratch_.b.select_near(others_.features, {near_a, near_a, no_slab, limit}, &near_b);
     if (is_empty(near_b)) return;
     scratch_.a.select_near(one_.features, {near_b, near_b, no_slab, limit}, nullptr);
-    features.add_taken();
+    features.add_selected();
   }
 
   const World& world_;
