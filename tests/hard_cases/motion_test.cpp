@@ -15,8 +15,8 @@
 namespace graze::tests {
 namespace {
 
-/// Two objects by their places in the order of addition.
-using Places = std::pair<std::size_t, std::size_t>;
+/// Two objects by their indices in the order of addition.
+using IndexPair = std::pair<std::size_t, std::size_t>;
 
 bool is_in_contact(const PairReport& row) {
   return row.phase == PairPhase::began || row.phase == PairPhase::touching;
@@ -29,17 +29,18 @@ bool is_gone(const PairReport& row, const std::vector<ObjectId>& ids) {
 }
 
 /// Every bit of each row and its contacts but for ids, and of the phase only whether it is a contact.
-std::map<Places, std::string> rows_by_place(const FrameReport& report, const std::vector<ObjectId>& ids) {
-  std::map<Places, std::string> rows;
-  const auto place_of = [&](ObjectId id) {
+std::map<IndexPair, std::string> rows_by_indices(const FrameReport& report,
+                                                 const std::vector<ObjectId>& ids) {
+  std::map<IndexPair, std::string> rows;
+  const auto index_of = [&](ObjectId id) {
     return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
   };
   for (PairReport row : report.pairs()) {
     if (is_gone(row, ids)) continue;
-    const Places places(place_of(row.a), place_of(row.b));
+    const IndexPair indices(index_of(row.a), index_of(row.b));
     row.a = row.b = {};
     row.phase = is_in_contact(row) ? PairPhase::touching : PairPhase::near;
-    rows[places] = text_of(report, row);
+    rows[indices] = text_of(report, row);
   }
   return rows;
 }
@@ -73,12 +74,12 @@ class Judge {
 
  private:
   std::string rows_differ(const FrameReport& report, const FrameReport& afresh) {
-    const auto found = rows_by_place(report, ids_);
-    const auto expected = rows_by_place(afresh, fresh_ids(ids_.size()));
-    for (const auto& [places, text] : expected) {
-      const auto row = found.find(places);
-      if (row == found.end()) return "missing: " + text + shapes_of(places);
-      if (row->second != text) return row->second + "\ninstead of\n" + text + shapes_of(places);
+    const auto found = rows_by_indices(report, ids_);
+    const auto expected = rows_by_indices(afresh, fresh_ids(ids_.size()));
+    for (const auto& [indices, text] : expected) {
+      const auto row = found.find(indices);
+      if (row == found.end()) return "missing: " + text + shapes_of(indices);
+      if (row->second != text) return row->second + "\ninstead of\n" + text + shapes_of(indices);
       ++rows_;
     }
     contacts_ += afresh.contacts().size();
@@ -90,8 +91,8 @@ class Judge {
     std::set<std::pair<ObjectId, ObjectId>> now;
     for (const PairReport& row : afresh.pairs())
       if (is_in_contact(row)) now.emplace(ids_[row.a.index], ids_[row.b.index]);
-    const auto expected = rows_by_place(afresh, fresh_ids(ids_.size()));
-    const auto found = rows_by_place(report, ids_);
+    const auto expected = rows_by_indices(afresh, fresh_ids(ids_.size()));
+    const auto found = rows_by_indices(report, ids_);
     auto place = found.begin();
     for (const PairReport& row : report.pairs()) {
       const bool is = now.contains({row.a, row.b});
@@ -113,9 +114,9 @@ class Judge {
     return {};
   }
 
-  [[nodiscard]] std::string shapes_of(const Places& places) const {
-    return "\nobjects " + std::to_string(places.first) + " and " + std::to_string(places.second) + "\n" +
-           text_of(motion_.shape(ids_[places.first])) + text_of(motion_.shape(ids_[places.second]));
+  [[nodiscard]] std::string shapes_of(const IndexPair& indices) const {
+    return "\nobjects " + std::to_string(indices.first) + " and " + std::to_string(indices.second) + "\n" +
+           text_of(motion_.shape(ids_[indices.first])) + text_of(motion_.shape(ids_[indices.second]));
   }
 
   RandomMotion motion_;
