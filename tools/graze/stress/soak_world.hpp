@@ -36,7 +36,7 @@ class SoakWorld {
   /// Without mistakes every position is good afterwards.
   void change_between_steps(bool with_mistakes);
   /// Describes how the report of a step differs from that of a scene built afresh; empty if it does not.
-  /// Nobody may have written since the step before.
+  /// No writer may have made calls during that step.
   [[nodiscard]] std::string difference_from_fresh(const FrameReport& report) const;
 
  private:

@@ -13,8 +13,8 @@ struct CostAndError {
 };
 
 /// Returns the points that no other point beats. A point beats another if its cost and its error are at most
-/// those of the other, and one of them is less. The result is sorted by cost, then by index; of equal points
-/// all are in it.
+/// those of the other, and one of them is less. The result is sorted by cost, then by index. Equal points
+/// of the front are all listed.
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> points);
 
 }  // namespace graze::tools
