@@ -1,6 +1,6 @@
-// What plain double is certain of is what exact arithmetic says: every answer of certain.hpp, and of the
-// kernels that ask the same of several features at once, is compared with rational arithmetic, on features
-// that are parallel, degenerate, at right angles, far away, minute and huge.
+// This test compares every answer of certain.hpp, and of the kernels that ask the same of several features at
+// once, with rational arithmetic. Whatever plain double is certain of must be what exact arithmetic says. The
+// features are parallel, degenerate, at right angles, far away, minute and huge.
 
 #include "arithmetic/certain.hpp"
 
@@ -99,7 +99,7 @@ void put(const Vector3d& point, kernels::Points& points, std::size_t lane) {
   for (int axis = 0; axis < 3; ++axis) points[axis][lane] = point[axis];
 }
 
-/// What `kernel` fills in under the first instruction set, once it has been seen that all fill in the same.
+/// Runs `kernel` on the batch with every instruction set and requires that all fill in the same as the first.
 template <typename Batch, typename Kernel, typename SameVoronoi>
 void run(Batch& batch, const Kernel& kernel, const SameVoronoi& same_voronoi) {
   const InstructionSet before = instruction_set();
@@ -119,8 +119,8 @@ void run(Batch& batch, const Kernel& kernel, const SameVoronoi& same_voronoi) {
   use_instruction_set(before);
 }
 
-/// Of one lane: whether the kernel is certain, which it is of all that certain.cpp is, and says the same of
-/// that.
+/// Checks one lane of a kernel's result against certain.cpp, and returns whether the kernel is certain. The
+/// kernel must be certain wherever certain.cpp is (`is_certain`), and must then give the same range.
 bool check_found(const kernels::VoronoiFound& found, std::size_t lane, bool is_certain,
                  const SquaredRange& range) {
   const bool kernel_is_certain = found.certain[lane] == 1;

@@ -24,7 +24,7 @@ PairAnswer detect(const Surface& a, const Surface& b, const PairQuery& query);
 /// Whether two ways came to the same answer, to the last bit.
 void check_same(const PairAnswer& answer, const PairAnswer& other);
 
-/// What came of comparing an answer with the oracle's.
+/// The result of comparing an answer with the oracle's.
 struct Comparison {
   std::string difference;    ///< empty where all is well
   std::size_t contacts = 0;  ///< compared

@@ -36,7 +36,7 @@ double wild(Random& random) {
   return std::ldexp(random.chance(0.5) ? mantissa : -mantissa, exponent);
 }
 
-/// The same number in all arithmetics.
+/// One number, held in each of the arithmetics that are compared.
 struct Number {
   Exact exact;
   mpq_class truth;

@@ -13,7 +13,7 @@
 namespace graze::tests {
 namespace {
 
-/// What clipping kept, left out, and found to touch.
+/// Counts the features that clipping kept, those that it left out, and those that it found to touch.
 struct ClipTally {
   std::size_t kept = 0;
   std::size_t left_out = 0;

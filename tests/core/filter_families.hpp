@@ -22,7 +22,7 @@ using oracle::Random;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// What a batch of features looks like.
+/// The shape of the features in a generated batch.
 enum class Family {
   plain,
   grid,
@@ -123,7 +123,7 @@ class Generator {
 
 inline constexpr std::size_t family_count = static_cast<std::size_t>(Family::count);
 
-/// Where the second of two batches is.
+/// Returns the offset of the second of two batches from the first.
 inline Vector3d beside_of(std::uint64_t seed) {
   Random random(seed * 77 + 5);
   return {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)};

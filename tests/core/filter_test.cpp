@@ -1,5 +1,5 @@
-// What the float kernels discard is far: every lower bound they give is compared with the distance in long
-// double, and every instruction set with plain code.
+// This test compares every lower bound that the float kernels give with the distance in long double, and
+// every instruction set with plain code. A pair that the kernels discard must truly be far.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -66,7 +66,7 @@ Real distance(const Corner<2>& a, const Corner<2>& b) {
   return std::min(nearest, (c[0] + u * s - c[2] - v * t).norm());
 }
 
-/// What the bounds of many pairs were worth.
+/// Counts how many lower bounds of pairs were compared, and how good they were.
 struct Tally {
   std::size_t compared = 0;
   std::size_t violations = 0;
@@ -95,7 +95,7 @@ struct Found {
   std::vector<float> bound;
 };
 
-/// What a kernel says of the pairs of feature `row` of one block and all of another.
+/// The answers of a kernel about the pairs of feature `row` of one block and all features of another.
 struct Bounds {
   std::vector<float> bound;
   std::vector<bool> is_left;

@@ -1,5 +1,6 @@
-// Where float is certain that closest points lie, they do: every place that the float kernels give is
-// compared with rational arithmetic on the coordinates that the frame was made from.
+// This test compares every Voronoi region that the float kernels give with rational arithmetic, on the
+// coordinates that the frame was made from. If float is certain where the closest points lie, they must lie
+// there.
 
 #include <algorithm>
 #include <array>
@@ -43,7 +44,7 @@ using PointsAndTriangles = Pairs<1, 3>;
 using TwoSegments = Pairs<2, 2>;
 using SegmentsAndTriangles = Pairs<2, 3>;
 
-/// What a kernel knows of each pair; nothing of those that it discards.
+/// Returns the answer of a float kernel for each pair, and nothing for each pair that it discards.
 template <std::size_t CornersA, std::size_t CornersB, typename Ask>
 std::vector<std::optional<KnownInFloat>> known_of(const Pairs<CornersA, CornersB>& pairs,
                                                   const FilterFrame& frame, const Ask& ask) {
@@ -71,7 +72,8 @@ auto known_of(const TwoSegments& pairs, const FilterFrame& frame, const kernels:
   return known_of(pairs, frame, [&](auto& batch) { return kernel(batch, limits); });
 }
 
-/// Where the closest points of a pair are, whether only there, and how far apart in the frame.
+/// The exact answer for a pair: the Voronoi region of its closest points, whether they lie only there, and
+/// their squared distance in the frame.
 struct Truth {
   std::int32_t voronoi = 0;
   bool is_unique = true;  ///< not of a triangle without area, whose sides lie upon each other
@@ -133,7 +135,8 @@ struct Tally {
   }
 };
 
-/// What float may be certain of: nothing, or the truth of what is nearer than asked for.
+/// Checks one answer of a float kernel. It must be either unsure, or the true Voronoi region of a pair that
+/// is nearer than `below`.
 void check_voronoi(std::int32_t voronoi, const Truth& truth, float below) {
   if (voronoi == kernels::unsure_voronoi) return;
   REQUIRE(truth.is_nearer(below));
@@ -230,7 +233,7 @@ std::size_t percent(std::size_t part, std::size_t all) {
 
 // ---- Features of any shape
 
-/// So many of each kind of two leaves that overlap.
+/// Makes two leaves that overlap, with `count` features of each kind.
 std::pair<Batch, Batch> leaves_of(std::size_t family, std::uint64_t seed, std::size_t count) {
   Generator generator(static_cast<Family>(family), seed);
   const Batch a = generator.batch(Vector3d::Zero(), count);

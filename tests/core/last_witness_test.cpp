@@ -1,5 +1,5 @@
-// What is remembered of the nearest points: never nearer than the surfaces are, and not to be seen in any
-// answer.
+// This test checks the nearest points that are remembered from earlier steps. They must never be nearer than
+// the surfaces are, and no answer may depend on them.
 
 #include "walk/last_witness.hpp"
 
@@ -61,7 +61,8 @@ Vector way_to(const Surface& surface, const SurfacePoint& on) {
   return way;
 }
 
-/// Of two points now. From differences, since what is far from the origin has no digits left beside it.
+/// Returns the distance of two points of surfaces at the present positions. It is calculated from differences
+/// of positions: far from the origin a coordinate has no digits left for the small part.
 Real distance_of(const Surface& a, const SurfacePoint& on_a, const Surface& b, const SurfacePoint& on_b) {
   const Vector between = b.position(on_b.corner[0]).cast<Real>() - a.position(on_a.corner[0]).cast<Real>();
   return (between + way_to(b, on_b) - way_to(a, on_a)).norm();

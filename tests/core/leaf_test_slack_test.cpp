@@ -1,5 +1,6 @@
-// What a look into two leaves finds out spares the next steps that look while the surfaces hardly move, and
-// shows in no answer: each is that of a query that knows nothing of the steps before.
+// This test checks the slack that tests of leaf pairs leave for the next steps. While the surfaces hardly
+// move, the slack must save tests of leaf pairs. Each answer must be that of a query that knows nothing of
+// the steps before.
 
 #include <array>
 #include <iostream>

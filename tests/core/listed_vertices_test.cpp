@@ -26,7 +26,7 @@ bool same_bits(float left, float right) {
   return std::bit_cast<std::uint32_t>(left) == std::bit_cast<std::uint32_t>(right);
 }
 
-/// What the kernels are to see of one position.
+/// Converts a position to the vertex in the frame that the kernels have to list for it.
 kernels::Point local_vertex(const FilterFrame& frame, const Vector3d& position) {
   const Vector3d local = frame.to_local(position);
   const float size = std::max(kernels::least_size, static_cast<float>(local.cwiseAbs().maxCoeff()));

@@ -29,7 +29,7 @@ namespace {
 using VertexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Of used vertices, in the order of contacts.
+/// Visits all pairs of used vertices with their distance, in the order of contacts.
 template <typename Visit>
 void for_each_pair(const Surface& a, const Surface& b, const Visit& visit) {
   for (std::uint32_t i = 0; i < a.mesh().vertex_count(); ++i)

@@ -10,7 +10,7 @@ using oracle::Point;
 using oracle::Rational;
 using oracle::squared_length;
 
-/// Where the point of segment (p, q) nearest to x is: 0 to 1.
+/// Returns how far along segment (p, q) its point nearest to x lies, from 0 to 1.
 Rational nearest_on_segment(const Point& x, const Point& p, const Point& q) {
   const Rational length_squared = squared_length(q - p);
   if (length_squared == 0) return 0;

@@ -7,7 +7,7 @@
 #include "arithmetic/certain.hpp"
 #include "support/exact.hpp"
 
-/// Where the closest points of two features lie, in rational arithmetic.
+/// Finds the Voronoi regions in which the closest points of two features lie, in rational arithmetic.
 namespace graze::tests {
 
 template <std::size_t Corners>

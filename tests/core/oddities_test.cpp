@@ -1,4 +1,4 @@
-// What find_oddities lists, against meshes made by hand and the generated models.
+// This test checks the list of find_oddities on meshes made by hand and on the generated models.
 
 #include <algorithm>
 #include <array>

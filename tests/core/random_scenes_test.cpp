@@ -17,7 +17,7 @@ constexpr std::uint64_t part_count = 10;
 constexpr std::uint64_t grid_scenes_of_part = GRAZE_RANDOM_SCENES / part_count;
 constexpr std::uint64_t generic_scenes_of_part = grid_scenes_of_part / 5;
 
-/// What is wrong with the library's answers about two shapes at rest, at every detail.
+/// Describes how the library's answers about two shapes at rest, at every detail, differ from brute force.
 std::string difference_of(const TwoShapes& scene) {
   return compare(scene.a, scene.b, scene.threshold).difference;
 }

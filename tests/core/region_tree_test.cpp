@@ -50,7 +50,7 @@ std::vector<Listed> listed(const RegionTree& tree) {
   return regions;
 }
 
-/// What is wrong with how regions lie in the tree's arrays.
+/// Checks how regions lie in the tree's arrays.
 void check_structure(const IndexedMesh& mesh) {
   const RegionTree& tree = mesh.regions();
   REQUIRE(tree.level_begin(0) == 0);

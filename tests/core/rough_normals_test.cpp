@@ -89,7 +89,7 @@ bool check(const RoughNormal& rough, const Vector& sum) {
   return true;
 }
 
-/// What is asked about vertex 0, and what the answers are.
+/// The feature pieces that are asked about, and the expected sum of normals for each.
 struct Asked {
   std::vector<FeaturePiece> pieces;
   std::vector<Vector> sums;

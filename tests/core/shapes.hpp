@@ -58,7 +58,7 @@ struct DriftingPair {
 
 /// The five models of the paper as triangles.
 const std::vector<NamedShape>& paper_models();
-/// Those of them that there are as quads.
+/// The models of the paper that are available as quads.
 const std::vector<NamedShape>& paper_models_of_quads();
 
 }  // namespace graze::tests

@@ -274,14 +274,14 @@ TEST_CASE("a surface in parts: positions are kept in the precision in which they
     for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex)
       CHECK(surface.position(vertex) == positions[vertex].template cast<double>());
   };
-  // Those of the mesh take none of its own.
+  // The positions of the mesh at rest take no memory of the surface's own.
   check(rest.positions);
   CHECK_FALSE(surface.set_positions(rest.positions).changed);
   CHECK(surface.byte_count() == at_rest);
   surface.set_positions(floats);
   check(floats);
   CHECK(surface.byte_count() == at_rest + 12 * floats.size());
-  // The same numbers in double are no motion.
+  // Setting equal numbers in double does not count as motion.
   std::vector<Eigen::Vector3d> doubles;
   for (const Eigen::Vector3f& point : floats) doubles.push_back(point.cast<double>());
   const std::uint64_t version = surface.version();

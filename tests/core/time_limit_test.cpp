@@ -34,7 +34,7 @@ void move_to(Surface& a, Surface& b, const Shape& rest, std::uint64_t step) {
   }
 }
 
-/// What an answer that was cut short must say, beside the whole one.
+/// Checks an answer that was cut short by a time limit against the whole answer.
 void check_cut_short(const PairAnswer& cut, const PairAnswer& whole) {
   CHECK(cut.contacts.empty());
   CHECK_FALSE(cut.in_contact);

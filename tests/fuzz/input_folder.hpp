@@ -10,8 +10,8 @@
 
 namespace graze::fuzz {
 
-/// Where a fuzzer puts its input for readers that take a path: a folder of the process's own (in TMPDIR, best
-/// a memory disk).
+/// The folder into which a fuzzer writes its input for readers that take a path. Each process has a folder of
+/// its own in TMPDIR, which is best on a memory disk.
 inline const tests::TemporaryFolder& input_folder() {
   static const tests::TemporaryFolder folder;
   return folder;

@@ -90,7 +90,7 @@ std::vector<std::string> mesh_texts(MeshFormat format) {
   return texts;
 }
 
-/// What a few moving objects give, at every detail.
+/// Writes seeds with the reports about a few moving objects, at every detail.
 void write_reports(Seeds& seeds) {
   for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
                                      ContactDetail::vertices, ContactDetail::features}) {

@@ -33,8 +33,8 @@ PairCase read_pair_case(ByteReader reader);
 /// Bytes that mean these shapes, asked about with this detail in exact mode.
 std::string pair_case_bytes(const tests::TwoShapes& shapes, ContactDetail detail);
 
-/// What is wrong with the library's answer about these shapes, measured against brute force in exact
-/// arithmetic; empty where all is well. Shapes that no mesh takes must be refused.
+/// Describes how the library's answer about these shapes differs from brute force in exact arithmetic; empty
+/// if it does not. Shapes that no mesh takes must be refused.
 std::string pair_difference(const tests::TwoShapes& shapes, const PairAsk& ask);
 
 /// A word for each setting of `ask`, to stand before a case that is pasted into a test.

@@ -76,8 +76,8 @@ ObjectSettings read_object_settings(ByteReader& reader) {
   return settings;
 }
 
-/// Where a body may go next: a little, far, all into a point, inside out, back to rest, or one vertex of its
-/// own; now and then with a vertex that no object takes.
+/// Chooses the next positions of a body. It moves a little or far, shrinks into a point, turns inside out,
+/// returns to rest, or moves one vertex. Now and then one vertex is one that no object takes.
 Positions next_positions(ByteReader& reader, const ModelBody& body) {
   Positions positions = body.seen;
   const std::span<const Eigen::Vector3d> rest = body.mesh->rest();

@@ -25,7 +25,7 @@ struct ModelBody {
   Positions seen;                ///< where the last step saw it
   std::optional<PoseRows> pose;  ///< the last that was taken
 
-  // What the next step takes up.
+  // The state that the next step takes up.
   std::optional<Positions> copied;
   std::optional<PoseRows> staged_pose;
   bool is_bound = false;
@@ -36,7 +36,7 @@ struct ModelBody {
   std::unique_ptr<Positions> doubles;  ///< bound memory, one of the two; freed as soon as the contract allows
   std::unique_ptr<std::vector<Eigen::Vector3f>> floats;
 
-  /// What a read of the bound memory would give.
+  /// Returns the positions that a read of the bound memory would give.
   [[nodiscard]] Positions memory() const;
   void write_memory(const Positions& positions);
   [[nodiscard]] bool can_take(const Positions& positions) const;
@@ -70,7 +70,7 @@ class SceneModel {
 
  private:
   using BodyPair = std::pair<std::size_t, std::size_t>;
-  /// What a scene built afresh says of one pair, at any distance.
+  /// The answer of a scene built afresh about one pair, at any distance.
   struct Fresh {
     ReportHandle report;
     const PairReport* row = nullptr;

@@ -1,4 +1,4 @@
-// What each call on a scene must come to.
+// The model's side of each call on a scene: the outcome that the call must have.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ bool is_within_limits(const Eigen::Vector3d& position) {
   return position.allFinite() && position.cwiseAbs().maxCoeff() <= 0x1p120;
 }
 
-/// Of the first used vertex that cannot be taken.
+/// Returns the problem of the first used vertex that cannot be taken.
 DiagnosticKind problem_of(const Mesh& mesh, const Positions& positions) {
   for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
     if (mesh.is_used(vertex) && !is_within_limits(positions[vertex]))

@@ -1,4 +1,4 @@
-// What each step of a scene must say.
+// The model's side of each step of a scene: the report that the step must give.
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-// What a user is promised of bounds, budgets and tolerances, on larger and real meshes.
+// This test checks the promises to the user about bounds, budgets and tolerances, on larger and real meshes.
 
 #include <algorithm>
 #include <filesystem>
@@ -88,7 +88,7 @@ TEST_CASE("time budget: a heavy step returns near its deadline, the most urgent 
     std::size_t done = 0;
     for (const PairReport& row : report->pairs()) done += row.complete ? 1U : 0U;
     CHECK(done < report->pairs().size());
-    // Those in contact in the last step come first in the next.
+    // The next step must first do the pairs that were in contact in the last step.
     const ReportHandle next = scene.step(bodies);
     bool contact_undone = false;
     bool other_done = false;

@@ -1,4 +1,4 @@
-// The same scene far from the origin and at every scale.
+// This test moves a scene far from the origin and scales it, and compares the answers.
 
 #include <cmath>
 #include <iostream>
@@ -77,7 +77,8 @@ void check_scaled(const FrameReport& now, const FrameReport& before, double fact
     REQUIRE((contact.normal - original.normal).norm() <= 0x1p-50);
     REQUIRE(contact.side_a == original.side_a);
     REQUIRE(contact.side_b == original.side_b);
-    // Where double is unsure exact arithmetic rounds once, double in several steps: a unit in the last place.
+    // Points may differ by a unit in the last place. Plain double rounds in several steps, and exact
+    // arithmetic, which takes over if double is unsure, rounds once.
     REQUIRE((contact.point_a - original.point_a * factor).cwiseAbs().maxCoeff() <= factor * 0x1p-50);
     REQUIRE((contact.point_b - original.point_b * factor).cwiseAbs().maxCoeff() <= factor * 0x1p-50);
   }

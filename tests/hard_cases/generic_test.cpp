@@ -119,7 +119,7 @@ Answer answer_of(const Body& a, const Body& b, double threshold, ContactDetail d
   return answer;
 }
 
-/// The same contacts, at distances that may differ by `error`.
+/// Checks that both answers have the same contacts, at distances that differ by at most `error`.
 void check_same(const Answer& now, const Answer& before, double error) {
   REQUIRE(now.in_contact == before.in_contact);
   REQUIRE(std::abs(now.distance.lower - before.distance.lower) <= error);

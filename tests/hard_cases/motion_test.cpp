@@ -150,7 +150,7 @@ class GridMotion {
   [[nodiscard]] double threshold() const { return threshold_; }
 
  private:
-  /// Of up to twelve faces.
+  /// Adds two pairs of random bodies of up to twelve faces each.
   void add_small(std::uint64_t seed) {
     for (std::uint64_t i = 0; i < 2; ++i) {
       const oracle::RandomScene given = oracle::random_scene(2 * (2 * seed + i) + 1);
@@ -158,7 +158,7 @@ class GridMotion {
       threshold_ = std::max(threshold_, given.threshold);
     }
   }
-  /// Of several regions; some of their faces lose their area to the grid of eighths.
+  /// Adds four bodies of several regions. Some of their faces lose their area to the grid of eighths.
   void add_larger() {
     const std::array shapes{shape_of(models::sheet(12, 9, 2, 2)), shape_of(models::sphere(16, 12)),
                             shape_of(models::torus(16, 10, 0.75, 0.3)), shape_of(models::box({1, 1, 1}))};

@@ -24,7 +24,7 @@ class RandomMotion {
   [[nodiscard]] ReportHandle built_afresh() const;
   /// The objects of now in the order in which they were added.
   [[nodiscard]] std::vector<ObjectId> ids() const;
-  /// Where the vertices of an object are now, and its faces.
+  /// Returns the faces of an object with its vertices where they are now.
   [[nodiscard]] oracle::Shape shape(ObjectId object) const;
 
  private:

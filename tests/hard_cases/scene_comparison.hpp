@@ -31,7 +31,7 @@ class BodyScene {
   std::vector<ObjectId> ids_;
 };
 
-/// What a test has compared.
+/// Counts the scenes and contacts that a test has compared.
 struct Tally {
   std::size_t scenes = 0;
   std::size_t contacts = 0;

@@ -47,7 +47,7 @@ TEST_CASE("files that are not there, empty, folders or garbage are refused in on
 TEST_CASE("every nasty file is read or refused in one line") {
   const auto root = shared_file("nasty");
   if (is_missing(root)) return;
-  // These hold no usable mesh.
+  // The files that hold no usable mesh and have to be refused.
   const std::set<std::string> refused = {"inf_nan.obj",
                                          "invalid-face-definition.obj",
                                          "issue-140-zero-face-idx.obj",

@@ -1,4 +1,4 @@
-// What the fuzzers of tests/fuzz found, and what was found while they were written.
+// This test repeats the inputs that the fuzzers of tests/fuzz found, and those found while they were written.
 
 #include <assimp/scene.h>
 

@@ -1,4 +1,4 @@
-// What core glTF 2.0 and the extensions that are read ask of a reader, on files made here.
+// This test checks the reader against core glTF 2.0 and the extensions that it reads, on files made here.
 
 #include <cmath>
 

@@ -54,7 +54,7 @@ std::string bend(GltfBuffer& buffer, const std::string& interpolation) {
          interpolation + R"("}]})";
 }
 
-/// Where the rod's six vertices are when the upper joint, at `joint`, is turned by `degrees` about z.
+/// Returns the rod's six vertices when the upper joint, at `joint`, is turned by `degrees` about z.
 std::vector<Eigen::Vector3d> bent_rod(const Eigen::Vector3d& joint, double degrees) {
   const double angle = degrees * std::numbers::pi / 180;
   std::vector<Eigen::Vector3d> expected;

@@ -10,7 +10,7 @@ namespace io = graze::io;
 
 namespace {
 
-/// What `act` writes to standard error.
+/// Returns the text that `act` writes to standard error.
 template <typename Act>
 std::string standard_error_of(const Act& act) {
   const TemporaryFolder folder;

@@ -52,7 +52,7 @@ std::atomic<std::uint64_t> count_of_tbb{0};
 std::atomic<std::uint64_t> count_of_exceptions{0};
 std::atomic<std::uint64_t> count_of_others{0};
 
-/// Where a library lies in memory.
+/// The range of addresses at which a library is loaded.
 struct Library {
   const char* name;
   std::uintptr_t begin = 0;
@@ -136,7 +136,8 @@ std::string AllocationCount::first_of_others() {
 
 }  // namespace graze::tests
 
-// What the program's allocator is replaced by: itself, counted.
+// The functions below replace the program's allocator. Each counts the call and passes it on to the
+// allocator.
 
 extern "C" {
 void* __libc_malloc(std::size_t size);

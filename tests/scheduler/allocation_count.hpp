@@ -16,7 +16,8 @@ class AllocationCount {
   static void begin();
   static void end();
 
-  /// What was counted: by oneTBB's library, for exceptions that were thrown, and by all others.
+  /// The number of allocations counted: by oneTBB's library, for exceptions that were thrown, and by all
+  /// others.
   static std::uint64_t by_tbb();
   static std::uint64_t by_exceptions();
   static std::uint64_t by_others();

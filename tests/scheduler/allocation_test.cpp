@@ -32,7 +32,7 @@ std::size_t count_of(const FrameReport& report, PairPhase phase) {
                                                 [&](const PairReport& pair) { return pair.phase == phase; }));
 }
 
-/// What came of some frames.
+/// Counts how some frames ended.
 struct Played {
   std::size_t idle = 0;        ///< frames in which no pair began, or none ended
   std::size_t incomplete = 0;  ///< frames in which a budget ran out
@@ -126,7 +126,7 @@ class Reader {
       ReportHandle latest = scene.latest_report();
       if (latest->frame() >= held.until) {
         if (held.report) {
-          // What was held is as it was.
+          // A report that was held must not have changed.
           if (held.report->contacts().size() != held.contacts) ++wrong_;
           longest_ = std::max<std::size_t>(longest_, latest->frame() - held.report->frame());
         }

@@ -35,7 +35,8 @@ class Bobbing {
     return of_[static_cast<std::size_t>(given)];
   }
 
-  /// What a batch says of the drops that are given in one way, from the second on; the first goes by itself.
+  /// The arguments of one batch call for the drops that are given in one way. The first of these drops is
+  /// left out: it gets a call of its own.
   struct Batch {
     std::array<ObjectId, period> ids;
     std::array<PositionView, period> views;

@@ -16,7 +16,7 @@ class FailingAllocator {
   static void begin(std::uint64_t place, Lack lack);
   /// Allocations since `begin`. None fails any more.
   static std::uint64_t end();
-  /// What this thread asks for does not count and does not fail, from now on.
+  /// From now on, allocations of this thread are not counted and do not fail.
   static void exempt_this_thread();
   /// A place that is never reached.
   static constexpr std::uint64_t never = ~std::uint64_t{0};

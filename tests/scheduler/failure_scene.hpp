@@ -12,7 +12,7 @@
 
 namespace graze::tests {
 
-/// What the scenes do in which memory runs out.
+/// The stories of the scenes in which memory runs out.
 enum class FailureStory {
   copied,       ///< positions are copied, with and without promises
   bound,        ///< memory is bound, in float and double; bindings end in every way, and then it is freed
@@ -88,7 +88,7 @@ class FailurePlay {
  private:
   struct Told {
     std::optional<ObjectId> id;
-    // What is bound, in one of the two.
+    // The bound memory: one of the two is in use.
     std::unique_ptr<Positions> doubles;
     std::unique_ptr<std::vector<Eigen::Vector3f>> floats;
     std::unique_ptr<Positions> next_doubles;  ///< for another binding
@@ -108,7 +108,7 @@ class FailurePlay {
   std::array<ReportHandle, 3> held_;
 };
 
-/// What a scene of these bodies, built afresh, says of a frame.
+/// The report of a scene of these bodies that is built afresh for one frame.
 class FreshReport {
  public:
   FreshReport(const FailureScene& story, SceneSettings settings, std::size_t frame);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t frame_count = 6;
 
-/// What the calling thread computes with: rounding, and on x86 whether denormals are flushed.
+/// The floating-point mode of the calling thread: its rounding, and on x86 whether denormals are flushed.
 struct Mode {
   int rounding = FE_TONEAREST;
   bool flush = false;
@@ -70,7 +70,7 @@ std::vector<Mode> modes() {
   return all;
 }
 
-/// Where four bodies are in each frame, made before any mode is set. The last of them is posed.
+/// The positions of four bodies in each frame, made before any mode is set. The last body is posed.
 struct Prepared {
   std::vector<models::MeshData> meshes = {models::torus(8, 6, 0.5, 0.2), models::sphere(8, 5),
                                           models::sheet(6, 6, 1.5, 1.5), models::box({0.7, 0.5, 0.9})};
@@ -91,7 +91,7 @@ struct Prepared {
   }
 };
 
-/// What came of playing a scene in a mode.
+/// The reports of a scene that was played in one mode, and whether its calls kept the mode.
 struct Played {
   std::vector<ReportHandle> reports;
   bool mode_was_kept = false;  ///< every call left it as it was

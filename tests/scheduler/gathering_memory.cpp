@@ -15,8 +15,8 @@
 namespace graze::tests {
 namespace {
 
-// What the signal handler knows. It may only call what is safe in one, so it counts, looks at the clock and
-// opens the page.
+// State of the signal handler. A handler may only call functions that are safe in it, so this one counts,
+// looks at the clock and opens the page.
 std::byte* first_page = nullptr;
 std::size_t page_size = 0;
 std::atomic<unsigned> waited_for{0};

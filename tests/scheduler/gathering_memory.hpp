@@ -23,7 +23,7 @@ class GatheringMemory {
 
   /// A triangle.
   static std::shared_ptr<const Mesh> mesh();
-  /// Of object `index`: far from all others.
+  /// Returns the positions of object `index`, which is far from all others.
   [[nodiscard]] PositionView positions(std::size_t index) const;
   /// From now on the next touch of each page waits.
   void close();

@@ -1,5 +1,6 @@
-// The same bits from any number of threads, in every run and on every machine: hashes of all that reports say
-// against committed values. 300 frames and 20 repeats of the same: `graze stress --determinism`.
+// This test compares hashes of all that reports say with committed values. The bits must be the same with any
+// number of threads, in every run and on every machine. `graze stress --determinism` does this for 300 frames
+// and 20 repeats.
 
 #include <oneapi/tbb/global_control.h>
 

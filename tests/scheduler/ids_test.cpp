@@ -83,7 +83,8 @@ TEST_CASE("an id that is given again names another object") {
   CHECK(scene.contains(second));
   CHECK(scene.object_settings(second).name == "second");
 
-  // What is said of the first is not taken for the second, neither what was said nor what still is.
+  // The second object must not get anything that is said of the first: neither the pair ignored before, nor
+  // the positions set now.
   scene.set_positions(first, lifted(*needle_mesh(), 9));
   const ReportHandle report = scene.step();
   CHECK(kinds_of(*report) == std::vector{DiagnosticKind::stale_id});

@@ -1,4 +1,5 @@
-// The same motion by every way of input gives the same reports, and what is near nothing costs its box alone.
+// This test gives one motion to a scene in every way of input. All reports must be the same. For an object
+// that is near nothing, a step must compute only the bounding box.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ constexpr std::size_t count = 10;
 
 enum class Way : std::uint8_t { bound, told, copied, copied_with_gaps, posed };
 
-/// Where a pose puts a mesh, by the contract's formula.
+/// Applies a pose to a mesh by the contract's formula.
 Positions placed(const Mesh& mesh, const Eigen::Isometry3d& pose) {
   const auto& m = pose.matrix();
   Positions positions;

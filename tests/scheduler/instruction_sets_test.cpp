@@ -16,7 +16,7 @@ constexpr std::array<ContactDetail, 5> details = {ContactDetail::none, ContactDe
                                                   ContactDetail::regions, ContactDetail::vertices,
                                                   ContactDetail::features};
 
-/// What steps counted, times left out.
+/// Requires that two steps counted the same; their times may differ.
 void require_same_counters(const StepStatistics& mine, const StepStatistics& theirs) {
   REQUIRE(mine.pairs_tested == theirs.pairs_tested);
   REQUIRE(mine.region_pairs_tested == theirs.region_pairs_tested);

@@ -1,4 +1,4 @@
-// What a step's statistics say of memory against what the allocator has given.
+// This test compares the memory in a step's statistics with the memory that the allocator has given.
 
 #include <array>
 #include <cmath>

@@ -36,7 +36,7 @@ bool says_so(const FrameReport& report) {
       [](const Diagnostic& diagnostic) { return diagnostic.kind == DiagnosticKind::out_of_memory; });
 }
 
-/// What came of all failures of a test.
+/// Counts the failures of a test and how they ended.
 struct Tally {
   std::uint64_t places = 0;
   std::uint64_t thrown_by_calls = 0;

@@ -83,7 +83,7 @@ class Told {
   std::array<std::vector<double>, count> gaps_;
 };
 
-/// What both scenes are told besides.
+/// Makes the calls of a frame that both scenes get besides motion: pairs ignored and watched, and a rule.
 void change(std::size_t frame, Told& told) {
   if (frame % 16 == 9) told.scene().ignore(told.id(4), told.id(13));
   if (frame % 16 == 12) told.scene().watch(told.id(4), told.id(13));

@@ -12,7 +12,8 @@
 namespace graze::tests {
 namespace {
 
-/// Where a scene has an object's vertices: every pair of vertices is a contact, and their points are theirs.
+/// Returns the positions of an object's vertices in a scene. Every pair of vertices has to be a contact; the
+/// positions are the points of these contacts.
 Positions positions_in(Scene& scene, ObjectId observer, ObjectId object) {
   const ReportHandle report = scene.step();
   CHECK(report->diagnostics().empty());

@@ -1,4 +1,4 @@
-// What a caller promises of motion: work saved, never an answer changed.
+// This test checks promises of motion by the caller. They must save work and never change an answer.
 
 #include <limits>
 

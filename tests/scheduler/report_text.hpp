@@ -12,15 +12,16 @@ std::string text_of(const FrameReport& report, const PairReport& pair);
 /// The rows of a report, each with its contacts.
 std::vector<std::string> rows_of(const FrameReport& report);
 
-/// What a scene built afresh with the same positions would say: without rows that are listed only because
-/// they ended, and without what the last step has to do with.
+/// Returns the rows of a report as text, so that they equal those of a scene built afresh with the same
+/// positions. Rows that are listed only because they ended are left out, as is all that depends on the last
+/// step.
 std::vector<std::string> timeless_rows_of(const FrameReport& report, double range);
 
 /// Empty where frame, rows, contacts, diagnostics and completeness are the same, bit for bit.
 std::string difference_of(const FrameReport& left, const FrameReport& right);
 
-/// What is wrong with a report by itself: order of pairs and contacts, contacts in rows that have none, spans
-/// that do not follow one another, bounds the wrong way round, numbers that are not finite.
+/// Describes an inconsistency within a report: wrong order of pairs or contacts, contacts in rows that have
+/// none, spans that do not follow one another, bounds the wrong way round, or numbers that are not finite.
 std::string inconsistency_of(const FrameReport& report);
 
 }  // namespace graze::tests

@@ -1,4 +1,5 @@
-// The same answer for any number of threads, for every run, and for a scene built afresh.
+// This test compares reports from different numbers of threads, from several runs, and from a scene built
+// afresh. All must be the same.
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 namespace graze::tests {
 namespace {
 
-/// Where the i-th of n objects is, and how large.
+/// Makes the box of the i-th of n objects.
 using Layout = Box (*)(oracle::Random& random, std::size_t i, std::size_t n);
 
 Box cube(const Eigen::Vector3d& centre, double half) {

@@ -1,4 +1,4 @@
-// What was called between two steps, judged by a model that takes one call after the other.
+// This test compares calls between two steps with a model that takes one call after the other.
 
 #include <array>
 #include <optional>
@@ -10,7 +10,8 @@
 namespace graze::tests {
 namespace {
 
-/// What calls on one deformable object mean: where its last step saw it, and what the next will read.
+/// Models the calls on one deformable object: the position at which its last step saw it, and the source that
+/// the next step will read.
 struct Model {
   double seen = 0;
   std::optional<double> copied;

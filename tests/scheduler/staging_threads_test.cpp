@@ -30,7 +30,7 @@ void run_on_threads(std::size_t count, const Work& work, const Meanwhile& meanwh
   for (std::thread& thread : threads) thread.join();
 }
 
-/// Where objects may stand: memory that is never written again, so that it may be bound at any time.
+/// Positions that objects may get. This memory is never written again, so it may be bound at any time.
 const std::vector<Positions>& places() {
   static const std::vector<Positions> all = [] {
     std::vector<Positions> made;
@@ -268,7 +268,8 @@ TEST_CASE("threads add, remove, look at and speak to each other's objects") {
     if (scene.contains(id) != (std::find(alive.begin(), alive.end(), id) != alive.end())) ++wrong;
   CHECK(wrong == 0);
 
-  // What is left is moved together: a scene made of the same objects says the same, whatever came before.
+  // Moves all objects that are left. A scene made afresh of the same objects must then report the same,
+  // whatever calls came before.
   const std::size_t count = alive.size();
   Scene afresh(settings);
   for (std::size_t i = 0; i < count; ++i) {

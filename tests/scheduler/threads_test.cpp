@@ -16,7 +16,8 @@
 namespace graze::tests {
 namespace {
 
-/// What one writer does to objects of its own: comes, moves, goes, filters. Leaves its last object in place.
+/// One writer, which adds, moves, removes and filters objects of its own. At the end one object of its own is
+/// left in the scene.
 class Writer {
  public:
   Writer(Scene& scene, std::uint64_t seed) : scene_(scene), random_(seed) {}

@@ -115,7 +115,7 @@ class Player {
   std::vector<Positions> now_;
 };
 
-/// What becomes of one object in a frame.
+/// A change to one object in a frame.
 struct Event {
   std::size_t object = 0;
   Positions positions;
@@ -200,7 +200,7 @@ struct Played {
   std::uint64_t surveyed = 0;
 };
 
-/// The same story with and without gaps, by one thread and by three.
+/// Plays one story with and without gaps, on one thread and on three, and compares the reports.
 template <typename Number>
 Played play(std::uint64_t seed, const std::shared_ptr<const Mesh>& mesh, std::size_t count,
             std::size_t steps) {
@@ -313,7 +313,8 @@ TEST_CASE("view: of an object in a pair as of one that is far, while it moves") 
     }
     return counts;
   };
-  // What is bound may be anywhere. The first rests; what seems at rest is read once more, and rests.
+  // In the first step both objects are surveyed, because bound memory may hold any positions. The first
+  // object rests from then on. The second moves in four steps and is read once more when it seems to rest.
   CHECK(surveyed(ContactDetail::vertices) == std::vector<std::size_t>{2, 1, 1, 1, 1, 0, 0, 0});
   CHECK(surveyed(ContactDetail::features) == std::vector<std::size_t>{2, 0, 0, 0, 0, 0, 0, 0});
 }

@@ -11,7 +11,8 @@
 
 namespace graze::tests {
 
-/// What the contract allows a distance to be off: 2^-48 times the size of the two features plus their gap.
+/// The error that the contract allows for a distance: 2^-48 times the size of the two features plus their
+/// gap.
 class Tolerance {
  public:
   Tolerance(const oracle::Shape& a, const oracle::Shape& b);
@@ -29,7 +30,7 @@ class Tolerance {
   Side b_;
 };
 
-/// What brute force says of a pair in exact mode.
+/// The answer of brute force for a pair in exact mode.
 struct Expected {
   std::vector<oracle::Named> contacts;
   oracle::Pair distance;
@@ -37,19 +38,19 @@ struct Expected {
 };
 Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail,
                      const oracle::Shape& rest_a, const oracle::Shape& rest_b);
-/// The same for shapes at rest.
+/// Returns the answer of brute force for a pair of shapes at rest.
 Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail);
 
 /// Whether a pair is strictly closer than `reach`, decided exactly.
 bool is_within(const oracle::Pair& distance, double reach);
 
-/// What is wrong with contacts measured against the oracle's: another set, or a value off by more than the
-/// contract allows. Empty where all is well.
+/// Describes how contacts differ from the oracle's; empty if they do not. They differ if the set is another,
+/// or if a value is off by more than the contract allows.
 std::string difference_of(std::span<const Contact> contacts, const std::vector<oracle::Named>& expected,
                           const Tolerance& tolerance);
 
-/// The same for the bounds and witness of a pair in exact mode: the bounds are the truth rounded down and up,
-/// and the witness realises it.
+/// Describes how the bounds and the witness of a pair in exact mode differ from the oracle's; empty if they
+/// do not. The bounds must be the true distance rounded down and up, and the witness must realise it.
 std::string difference_of(const DistanceBounds& distance, const Witness& witness,
                           const oracle::Pair& expected, const Tolerance& tolerance);
 

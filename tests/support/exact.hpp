@@ -35,7 +35,8 @@ inline bool is_zero(const Point& p) {
   return p.x == 0 && p.y == 0 && p.z == 0;
 }
 
-/// The same point; every double is a rational. The coordinates must be finite.
+/// Converts a point to rational coordinates, without error: every double is a rational. The coordinates must
+/// be finite.
 inline Point exact(const Eigen::Vector3d& p) {
   return {Rational(p.x()), Rational(p.y()), Rational(p.z())};
 }

@@ -37,9 +37,9 @@ std::optional<SegmentContact> inner_contact(const ExactShape& a, const Segment& 
 std::vector<SegmentContact> end_contacts(const ExactShape& a, const Segment& segment_a, const ExactShape& b,
                                          const Segment& segment_b);
 
-/// Where a segment, whose ends lie strictly on opposite sides of a triangle of `face`, crosses it strictly
-/// inside or on the inner diagonal: the fraction of the way from its first end, the smallest if there are
-/// two.
+/// Finds where a segment crosses a triangle of `face` strictly inside or on the inner diagonal. The ends of
+/// the segment lie strictly on opposite sides of the triangle. Returns the fraction of the way from its first
+/// end, the smallest if there are two.
 std::optional<Rational> crossing(const ExactShape& shape, const Segment& segment, const ExactShape& other,
                                  std::uint32_t face);
 

@@ -30,7 +30,8 @@ std::optional<Named> closest(const Shape& shape_a, const Shape& shape_b, double 
   const ExactShape b(shape_b);
   const Rational distance_squared = smallest_distance_squared(a, b);
   if (!Limit::below(threshold).admits(distance_squared)) {
-    // What touches is not below a threshold of 0; what pierces is a contact all the same.
+    // A pair that touches is not below a threshold of 0. It is a contact only if one feature pierces the
+    // other.
     if (!is_pierced(a, b)) return std::nullopt;
     for (const auto& [name, contact] : candidates_at(a, b, distance_squared))
       if (contact.pierced) return rounded(name, contact);

@@ -8,7 +8,7 @@
 
 namespace graze::oracle {
 
-/// What names a contact, in the order in which contacts are sorted.
+/// The name of a contact: its kind and its two features. Contacts are sorted by it.
 struct Name {
   ContactKind kind;
   Feature a, b;

@@ -155,7 +155,7 @@ Point weighted_centroid(const Polygon& polygon, const Point& normal) {
   return sum;
 }
 
-/// Where two parallel triangles lie over each other: on a's triangle, and the vector across to b's.
+/// The overlap of two parallel triangles: its polygon on a's triangle, and the vector across to b's.
 struct Overlap {
   Polygon on_a;
   Point across;

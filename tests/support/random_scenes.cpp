@@ -12,7 +12,7 @@ namespace {
 
 constexpr double grid_step = 0.25;
 
-/// Where the vertices of a scene may lie.
+/// Draws random positions for the vertices of a scene, on a grid or off it.
 class Space {
  public:
   Space(Random& random, bool on_grid) : random_(random), on_grid_(on_grid) {}

@@ -4,7 +4,7 @@
 
 namespace graze::tests {
 
-/// What the rounding of double is compared with.
+/// The number type that results in double are compared with.
 using Real = long double;
 using Vector = Eigen::Matrix<Real, 3, 1>;
 

@@ -13,8 +13,8 @@ struct TwoShapes {
   double threshold = 0;
 };
 
-/// What is wrong with a scene, empty where all is well. Two texts that differ in nothing but numbers say the
-/// same kind of thing.
+/// Describes a fault of a scene; empty if it has none. Two texts that differ only in numbers describe one
+/// kind of fault.
 using Judge = std::function<std::string(const TwoShapes&)>;
 
 /// A small scene of which `judge` says the same kind of thing as of `scene`: no face, vertex or digit can be

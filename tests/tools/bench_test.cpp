@@ -14,7 +14,7 @@ using namespace graze::tests;  // NOLINT: the vocabulary of these tests
 
 namespace {
 
-/// What one run of a scene says of a contender.
+/// Returns the entry of a contender in one run of a scene.
 const nlohmann::json& contender(const nlohmann::json& run, const std::string& name) {
   const auto& all = run.at("contenders");
   const auto place =
@@ -76,7 +76,7 @@ TEST_CASE("bench: every contender answers right, and all have times") {
     }
     if (run.at("task") == "B" && run.at("threads") == 1)
       check_times(contender(run, "graze's kernels, clipping's candidates"));
-    // The same bits from one thread and from two, which come right after.
+    // The run on two threads comes right after the run on one, and must give the same bits.
     if (i % 2 == 1) CHECK(run.at("hash") == figures.at("runs")[i - 1].at("hash"));
   }
   const std::string lines = read_file(csv);

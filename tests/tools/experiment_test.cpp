@@ -49,7 +49,8 @@ Rows parse_csv(const std::string& text) {
   return rows;
 }
 
-/// What keeps a page from being XML, or nothing: tags that do not close in order, or a bare & or <.
+/// Describes why a page is not XML; empty if it is. The faults are tags that do not close in order, and a
+/// bare & or <.
 std::string fault_of(const std::string& html) {
   std::vector<std::string> open;
   for (std::size_t i = 0; i < html.size(); ++i) {

@@ -67,7 +67,7 @@ std::vector<Eigen::Vector3d> positions_of(const std::filesystem::path& path) {
   return {rest.begin(), rest.end()};
 }
 
-/// What the first step of a scene file says.
+/// Returns the witness in the report of a scene file's first step.
 std::vector<Eigen::Vector3d> witness_of(const std::filesystem::path& path) {
   graze::io::Player player(graze::io::read_scene_file(path));
   player.advance(0);

@@ -12,7 +12,7 @@ namespace graze::tests {
 /// Every frame of a report file.
 std::vector<io::ReportedFrame> read_report(const std::filesystem::path& path);
 
-/// Where the test itself says that every object is in one frame.
+/// The shapes of all objects in one frame, as the test itself expects them.
 using ExpectedShapes = std::vector<oracle::Shape>;
 
 struct Thresholds {
@@ -26,8 +26,9 @@ struct Thresholds {
 std::size_t check_exactly(const std::vector<io::ReportedFrame>& report,
                           const std::vector<ExpectedShapes>& frames, const Thresholds& thresholds);
 
-/// The same where the positions agree only within `tolerance`, with no distance that near to a threshold:
-/// pairs, phases, distances, and that each contact lies on the features it names.
+/// Compares a run with brute force where the positions agree only within `tolerance`, and no distance is that
+/// near to a threshold. Compares pairs, phases and distances, and checks that each contact lies on the
+/// features it names. Returns how many contacts that were.
 std::size_t check_nearly(const std::vector<io::ReportedFrame>& report,
                          const std::vector<ExpectedShapes>& frames, const Thresholds& thresholds,
                          double tolerance);

@@ -4,7 +4,8 @@
 
 namespace graze::tools {
 
-/// What a command was asked to check does not hold: exit code 1, and this one line on standard error.
+/// Thrown when a check that a command was asked to do fails. The command prints this one line on standard
+/// error and exits with code 1.
 class CheckFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

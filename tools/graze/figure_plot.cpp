@@ -14,8 +14,8 @@
 namespace graze::tools {
 namespace {
 
-/// Of Okabe and Ito, which the colour-blind can tell apart; brown is in place of yellow, which white
-/// swallows.
+/// Colours of Okabe and Ito, which the colour-blind can tell apart. Brown is in place of yellow, which is
+/// hard to see on white.
 constexpr std::array<const char*, 8> colours = {"#000000", "#0072b2", "#e69f00", "#cc79a7",
                                                 "#56b4e9", "#8c564b", "#009e73", "#d55e00"};
 constexpr std::array<int, 7> point_types = {7, 5, 9, 11, 13, 15, 4};
@@ -42,7 +42,7 @@ struct Axis {
     return std::isfinite(low) ? std::pow(10, std::floor(std::log10(low) + 1e-9) - 1) : 1e-3;
   }
   [[nodiscard]] double place(double value) const { return is_log && value <= 0 ? zero() : value; }
-  /// Where the axis begins and ends, with room around what it shows.
+  /// The first value on the axis. The axis has some room on both sides of the values shown.
   [[nodiscard]] double first() const {
     if (is_log) return bottom() / room();
     return low >= 0 && low < 0.5 * high ? 0 : low - 0.05 * (high - low);

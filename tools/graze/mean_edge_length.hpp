@@ -6,7 +6,8 @@
 
 namespace graze::tools {
 
-/// Of all edges of some meshes at rest, each counted once for each mesh that has it.
+/// Returns the mean length of all edges of some meshes at rest. An edge counts once for each mesh that has
+/// it.
 double mean_edge_length(std::span<const std::shared_ptr<const Mesh>> meshes);
 
 }  // namespace graze::tools

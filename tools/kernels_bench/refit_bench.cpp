@@ -1,5 +1,5 @@
-// What is done for each vertex of an object that moved, and tests of boxes; the rates are of vertices and of
-// boxes.
+// Benchmarks of the work for each vertex of an object that moved, and of tests of boxes. The rates are in
+// vertices and in boxes.
 
 #include <benchmark/benchmark.h>
 

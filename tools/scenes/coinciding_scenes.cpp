@@ -41,7 +41,7 @@ models::MeshData fine_sheet(std::uint32_t cells, double cell) {
 /// Two or more objects of one mesh, each told its positions in every frame.
 class CopiesScene : public PlayedScene {
  public:
-  /// Where a vertex of an object is in a frame.
+  /// Gives the position of a vertex of an object in a frame.
   using Place = std::function<Vector3d(const Vector3d& rest, std::size_t object, double frame)>;
 
   CopiesScene(SceneSettings settings, std::shared_ptr<const Mesh> mesh, std::size_t count, Place place)

@@ -16,7 +16,8 @@ class SkinnedHuman {
   SkinnedHuman();
 
   [[nodiscard]] const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
-  /// Where its vertices are at `time` in radians of a stride, standing at the origin.
+  /// Calculates the positions of the vertices at `time`, in radians of a stride. The human stands at the
+  /// origin.
   void pose(double time, std::vector<Eigen::Vector3d>& positions) const;
 
  private:

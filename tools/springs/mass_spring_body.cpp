@@ -67,7 +67,8 @@ void MassSpringBody::step(const Points& forces) {
   positions_ = std::move(next);
 }
 
-/// What a step minimizes, where the body is now; where inertia leads it is the elastic energy there.
+/// Returns the sum that a step minimizes, at the body's present positions. At the positions to which inertia
+/// leads, this sum is the elastic energy alone.
 double MassSpringBody::sum_at_start(const Points& inertia) const {
   return 0.5 * mass_ / (step_ * step_) * (positions_ - inertia).squaredNorm() + elastic_energy_at(positions_);
 }

@@ -26,7 +26,7 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 /// is lost, as in implicit Euler, and not won. Since springs pull both ends alike the rows of L sum to zero,
 /// and momentum is kept in every iteration, not at convergence only.
 ///
-/// The same on every run: a fixed number of iterations, and no randomness.
+/// The motion is the same in every run: the number of iterations is fixed, and nothing is random.
 class MassSpringBody {
  public:
   static constexpr int default_iterations = 12;
@@ -37,7 +37,7 @@ class MassSpringBody {
 
   [[nodiscard]] const Points& positions() const { return positions_; }
   [[nodiscard]] const Points& velocities() const { return velocities_; }
-  /// Of positions().rows() rows.
+  /// Sets the velocities, which must have as many rows as positions().
   void set_velocities(const Points& velocities) { velocities_ = velocities; }
   void set_positions(const Points& positions) { positions_ = positions; }
 

@@ -10,8 +10,8 @@
 
 namespace graze::tools {
 
-/// What finds and measures a contact. The last three are those of `closest`, whose closest points fill a
-/// stretch or an area; `vertex_set` is the detail `vertices`; all others are found by `features`.
+/// The code that finds and measures a contact. The last three are those of `closest`, whose closest points
+/// fill a stretch or an area. `vertex_set` is the detail `vertices`; all others are found by `features`.
 enum class Kernel : std::uint8_t {
   vertex_vertex,
   vertex_edge,

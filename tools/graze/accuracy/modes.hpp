@@ -11,7 +11,7 @@
 
 namespace graze::tools {
 
-/// What a setting answered over all frames, compared with exact mode. Lengths are in mean edge lengths.
+/// The answers of a setting over all frames, compared with exact mode. Lengths are in mean edge lengths.
 struct ModeResult {
   ModeSetting setting;
   std::uint64_t pair_rows = 0;

@@ -12,7 +12,7 @@
 namespace graze::tools {
 namespace {
 
-/// Where a share of missing contacts that is 0 is drawn.
+/// The share at which the plot draws a share of missing contacts that is 0.
 constexpr double none_missing = 1e-6;
 /// The narrowest width that the axis shows.
 constexpr double narrowest = 1e-17;
@@ -28,7 +28,7 @@ struct Line {
   std::vector<Point> points;
 };
 
-/// What the y axis shows of one result.
+/// Gives the value of one result on the y axis.
 using ErrorOf = double (*)(const ModeResult&);
 
 double width_of(const ModeResult& result) {

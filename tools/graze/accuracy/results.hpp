@@ -31,8 +31,8 @@ struct AccuracyResults {
   std::uint32_t runs = 1;  ///< of each setting, for the times
 };
 
-/// What does not hold of what the contract promises, a sentence each: distances beyond their bound, wrong
-/// names, bounds that are not exact in exact mode or do not hold in another, contacts lost where none may be.
+/// Lists violations of the contract, one sentence each. They are distances beyond their bound, wrong names,
+/// bounds that are not exact in exact mode or do not hold in another, and contacts lost where none may be.
 std::vector<std::string> violations_of(const AccuracyResults& results);
 
 }  // namespace graze::tools

@@ -79,7 +79,7 @@ void add_of_one_run(const Run& run, std::vector<Aim>& aims) {
     aims.push_back({"first frame / median", where(run), graze->first / graze->median, 20});
 }
 
-/// What rests costs nothing.
+/// Adds the aims of the scenes at rest: objects that rest should cost nothing.
 void add_of_rest(const Run& run, std::vector<Aim>& aims) {
   const double graze = run.median(graze_name);
   if (std::isnan(graze)) return;

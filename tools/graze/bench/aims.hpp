@@ -21,7 +21,7 @@ struct Aim {
   [[nodiscard]] bool is_reached() const { return is_at_least ? measured >= wanted : measured <= wanted; }
 };
 
-/// Those aims that these runs say something about.
+/// Returns the aims that these runs can be measured by.
 std::vector<Aim> aims_of(const std::vector<Run>& runs);
 
 std::string table_of(const std::vector<Aim>& aims);

@@ -47,7 +47,7 @@ struct LocalObject {
   std::size_t frame = 0;  ///< that it was brought up to last
 };
 
-/// What belongs to some triangles of an object.
+/// The features that belong to some triangles of an object.
 class Belonging {
  public:
   void take(const LocalObject& object, std::span<const std::uint32_t> triangles) {
@@ -166,7 +166,7 @@ class CandidateKernels final : public Contender {
     answers_.push_back({a, b, first, names_.size()});
   }
 
-  /// Of what belongs to a triangle of a and to those of b beside it.
+  /// Adds the close features of one triangle of a and of the triangles of b beside it.
   void add_names(const SurfacePair& pair, const LocalObject& a, std::uint32_t triangle, const LocalObject& b,
                  CloseFeatures& features) {
     one_.take(a, std::span(&triangle, 1));

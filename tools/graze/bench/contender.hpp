@@ -11,8 +11,9 @@
 
 namespace graze::bench {
 
-/// What is asked in each frame. A: all vertex pairs of different objects nearer than the distance. B: all
-/// contacts between surfaces nearer than it. D: the distance of every pair of objects nearer than it.
+/// The question of each frame. Task A asks for all vertex pairs of different objects nearer than the
+/// distance. Task B asks for all contacts between surfaces nearer than it. Task D asks for the distance of
+/// every pair of objects nearer than it.
 enum class Task : char { A = 'A', B = 'B', D = 'D' };
 
 /// Object a comes before object b.
@@ -42,7 +43,7 @@ struct ObjectDistance {
   double lower, upper;  ///< equal but for rounding
 };
 
-/// What was found in a frame, in any order, each once.
+/// The results of a frame, in any order, each listed once.
 struct Found {
   std::vector<VertexPair> vertex_pairs;      ///< task A
   std::vector<TrianglePair> triangle_pairs;  ///< task B of all but graze
@@ -88,14 +89,15 @@ inline constexpr std::string_view box_limit = "box";
 /// Reads what moves and what is near it; only in scenes where most rests.
 inline constexpr std::string_view movers_limit = "read movers";
 
-/// What `clipping` finds near by boxes in task B, without the distances: for those who make these themselves.
+/// Names the contender that gives the pairs of triangles with near boxes, found by `clipping` in task B,
+/// without distances. It serves contenders that calculate the distances themselves.
 inline constexpr std::string_view clipping_candidates = "clipping's candidates";
 
 constexpr bool is_limit(std::string_view name) {
   return name == read_limit || name == box_limit || name == movers_limit;
 }
 
-/// What the module of peers exports under the name `graze_bench_peers`.
+/// The list of peers, which the module of peers exports under the name `graze_bench_peers`.
 using PeerList = std::span<const PeerEntry>;
 using ListPeers = void (*)(PeerList& list, std::string_view& compiled_for);
 

@@ -11,7 +11,7 @@
 namespace graze::bench {
 namespace {
 
-/// What grows from scene to scene.
+/// A quantity that grows from scene to scene.
 struct Growth {
   char scenes;
   const char* name;

@@ -31,7 +31,8 @@ double squared_distance(const Point& point, const Segment& segment) {
   return (segment.from + part * segment.along - point).squaredNorm();
 }
 
-/// Where the lines are nearest inside both segments, and at an end of one otherwise.
+/// Returns the squared distance of two segments. It is that of their lines if these are nearest inside both
+/// segments, and otherwise that of an end of one segment to the other.
 double squared_distance(const Segment& a, const Segment& b) {
   double least = std::min({squared_distance(a.from, b), squared_distance(a.from + a.along, b),
                            squared_distance(b.from, a), squared_distance(b.from + b.along, a)});

@@ -180,7 +180,7 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
   return entrants;
 }
 
-/// Those of all pairs of objects.
+/// Counts the near pairs of features over all pairs of objects.
 std::size_t count_all_near_pairs(const BenchScene& scene, const World& world,
                                  std::span<const TrianglePair> near) {
   std::size_t count = 0;
@@ -256,7 +256,8 @@ Run run_scene(const BenchScene& scene, const RunOptions& options, const PeerModu
       verification.update();
       ++run.frames_verified;
     }
-    // What the one before left in the caches matters, so that the order is another one in every frame.
+    // The order of contenders changes from frame to frame, because each finds in the caches the data that the
+    // one before left there.
     for (std::size_t left = order.size(); left > 1; --left)
       std::swap(order[left - 1], order[random.below(left)]);
     for (const std::size_t number : order) {

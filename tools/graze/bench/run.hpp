@@ -28,7 +28,7 @@ struct RunOptions {
   std::vector<InstructionSet> instruction_sets;  ///< at least one
 };
 
-/// What one contender needed for the frames of a run, in ms.
+/// The times that one contender needed for the frames of a run, in ms.
 struct Timing {
   std::string name;
   double first = 0;  ///< it is made and answers for the first time
@@ -37,7 +37,7 @@ struct Timing {
   std::size_t found = 0;  ///< in the last frame that was verified
 };
 
-/// What is known of graze's steps beside their times.
+/// Results of graze's steps other than their times.
 struct GrazeFigures {
   std::uint64_t hash = 0;         ///< of all reports
   double contacts_per_frame = 0;  ///< mean of the timed frames

@@ -23,7 +23,7 @@ Vector packed(std::size_t index, std::size_t columns) {
           2 * std::sqrt(2.0 / 3) * static_cast<double>(layer)};
 }
 
-/// The same as a body that is placed once.
+/// Returns the body with its motion taken away: it is placed once, in frame 0.
 Body resting(Body body) {
   body.place = [place = std::move(body.place)](std::size_t frame, std::span<float> out) {
     return frame == 0 && place(0, out);
@@ -78,7 +78,7 @@ models::MeshData hills() {
   return land;
 }
 
-/// What lies under the props.
+/// Returns the part of the land that lies under the props.
 models::MeshData cropped(const models::MeshData& land) {
   models::MeshData part;
   std::vector<std::uint32_t> numbers(land.positions.size(), Mesh::no_edge);

@@ -8,7 +8,7 @@ namespace {
 Body slowed(Body body, std::size_t times) {
   body.place = [place = std::move(body.place), times](std::size_t frame, std::span<float> out) {
     std::vector<float> next(out.size());
-    // What does not change from frame to frame rests.
+    // A body that does not change in the next frame is treated as at rest.
     if (!place(frame / times + 1, next)) return frame == 0 && place(0, out);
     place(frame / times, out);
     const float share = static_cast<float>(frame % times) / static_cast<float>(times);

@@ -4,7 +4,8 @@
 
 namespace graze::bench {
 
-/// The same scene in slow motion: so many frames in place of each of its own, straight from one to the next.
+/// Returns the scene in slow motion: `times` frames replace each frame, and positions move straight from one
+/// frame to the next.
 BenchScene in_slow_motion(BenchScene scene, std::size_t times);
 
 }  // namespace graze::bench

@@ -10,7 +10,7 @@
 
 namespace graze::bench {
 
-/// Where and how it was measured.
+/// Describes the machine and the builds of a measurement.
 struct Surroundings {
   std::string processor, compiler, flags, peer_flags;
   std::string instruction_sets;  ///< graze's, that of the name alone first

@@ -14,7 +14,7 @@ namespace {
 
 using tools::format;
 
-/// What double itself loses of distances in scenes of this size.
+/// The error of distances that plain double itself makes in scenes of this size.
 constexpr double lost_in_double = 1e-12;
 
 auto key(const TrianglePair& pair) {

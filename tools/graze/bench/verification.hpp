@@ -9,18 +9,19 @@
 
 namespace graze::bench {
 
-/// What is true in a frame, made without graze: task A by the row grid over all vertices, B and D by the
-/// exact distances of all pairs of triangles with near boxes.
+/// The true answer for a frame, computed without graze. Task A uses the row grid over all vertices. Tasks B
+/// and D use the exact distances of all pairs of triangles with near boxes.
 class Verification {
  public:
   Verification(const BenchScene& scene, Task task, std::unique_ptr<Contender> oracle);
 
   /// Makes the truth of the world's present frame.
   void update();
-  /// What is wrong with an answer for this frame, in one sentence; empty where nothing is. `precision` is how
-  /// closely distances must agree beyond what double itself loses.
+  /// Describes an error of an answer for this frame in one sentence; empty if there is none. `precision` is
+  /// how closely distances must agree, beyond the rounding error of double itself.
   [[nodiscard]] std::string complaint(Found& found, double precision) const;
-  /// Of tasks B and D the near pairs of triangles of that frame, those of two objects side by side.
+  /// The near pairs of triangles of the frame, for tasks B and D. The pairs of two objects stand side by
+  /// side.
   [[nodiscard]] std::span<const TrianglePair> triangle_pairs() const { return truth_.triangle_pairs; }
 
  private:

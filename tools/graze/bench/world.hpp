@@ -19,8 +19,8 @@ struct WorldObject {
   bool is_fixed = false;
 };
 
-/// Where everything is in the present frame: what all contenders see. Plain numbers only, since contenders
-/// are compiled for other instruction sets than the rest of the program.
+/// The positions of everything in the present frame, which all contenders read. It consists of plain numbers
+/// only, since contenders are compiled for other instruction sets than the rest of the program.
 struct World {
   double distance = 0;  ///< threshold and range of every task
   std::vector<WorldObject> objects;

@@ -5,7 +5,7 @@
 
 namespace graze::tools {
 
-/// What every study of `graze experiment` is told. Steps run on one thread.
+/// The options of every study of `graze experiment`. Steps run on one thread.
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   std::uint32_t frames = 0;  ///< 0: as many as the paper, or as the study says

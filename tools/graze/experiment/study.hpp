@@ -27,7 +27,7 @@ struct ResultTable {
   bool shown = true;                    ///< false: too long to read, data of a figure
 };
 
-/// What the paper says, what was measured, and whether it holds.
+/// A statement of the paper, the measurement beside it, and whether it holds.
 struct Claim {
   std::string said;
   std::string measured;
@@ -42,7 +42,8 @@ struct Study {
   std::vector<ResultTable> tables;
   std::vector<Figure> figures;
   std::vector<Claim> claims;
-  /// What has to hold and does not, a sentence each: the command fails once everything is written.
+  /// Requirements that do not hold, one sentence each. With any of them the command fails once everything is
+  /// written.
   std::vector<std::string> violations;
 };
 

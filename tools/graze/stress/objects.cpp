@@ -11,7 +11,8 @@
 namespace graze::tools {
 namespace {
 
-// Of time divided by reading, of memory, and of 2 threads over 1.
+// The aims: exponents at which time divided by reading and memory may grow with the number of objects, and
+// the speedup of 2 threads over 1.
 constexpr double aimed_time_exponent = 0.1;
 constexpr double aimed_memory_exponent = 1.05;
 constexpr double aimed_speedup = 1.8;

@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds period{1};
 
-/// What one reading thread measured, in µs.
+/// The times that one reading thread measured, in µs.
 struct ReadTimes {
   std::vector<double> wall, cpu, late;
 };

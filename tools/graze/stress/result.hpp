@@ -6,7 +6,7 @@
 
 namespace graze::tools {
 
-/// What one study found: its figures, and what it was to check and does not hold.
+/// The result of one study: its figures, and the checks that failed.
 struct StressResult {
   nlohmann::ordered_json figures;
   std::vector<std::string> violations;

@@ -78,7 +78,7 @@ void calculate(std::uint64_t rounds) {
   (void)result;
 }
 
-/// The same work on one thread and on two: the times of both.
+/// Measures how much faster two threads do the same arithmetic than one.
 class Control {
  public:
   void run() {

@@ -19,7 +19,7 @@ struct StepTimes {
   std::array<double, phase_names.size()> phases_ms{};
 };
 
-/// The same frames of a world with one thread and with two, turn and turn about.
+/// Measurements of a world's frames, each with one thread and with two, in turn.
 struct ScalingRun {
   std::size_t frames = 0;
   StepTimes one, two;
@@ -36,7 +36,8 @@ struct ScalingRun {
   [[nodiscard]] double speedup() const { return one.wall_ms / two.wall_ms; }
   /// Amdahl's serial fraction from the times of a step: 1 / speedup = f + (1 - f) / 2, within 0 and 1.
   [[nodiscard]] double serial_fraction() const;
-  /// The same of each phase by itself, together by the phases' shares of a step.
+  /// The serial fraction calculated for each phase by itself, and then averaged by the phases' shares of a
+  /// step.
   [[nodiscard]] double serial_fraction_by_phases() const;
   [[nodiscard]] std::uint64_t bytes() const {
     return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes +

@@ -72,7 +72,7 @@ class Holder {
       }
       held_.push_back({report, hash_of(*report)});
       if (held_.size() > most_) let_go();
-      // Where hashing is slow, under sanitizers, most of the time is left to the steps.
+      // Sleeps for most of the time if hashing is slow, as it is under sanitizers, so that the steps get on.
       std::this_thread::sleep_for(
           std::max<Clock::duration>(std::chrono::milliseconds(2), 4 * (Clock::now() - start)));
     }

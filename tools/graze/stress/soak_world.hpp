@@ -35,8 +35,8 @@ class SoakWorld {
   /// Moves bound memory, changes pairs and rules: the stepping thread, between steps, while nobody writes.
   /// Without mistakes every position is good afterwards.
   void change_between_steps(bool with_mistakes);
-  /// What is wrong with the report of a step before which nobody wrote, next to that of a scene built afresh;
-  /// empty where it is right.
+  /// Describes how the report of a step differs from that of a scene built afresh; empty if it does not.
+  /// No writer may have made calls during that step.
   [[nodiscard]] std::string difference_from_fresh(const FrameReport& report) const;
 
  private:
@@ -53,7 +53,7 @@ class SoakWorld {
     bool is_spoiled = false;                 ///< holds a NaN until the next change
     bool is_new = true;                      ///< no step has seen it
   };
-  /// What belongs to one thread.
+  /// The state that belongs to one thread.
   struct Owner {
     explicit Owner(std::uint64_t seed) : random(seed) {}
     scenes::Random random;

@@ -9,7 +9,7 @@
 
 namespace graze::tools {
 
-/// What a report says of one pair that has nothing to do with earlier steps.
+/// The part of a report about one pair that does not depend on earlier steps.
 struct TimelessRow {
   std::size_t a = 0, b = 0;  ///< by the order in which objects were added
   bool in_contact = false;

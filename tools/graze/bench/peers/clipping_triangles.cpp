@@ -16,7 +16,7 @@ struct Clipper {
   std::vector<TrianglePair> found;
 };
 
-/// What becomes of two triangles whose boxes are near.
+/// The treatment of two triangles whose boxes are near.
 enum class Ending : std::uint8_t { measured, listed };
 
 /// As ClippingVertices, with the boxes of triangles.

@@ -70,7 +70,7 @@ class EmbreeTree {
   }
 
  private:
-  /// What one of several threads of Embree's tells at a time.
+  /// Collisions that Embree reports, from several threads but from one at a time.
   struct Match {
     std::vector<RTCCollision> collisions;
     std::mutex telling;

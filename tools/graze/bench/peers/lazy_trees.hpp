@@ -80,7 +80,7 @@ class Parts {
     const float* p = positions + 3 * std::size_t{part};
     return {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
   }
-  /// The same, grown by so much that boxes of parts that are near each other meet.
+  /// The box of one part, grown so much that the boxes of two near parts meet.
   [[nodiscard]] FloatBox grown_box(std::uint32_t part) const {
     return grown(box(part), 0.5 * world_->distance * (1 + 1e-5));
   }

@@ -9,7 +9,7 @@
 namespace graze::bench {
 namespace {
 
-/// What nanoflann asks of a set of points.
+/// A set of points with the functions that nanoflann requires.
 struct Cloud {
   const float* points;
   std::size_t count;

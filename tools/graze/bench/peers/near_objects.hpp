@@ -14,8 +14,8 @@ struct ObjectPair {
   std::uint32_t a, b;  ///< a < b
 };
 
-/// What every peer begins a frame with: a box for each object that has changed, and the pairs of objects
-/// whose boxes are within the distance.
+/// The first work of every peer in a frame. It computes a box for each object that has changed, and the pairs
+/// of objects whose boxes are within the distance.
 class NearObjects {
  public:
   NearObjects(const World& world, Workers& workers);
@@ -24,7 +24,7 @@ class NearObjects {
 
   [[nodiscard]] const FloatBox& box(std::uint32_t object) const { return boxes_[object]; }
   [[nodiscard]] std::span<const ObjectPair> pairs() const { return pairs_; }
-  /// Those that are in any pair, ascending.
+  /// The objects that are in any pair, in ascending order.
   [[nodiscard]] std::span<const std::uint32_t> objects() const { return near_; }
 
  private:

@@ -47,7 +47,7 @@ inline FloatBox grown(const FloatBox& box, double by) {
   return result;
 }
 
-/// What is in both boxes.
+/// The box of all points that are in both boxes.
 FloatBox common(const FloatBox& a, const FloatBox& b);
 
 /// The box of `count` points of three floats.

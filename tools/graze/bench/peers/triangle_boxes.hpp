@@ -41,7 +41,7 @@ std::uint32_t* add_near(const BoxList& list, std::size_t begin, std::size_t end,
 void add_if_near(const World& world, std::uint32_t object_a, std::uint32_t triangle_a, std::uint32_t object_b,
                  std::uint32_t triangle_b, std::vector<TrianglePair>& found);
 
-/// The same for a candidate whose boxes have not been compared.
+/// Adds the pair if it is nearer than the world's distance. The boxes of the triangles are compared first.
 void add_if_boxes_near(const World& world, std::uint32_t object_a, std::uint32_t triangle_a,
                        std::uint32_t object_b, std::uint32_t triangle_b, std::vector<TrianglePair>& found);
 

@@ -4,9 +4,10 @@
 
 namespace graze::tools {
 
-/// The same motion with each human cut into head, body, arms and legs, "in order to have more control over
-/// the regions" (section 4): six objects of one group, each with a tree of its own. Faces are divided; a
-/// vertex on a cut is in both parts. Of the frames one in `every` is kept, the last among them; `every` > 0.
+/// Cuts each human of a motion into head, body, arms and legs, "in order to have more control over the
+/// regions" (section 4). The motion stays the same. The six objects are of one group, and each has a tree of
+/// its own. Faces are divided; a vertex on a cut is in both parts. One frame in `every` is kept, and the last
+/// frame is among them; `every` > 0.
 RecordedMotion with_humans_in_parts(const RecordedMotion& motion, std::size_t every);
 
 }  // namespace graze::tools

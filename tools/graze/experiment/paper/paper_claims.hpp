@@ -7,10 +7,10 @@
 
 namespace graze::tools {
 
-/// What section 4 says of the experiment of a number, beside what was measured.
+/// Compares each statement of section 4 about one experiment, given by its number, with the measurements.
 std::vector<Claim> claims_of(int experiment, const PaperResults& results);
 
-/// What it says of the human that "can be decomposed".
+/// Compares the paper's statement that the human "can be decomposed" with the measurements.
 Claim parts_claim(const PaperResults& whole, const PaperResults& parts);
 
 }  // namespace graze::tools

@@ -159,7 +159,8 @@ class Measurement {
     if (found != expected) disagree(row, "contacts");
   }
 
-  /// What the library counts, where it did not leave out pairs because nothing moved.
+  /// Compares the counts of the library with this walk's. Steps in which the library skipped pairs because
+  /// nothing moved are left out.
   void compare_work(const LibraryRow& row, std::size_t frame) {
     const StepStatistics& statistics = row.report->statistics();
     if (statistics.pairs_unchanged > 0) return;

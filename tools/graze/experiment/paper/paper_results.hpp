@@ -19,7 +19,7 @@ enum class Reading : std::uint8_t {
   summed,         ///< a row's numbers are each object's, and eq. 4's are their sums (eq. 6)
 };
 
-/// What a row gave in one step, over all pairs of objects. A collision is a pair of leaf regions.
+/// The results of a row in one step, over all pairs of objects. A collision is a pair of leaf regions.
 struct StepCount {
   std::uint64_t truth = 0;     ///< leaf pairs with vertices nearer than the row's last number
   std::uint64_t reported = 0;  ///< leaf pairs for which DV ends nearer than that

@@ -7,8 +7,8 @@
 
 namespace graze::tools {
 
-/// What was done in the experiment of a number, at which scale and why, how the numbers are read, and what
-/// came of it.
+/// The text about one experiment, given by its number. It says what was done, at which scale and why, how to
+/// read the numbers, and what the results are.
 std::string text_of(int experiment, const RecordedMotion& motion, const PaperResults& results);
 
 }  // namespace graze::tools

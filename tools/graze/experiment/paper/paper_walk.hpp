@@ -51,7 +51,7 @@ struct VertexPair {
   friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
 };
 
-/// What two leaf regions give.
+/// The results of the paper's method for two leaf regions.
 struct LeafPair {
   std::uint32_t a = 0;  ///< region of a
   std::uint32_t b = 0;
@@ -67,7 +67,7 @@ struct PaperNumbers {
   bool test_leaves = false;  ///< whether pairs of leaves, too, have to pass eq. 4 before DV
 };
 
-/// What the paper's method does with two objects in one frame.
+/// The work of the paper's method on two objects in one frame.
 struct PaperFound {
   static constexpr std::size_t most_levels = 8;
   std::array<std::uint64_t, most_levels> passed{};  ///< pairs of regions that pass eq. 4, by level
@@ -84,13 +84,13 @@ class PaperWalk {
   PaperWalk(const PlacedObject& a, const PlacedObject& b) : a_(a), b_(b) {}
 
   [[nodiscard]] PaperFound find(const PaperNumbers& numbers);
-  /// Of all pairs of leaves, those with vertices nearer than `threshold`: numbers of `leaves`, ascending by
-  /// regions.
+  /// Finds all pairs of leaves that have vertices nearer than `threshold`. Returns numbers of `leaves`,
+  /// ascending by regions.
   [[nodiscard]] std::vector<std::uint32_t> near_leaves(double threshold);
   [[nodiscard]] const LeafPair& leaves(std::uint32_t number) const { return leaves_[number]; }
   /// How many have a number by now.
   [[nodiscard]] std::size_t leaf_pair_count() const { return leaves_.size(); }
-  /// Of all pairs of vertices, those nearer than `threshold`, sorted by the vertices.
+  /// Finds all pairs of vertices nearer than `threshold`, sorted by the vertices.
   [[nodiscard]] std::vector<VertexPair> near_vertices(double threshold);
   /// The nearest vertices of all.
   [[nodiscard]] VertexPair nearest_vertices() const;

@@ -24,7 +24,7 @@ PlayedSetting setting_of(const PaperRow& row);
 PlayedSetting formula_setting(double contact_distance);
 /// Exact mode with the distances of all pairs, or, with `range` 0, of what is in contact only.
 PlayedSetting exact_setting(ContactDetail detail, double contact_distance, double range);
-/// The same in `within(tolerance)`.
+/// The mode `within(tolerance)` with the distances of all pairs.
 PlayedSetting within_setting(ContactDetail detail, double contact_distance, double tolerance);
 
 /// A recorded motion in a scene of its own.

@@ -81,7 +81,7 @@ class BoundedScene {
     return count;
   }
 
-  /// What BoundMeasure::corner_pairs_left is. Leaves' boxes are made when they are first asked for, for all
+  /// Counts BoundMeasure::corner_pairs_left. Boxes of leaves are made when they are first asked for, for all
   /// kinds of bound alike.
   [[nodiscard]] std::uint64_t corner_pairs_left(std::span<const ReachedLeaves> reached) {
     leaf_boxes_.resize(volumes_.size());

@@ -9,8 +9,8 @@
 
 namespace graze::tools {
 
-/// What one kind of bound over one partition did in the frames of a scene; counts and times are of all frames
-/// together.
+/// The measurements of one kind of bound over one partition in the frames of a scene. Counts and times are
+/// sums over all frames.
 struct BoundMeasure {
   std::string bound;
   std::uint64_t bytes_a_region = 0;  ///< of the bound
@@ -18,8 +18,8 @@ struct BoundMeasure {
   WalkCounts walked;
   std::uint64_t leaf_vertex_pairs = 0;  ///< in the pairs of leaves that were reached
   std::vector<std::uint64_t> leaf_vertex_pairs_by_frame;
-  /// Of bounds of faces: pairs of corners left in the leaves reached when each leaf keeps those that are
-  /// within the distance of the other's box.
+  /// The pairs of corners that are left in the leaves reached, when each leaf keeps the corners within the
+  /// distance of the other's box. Counted for bounds of faces only.
   std::uint64_t corner_pairs_left = 0;
   std::uint64_t near_found = 0;  ///< of those, nearer than the distance; of vertices' bounds only
   double update_ms = 0;          ///< bounds of all regions of all objects, points laid out in order included

@@ -43,7 +43,7 @@ struct NodePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// What the walks of a pair of objects met.
+/// Counts the pairs of regions in the walks of a pair of objects.
 struct WalkCounts {
   std::uint64_t tested = 0;
   std::uint64_t reached = 0;            ///< pairs of leaves that may be near

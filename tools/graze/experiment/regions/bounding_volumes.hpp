@@ -19,7 +19,7 @@
 // or by 2^-44 of the sizes that take part, which is at least 64 times what the operations before it lose.
 namespace graze::tools {
 
-/// Where the points of one region are now.
+/// The present positions of the points of one region.
 struct RegionPoints {
   std::span<const Eigen::Vector3d> points;
   const Eigen::Vector3d& middle;  ///< of the middle vertex (eq. 1); lives as long as the bound

@@ -30,7 +30,7 @@ struct PlacedFrames {
   std::vector<Frame> frames;
 
   [[nodiscard]] std::size_t vertex_count() const;
-  /// Of all frames.
+  /// The number of near pairs in all frames together.
   [[nodiscard]] std::uint64_t near_pair_count() const;
 };
 

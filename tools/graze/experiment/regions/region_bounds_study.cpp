@@ -299,7 +299,7 @@ void add_distances(const bench::BenchScene& models, const ExperimentOptions& opt
   study.tables.push_back(std::move(table));
 }
 
-// What it says.
+// The checks and the text of the study.
 
 void check(const SceneResult& result, Study& study) {
   for (const BoundMeasure& bound : result.of_vertices)

@@ -17,7 +17,7 @@ struct ClusterTree {
   std::vector<Cluster> clusters;
 };
 
-/// What a bound goes around.
+/// The points that a bound goes around.
 enum class Cover : std::uint8_t {
   vertices,  ///< the region's vertices
   faces,  ///< those and all corners of the faces and edges that the region owns, as graze's RegionTree does
@@ -58,7 +58,7 @@ class RegionHierarchy {
     return cover == Cover::vertices ? of_all.subspan(node.first_vertex, node.vertex_count)
                                     : of_all.subspan(node.first_corner, node.corner_count);
   }
-  /// Of nodes and vertex numbers; bounds come on top.
+  /// The bytes of nodes and vertex numbers; those of bounds come on top.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

@@ -277,7 +277,7 @@ Figure frames_figure(const SceneResult& result, std::string name, std::string ti
   return figure;
 }
 
-// What it says.
+// The checks and the text of the study.
 
 void check(const SceneResult& result, Study& study) {
   for (const DivisionResult& each : result.divisions)

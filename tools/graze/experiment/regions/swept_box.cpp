@@ -22,7 +22,7 @@ PrincipalFrame::PrincipalFrame(std::span<const Eigen::Vector3d> points) {
   solver.computeDirect(spread);
   axes[0] = solver.eigenvectors().col(2).normalized();
   if (!(std::abs(axes[0].norm() - 1) < 0.5)) axes[0] = Eigen::Vector3d::UnitX();
-  // Of points on a line the second direction may be anything.
+  // If the points lie on a line, any second direction will do.
   const Eigen::Vector3d across = axes[0].cross(solver.eigenvectors().col(1));
   axes[2] = across.norm() > 0.5 ? across.normalized() : axes[0].unitOrthogonal();
   axes[1] = axes[2].cross(axes[0]);

@@ -22,8 +22,8 @@ struct PrincipalFrame {
   std::vector<Eigen::Vector3d> local;
 };
 
-/// What each point of a region may still be away along the axes that are not fitted yet, within one radius
-/// for all.
+/// The distance that each point of a region may still have along the axes that are not fitted yet. Together
+/// with the distance already spent it must stay within one radius for all points.
 class RadiusLeft {
  public:
   explicit RadiusLeft(std::size_t point_count) : squared_(point_count, 0) {}

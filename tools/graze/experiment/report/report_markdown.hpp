@@ -8,7 +8,8 @@
 
 namespace graze::tools {
 
-/// Where the image of a study's figure is to be found; empty: it has none, and is left out.
+/// Returns where the image of a study's figure is to be found. If it returns an empty string, the figure has
+/// no image and is left out.
 using ImageOf = std::function<std::string(const Study&, const Figure&)>;
 
 /// The page of some studies: contents, and for each study its text, claims beside what was measured, tables

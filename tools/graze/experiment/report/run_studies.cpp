@@ -31,7 +31,7 @@ std::string file_name(const Study& study, const Figure& figure, const char* exte
   return study.name + "_" + figure.name + extension;
 }
 
-/// What is timed, where that is not wanted, and figures without a point.
+/// Removes tables and figures of times if times are not wanted, and figures without a point.
 void leave_out(Study& study, bool times) {
   std::erase_if(study.tables, [&](const ResultTable& table) { return table.timed && !times; });
   std::erase_if(study.figures, [&](const Figure& figure) {
@@ -41,7 +41,7 @@ void leave_out(Study& study, bool times) {
   });
 }
 
-/// What all studies found, and what does not hold.
+/// The results of all studies, and the violations among them.
 struct Findings {
   std::vector<Study> studies;
   std::vector<std::string> violations;

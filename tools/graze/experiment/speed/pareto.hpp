@@ -6,14 +6,15 @@
 
 namespace graze::tools {
 
-/// What something costs, and how wrong it is: less is better.
+/// The cost of something, and its error: less is better in both.
 struct CostAndError {
   double cost = 0;
   double error = 0;
 };
 
-/// Those that no other beats: none is at most as dear and at most as wrong, and better in one. By cost, then
-/// as they come; those that are equal are all of it.
+/// Returns the points that no other point beats. A point beats another if its cost and its error are at most
+/// those of the other, and one of them is less. The result is sorted by cost, then by index. Equal points
+/// of the front are all listed.
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> points);
 
 }  // namespace graze::tools

@@ -9,7 +9,7 @@
 namespace graze::tools {
 namespace {
 
-/// What is last is drawn over the others.
+/// The families in the order in which they are drawn: the last is drawn over the others.
 constexpr std::array<ModeFamily, 7> families = {
     ModeFamily::work_budget,   ModeFamily::time_budget, ModeFamily::paper_loose, ModeFamily::paper_numbers,
     ModeFamily::paper_formula, ModeFamily::within,      ModeFamily::exact};

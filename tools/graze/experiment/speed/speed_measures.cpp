@@ -10,7 +10,7 @@
 namespace graze::tools {
 namespace {
 
-/// What is measured of a scene for one question.
+/// Measures the settings for one question about a scene.
 class QuestionStudy {
  public:
   QuestionStudy(const RecordedScene& scene, const ModeStudy& study, SpeedQuestion question, bool with_times)

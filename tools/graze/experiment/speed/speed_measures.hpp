@@ -10,7 +10,7 @@
 
 namespace graze::tools {
 
-/// What a setting answered, and whether nothing beats it in both time and error.
+/// The answers of a setting, and whether it is on a front, where no setting beats it in both time and error.
 struct SpeedMeasure {
   SpeedQuestion question = SpeedQuestion::contacts;
   ModeResult result;

@@ -41,7 +41,7 @@ void add_tolerances(const MovingScene& scene, const SceneSettings& settings, std
     all.push_back(within(format("within(level %zu)", level), scene.level_epsilon()[level], settings));
 }
 
-/// Of the most that a step of exact mode takes.
+/// Work budgets, as parts of the most work that a step of exact mode takes.
 constexpr double budget_parts[] = {1.0, 0.75, 0.5, 0.25, 0.125, 0.03125, 0.0};
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace graze::tools {
 
-/// What a program asks of a step. Both are about vertices, which all accuracy modes can answer.
+/// The question that a program asks of a step. Both are about vertices, which all accuracy modes can answer.
 enum class SpeedQuestion : std::uint8_t {
   contacts,  ///< every vertex pair closer than the contact distance; pairs of objects in that range
   distances  ///< and how far each pair of objects is apart, however far

@@ -70,7 +70,7 @@ ResultTable answer_table(std::span<const SpeedResults> scenes) {
   return table;
 }
 
-/// What of a measure is an answer to its question.
+/// Returns the columns that show the errors of the answers to a question.
 std::vector<Column> error_columns(SpeedQuestion question) {
   if (question == SpeedQuestion::distances)
     return {{"distance_error_mean", "distance error, mean (edges)"},
