@@ -47,7 +47,8 @@ int run_program(int argument_count, char** arguments) {
       "Built without bench, accuracy and experiment: configure graze with -DGRAZE_STUDIES=ON for them.");
 #else
   app.footer(
-      "Built without stress, bench, accuracy and experiment: cmake --preset release builds a graze with them.");
+      "Built without stress, bench, accuracy and experiment: cmake --preset release builds a graze with "
+      "them.");
 #endif
 #if GRAZE_HAS_ORACLES
   graze::tools::add_accuracy_command(app);
