@@ -18,7 +18,7 @@ built=build/fuzz/tests/fuzz
 found=build/fuzz/found
 if [ $# -eq 0 ]; then
   # shellcheck disable=SC2046 # names without blanks
-  set -- $(cd "$here" && ls ./*_fuzzer.cpp | sed 's|^\./||; s|_fuzzer\.cpp$||')
+  set -- $(cd "$here" && printf '%s\n' *_fuzzer.cpp | sed 's|_fuzzer\.cpp$||')
 fi
 
 status=0

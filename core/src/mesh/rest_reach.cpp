@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/mesh/indexed_mesh.hpp"
 
@@ -20,8 +21,8 @@ std::size_t number_of(int axis, int along, int across) {
 /// Finds the furthest vertex in a direction, by the boxes of regions at rest.
 class FurthestVertex {
  public:
-  FurthestVertex(const IndexedMesh& mesh, const Eigen::Vector3d& centre)
-      : mesh_(mesh), tree_(mesh.regions()), centre_(centre), boxes_(tree_.region_count()) {
+  FurthestVertex(const IndexedMesh& mesh, Eigen::Vector3d centre)
+      : mesh_(mesh), tree_(mesh.regions()), centre_(std::move(centre)), boxes_(tree_.region_count()) {
     for (std::uint32_t index = tree_.region_count(); index-- > 0;) {
       const Region& region = tree_.region(index);
       if (region.is_leaf())

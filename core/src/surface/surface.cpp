@@ -135,14 +135,14 @@ void Surface::count_read(const ReadResult& result, const Box& now) {
 }
 
 Surface::ReadResult Surface::accept(const PartSeen& all) {
-  const ReadResult result = result_of(all);
+  ReadResult result = result_of(all);
   if (result.changed) own_positions(all.in_double);
   if (result.taken()) count_read(result, all.box);
   return result;
 }
 
 Surface::ReadResult Surface::take_in_place(const PartSeen& all, const PositionView& view) {
-  const ReadResult result = result_of(all);
+  ReadResult result = result_of(all);
   if (result.changed) {
     let_go(in_float_);
     let_go(in_double_);
