@@ -74,6 +74,7 @@ class GRAZE_API Mesh {
  public:
   /// A copy shares what the mesh holds, so it is cheap. There is no move, so that a mesh is never empty.
   Mesh(const Mesh&) = default;
+  /// Makes this mesh share what the other one holds.
   Mesh& operator=(const Mesh&) = default;
 
   /// Stands in face_edges() where two consecutive corners are the same vertex.
