@@ -16,7 +16,7 @@ void require(bool holds, const char* what, std::size_t index) {
     throw std::logic_error(std::string("graze validator: ") + what + " at " + std::to_string(index));
 }
 
-bool contains(const Box& box, const Box& other) {
+bool encloses(const Box& box, const Box& other) {
   return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
 }
 
@@ -31,7 +31,7 @@ void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& h
   require(summaries.all().size() == loose.size(), "not every object has a loose box", loose.size());
   for (std::size_t slot = 0; slot < loose.size(); ++slot) {
     const ObjectSummary& summary = summaries.all()[slot];
-    require(contains(loose[slot], grown(summary.box, half_reaches[summary.kind] + summary.margin)),
+    require(encloses(loose[slot], grown(summary.box, half_reaches[summary.kind] + summary.margin)),
             "a loose box does not contain its object", slot);
   }
   for (std::size_t i = 1; i < pairs.size(); ++i) require(pairs[i - 1] < pairs[i], "pairs do not ascend", i);

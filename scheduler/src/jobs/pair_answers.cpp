@@ -3,6 +3,14 @@
 #include "core/base/bytes_of.hpp"
 
 namespace graze {
+namespace {
+
+/// All of an answer but its lists.
+const PairFinding& finding_of(const PairAnswer& answer) {
+  return answer;
+}
+
+}  // namespace
 
 void PairAnswers::begin(std::size_t count) {
   if (answers_.size() < count) answers_.resize(count);
@@ -11,12 +19,12 @@ void PairAnswers::begin(std::size_t count) {
 }
 
 void PairAnswers::keep(std::size_t job, const PairAnswer& answer, unsigned worker) {
-  answers_[job] = {answer, contacts_.keep(answer.contacts, worker),
+  answers_[job] = {finding_of(answer), contacts_.keep(answer.contacts, worker),
                    region_distances_.keep(answer.region_distances, worker)};
 }
 
 void PairAnswers::keep_without_contacts(std::size_t job, const PairAnswer& answer, unsigned worker) {
-  answers_[job] = {answer, {}, region_distances_.keep(answer.region_distances, worker)};
+  answers_[job] = {finding_of(answer), {}, region_distances_.keep(answer.region_distances, worker)};
   answers_[job].contacts_left_out = static_cast<std::uint32_t>(answer.contacts.size());
 }
 
@@ -31,7 +39,7 @@ void PairAnswers::set_contacts(std::size_t job, std::span<const Contact> contact
 }
 
 void PairAnswers::refer_to(std::size_t job, const PairAnswer& answer) {
-  answers_[job] = {answer, answer.contacts, answer.region_distances};
+  answers_[job] = {finding_of(answer), answer.contacts, answer.region_distances};
 }
 
 void PairAnswers::grow_to_demand() {

@@ -179,11 +179,11 @@ ReadOutcome accept_survey(Object& object, const Surface::PartSeen& all) {
 Surface::ReadResult accept_positions(Object& object, const Surface::PartSeen& all) {
   Surface& surface = object.surface_to_write();
   if (!object.positions) {
-    const Surface::ReadResult result = surface.accept(all);
+    Surface::ReadResult result = surface.accept(all);
     if (result.changed) object.standing_positions.reset();
     return result;
   }
-  const Surface::ReadResult result = surface.take_in_place(all, object.positions->view());
+  Surface::ReadResult result = surface.take_in_place(all, object.positions->view());
   if (result.changed) object.standing_positions = std::move(object.positions);
   return result;
 }

@@ -87,7 +87,8 @@ void ObjectStore::apply(const SetPose& call) {
   Object* const object = find(call.object);
   if (object == nullptr) return;
   if (std::exchange(object->frozen, false)) will_have_changed_ = true;
-  // The object already has this pose, or a survey has used it.
+  // The object already has this pose, or a survey has used it. Poses are compared by their bits.
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   if (object->standing_pose && std::memcmp(&*object->standing_pose, &call.rows, sizeof(Pose)) == 0) {
     object->pose.reset();
   } else {
