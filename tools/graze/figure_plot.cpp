@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/indexed_mesh.hpp"
 #include "gnuplot.hpp"
 #include "text_format.hpp"
 
@@ -104,7 +103,7 @@ class LabelRoom {
   std::vector<Box> taken_;
 };
 
-std::string indexed(const Series& series, std::size_t index, const Axis& x, const Axis& y) {
+std::string data_of(const Series& series, std::size_t index, const Axis& x, const Axis& y) {
   std::string text = format("$series%zu << EOD\n", index);
   for (std::size_t i = 0; i < series.x.size(); ++i)
     text += format("%.9g %.9g\n", x.place(series.x[i]), y.place(series.y[i]));
@@ -142,7 +141,7 @@ std::string plot_of(const Figure& figure) {
   for (std::size_t i = 0; i < figure.series.size(); ++i) {
     const Series& series = figure.series[i];
     if (series.x.empty()) continue;
-    text += indexed(series, i, x, y) + labels_of(series, x, y, room);
+    text += data_of(series, i, x, y) + labels_of(series, x, y, room);
     plots += (plots.empty() ? "plot " : ", ") + format("$series%zu using 1:2 ", i) + style_of(series, i) +
              " title " + gnuplot_quoted(series.name);
   }
