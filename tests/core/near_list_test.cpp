@@ -1,5 +1,5 @@
-// Lists of the features that are near, in place of a search while the surfaces hardly move: every answer is
-// that of a query that knows nothing of the steps before, and most need no search.
+// Lists of the features that are near replace a search while the surfaces hardly move. Every answer is that
+// of a query that knows nothing of the steps before, and most need no search.
 
 #include <array>
 #include <iostream>

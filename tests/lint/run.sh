@@ -97,31 +97,24 @@ run_tidy() {
   }
 }
 
-# Sources are looked at in batches: clang-tidy spends nearly all its time on headers, which a batch reads once. The
-# sources of a batch are to clang-tidy what headers are. So the analyzer does not follow paths through their functions.
-check_tidy() {
+# lint_with_tidy ON|OFF CHECKS: clang-tidy on all of core and scheduler, in batches or each source by itself.
+lint_with_tidy() {
   tidy=$(tool clang-tidy)
   if [ -z "$tidy" ]; then
     complain "clang-tidy 14 is missing; tools/install_packages.sh peers installs it on Debian 12"
-  elif configure ON; then
-    run_tidy -bugprone-suspicious-include  # a batch includes sources on purpose
+  elif configure "$1"; then
+    run_tidy "$2"
   else
     cat "$build/log" >&2
     complain "clang-tidy: the sources cannot be configured"
   fi
 }
 
-check_paths() {
-  tidy=$(tool clang-tidy)
-  if [ -z "$tidy" ]; then
-    complain "clang-tidy 14 is missing; tools/install_packages.sh peers installs it on Debian 12"
-  elif configure OFF; then
-    run_tidy '-*,clang-analyzer-*'
-  else
-    cat "$build/log" >&2
-    complain "clang-tidy: the sources cannot be configured"
-  fi
-}
+# In batches clang-tidy reads headers once, on which it spends nearly all its time. It takes the sources of a batch for
+# headers, so its analyzer does not follow paths through their functions. A batch includes sources on purpose.
+check_tidy() { lint_with_tidy ON -bugprone-suspicious-include; }
+
+check_paths() { lint_with_tidy OFF '-*,clang-analyzer-*'; }
 
 [ $# -gt 0 ] || set -- text order tidy
 for check in "$@"; do

@@ -20,8 +20,9 @@ std::vector<std::string> timeless_rows_of(const FrameReport& report, double rang
 /// Empty where frame, rows, contacts, diagnostics and completeness are the same, bit for bit.
 std::string difference_of(const FrameReport& left, const FrameReport& right);
 
-/// Describes an inconsistency within a report: wrong order of pairs or contacts, contacts in rows that have
-/// none, spans that do not follow one another, bounds the wrong way round, or numbers that are not finite.
+/// Describes an inconsistency within a report; empty where there is none. Pairs or contacts may be in wrong
+/// order, or contacts stand in rows that have none. Spans may not follow one another. Bounds may be the wrong
+/// way round, or numbers not finite.
 std::string inconsistency_of(const FrameReport& report);
 
 }  // namespace graze::tests

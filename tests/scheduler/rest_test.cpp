@@ -21,8 +21,8 @@ bool shares_rows(const ReportHandle& left, const ReportHandle& right) {
   return left->pairs().data() == right->pairs().data();
 }
 
-/// Two plates and two needles that are told to do the same, and far from the second plate, in its scene
-/// alone, a needle that never rests, so that no step of that scene is one without a change.
+/// Two scenes of a plate and a needle that are told to do the same. In the second scene another needle, far
+/// away, never rests. So every step of that scene has a change.
 class RestingAndNot {
  public:
   explicit RestingAndNot(const SceneSettings& settings)

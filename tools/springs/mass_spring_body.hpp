@@ -16,15 +16,18 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 /// Masses joined by springs, moved by implicit Euler.
 ///
 /// Explicit schemes blow up once a step is longer than a spring's own period allows. Implicit Euler does not
-/// (Baraff and Witkin, Large Steps in Cloth Simulation, 1998), but takes one linear solve of another matrix
-/// in each step, and that matrix has to be kept positive where springs are pressed together. It is solved
-/// here as Liu, Bargteil, O'Brien and Kavan do (Fast Simulation of Mass-Spring Systems, 2013): a step is the
-/// minimum of (1/2h²)‖x − y‖²_M + E(x), y being where inertia and outer forces lead. With a direction d for
-/// each spring, E is quadratic in x, and the minimum over x, and that over d, are found in turn: the best d
-/// is the spring's present direction, the best x solves M + h²L, which never changes and is factorized once.
-/// Each half lowers the same bounded sum, whatever the step and the stiffness, so nothing can blow up; energy
-/// is lost, as in implicit Euler, and not won. Since springs pull both ends alike the rows of L sum to zero,
-/// and momentum is kept in every iteration, not at convergence only.
+/// (Baraff and Witkin, Large Steps in Cloth Simulation, 1998). But each step solves a linear system with
+/// another matrix, which has to be kept positive where springs are pressed together.
+///
+/// The system is solved as Liu, Bargteil, O'Brien and Kavan do (Fast Simulation of Mass-Spring Systems,
+/// 2013). A step is the minimum of (1/2h²)‖x − y‖²_M + E(x), where y is where inertia and outer forces lead.
+/// With a direction d for each spring, E is quadratic in x. The minima over x and over d are found in turn.
+/// The best d is the spring's present direction. The best x solves M + h²L, which never changes and is
+/// factorized once.
+///
+/// Each half lowers the same bounded sum, whatever the step and the stiffness, so nothing can blow up. Energy
+/// is lost, as in implicit Euler, and not won. Springs pull both ends alike, so the rows of L sum to zero.
+/// Momentum is therefore kept in every iteration, not at convergence only.
 ///
 /// The motion is the same in every run: the number of iterations is fixed, and nothing is random.
 class MassSpringBody {

@@ -18,12 +18,12 @@ namespace graze {
 /// from there to double, several at once. So keys may come later than the features; all have come after
 /// `finish`.
 ///
-/// `range.limit()` is the distance from which on a pair is of no interest; it may shrink meanwhile. For pairs
-/// nearer than `range.keys_only_below()` only the keys are wanted. Edges are tested for piercing faces where
-/// `range.may_pierce()`, if they are not further than `range.touching()`. `range.found(a, b)` is called for
-/// each pair that is not further than these, at times twice. `range.left_out(limit)` is called when something
-/// further than that was discarded. `range.keep(lower)` is asked about features that are too large for float,
-/// with a bound from double.
+/// From the distance `range.limit()` on a pair is of no interest. It may shrink meanwhile. Below the distance
+/// `range.keys_only_below()` only the keys of pairs are wanted. Edges are tested for piercing faces where
+/// `range.may_pierce()`, if they are not further than `range.touching()`. The search calls
+/// `range.found(a, b)` for each pair that is not further than these, at times twice. It calls
+/// `range.left_out(limit)` when something further than that was discarded. It asks `range.keep(lower)` about
+/// features that are too large for float, with a bound from double.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
  public:

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/require.hpp"
+#include "core/base/require.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/mesh/region_tree.hpp"
 

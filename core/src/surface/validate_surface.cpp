@@ -1,7 +1,7 @@
 #include "surface/validate_surface.hpp"
 
 #ifdef GRAZE_VALIDATE
-#include "base/require.hpp"
+#include "core/base/require.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {

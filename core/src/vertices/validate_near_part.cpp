@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/require.hpp"
+#include "core/base/require.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {

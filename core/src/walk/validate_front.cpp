@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/require.hpp"
+#include "core/base/require.hpp"
 #include "core/pair/leaf_front.hpp"
 #include "core/surface/surface.hpp"
 #include "pair/bounds.hpp"

@@ -1,7 +1,5 @@
-#include <stdexcept>
-#include <string>
-
 #include "broad_phase/broad_phase.hpp"
+#include "core/base/require.hpp"
 
 namespace graze {
 
@@ -10,11 +8,6 @@ namespace {
 
 /// The pairs are compared one by one only up to this many objects.
 constexpr std::size_t most_objects = 200;
-
-void require(bool holds, const char* what, std::size_t index) {
-  if (!holds)
-    throw std::logic_error(std::string("graze validator: ") + what + " at " + std::to_string(index));
-}
 
 bool encloses(const Box& box, const Box& other) {
   return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();

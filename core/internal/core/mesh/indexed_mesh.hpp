@@ -59,10 +59,10 @@ class GRAZE_API IndexedMesh {
   [[nodiscard]] std::span<const std::uint32_t> edge_faces(std::uint32_t edge) const {
     return faces_of_edges().row(edge);
   }
-  /// The vertices around `vertex` in the order of its triangles, of which each has one of them and the next
-  /// for its other corners, in its own sense. Where no triangle is between two of them `vertex` itself
-  /// stands, so that there is a triangle without area; quads are two triangles, and others without area at
-  /// any position are left out.
+  /// The vertices around `vertex` as a fan of triangles. Each two that follow one another make a triangle
+  /// with `vertex`, in the sense of its face. `vertex` itself stands between two that make none, which gives
+  /// a triangle without area. A quad counts as two triangles. Triangles that have no area at any position
+  /// are left out.
   [[nodiscard]] std::span<const std::uint32_t> vertex_fans(std::uint32_t vertex) const {
     return fans().row(vertex);
   }
@@ -85,7 +85,7 @@ class GRAZE_API IndexedMesh {
   /// Makes the lists of a use now, so that nobody waits for them later. Any thread.
   void prepare_for(Use use) const;
 
-  /// Whether vertices are listed by stretches: of large meshes all of whose vertices are used.
+  /// Whether vertices are listed by stretches. They are in a large mesh without unused vertices.
   [[nodiscard]] bool has_stretches() const;
   /// Whether any face uses `vertex`.
   [[nodiscard]] bool is_used(std::uint32_t vertex) const { return used_.empty() || used_[vertex] != 0; }
@@ -137,12 +137,13 @@ class GRAZE_API IndexedMesh {
 
   std::vector<Eigen::Vector3d> rest_;
   std::vector<std::uint32_t> corners_;
-  std::vector<std::uint32_t> face_begin_;  ///< into these; empty where all faces have as many corners
+  std::vector<std::uint32_t>
+      face_begin_;  ///< into `corners_`; empty if all faces have the same number of corners
   std::uint32_t corners_each_ = 0;
   std::uint32_t face_count_ = 0;
   std::vector<std::uint32_t> face_edges_;
   std::vector<std::array<std::uint32_t, 2>> edges_;
-  std::vector<std::uint8_t> used_;  ///< by vertex; empty where all are
+  std::vector<std::uint8_t> used_;  ///< by vertex; empty if all vertices are used
   RegionTree regions_;
   MadeOnce<Rows> neighbours_, vertex_faces_, edge_faces_, fans_;
   MadeOnce<Blocks> blocks_;

@@ -76,8 +76,8 @@ struct PaperFound {
   std::vector<std::uint32_t> reached;  ///< pairs of leaves given to DV: numbers of PaperWalk::leaves
 };
 
-/// The paper's DMV and DV (sections 3.2 and 3.3) on two objects in one frame, written down as plainly as can
-/// be in double, to compare the library with; and all pairs of leaves, which nothing is left out of.
+/// The paper's DMV and DV (sections 3.2 and 3.3) on two objects in one frame. They are written in double, as
+/// plainly as can be, to compare the library with. All pairs of leaves are found, too, and none is left out.
 class PaperWalk {
  public:
   /// Both must outlive it.

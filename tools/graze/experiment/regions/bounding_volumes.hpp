@@ -9,14 +9,13 @@
 
 #include "core/base/box.hpp"
 
-// Bounds that a region may carry. Each kind `Volume` has
-//   static constexpr const char* name;
-//   static Volume around(const RegionPoints&);           of all the region's points, at least one
-//   static constexpr bool merges;                         whether `add` gives the same as `around` all points
-//   void add(const Volume& child);                        only where it merges
-//   double lower_distance(const Volume&, const Volume&);  at most the distance of any two points in them
-// Numbers are double in all of them. Rounding is always to the safe side: by the factors of <graze/box.hpp>,
-// or by 2^-44 of the sizes that take part, which is at least 64 times what the operations before it lose.
+// Bounds that a region may carry. Each kind of bound is a class `Volume`. Its `name` is a static constexpr
+// const char*. Its function `around(points)` makes the bound of all points of a region, which has one at
+// least. Its constant `merges` says whether `add` gives what `around` gives for all points. Only bounds that
+// merge have `add(child)`, which extends a bound by a child's. The function `lower_distance(a, b)` gives at
+// most the distance of any two points in the two bounds. Numbers are double in all of them. Rounding is
+// always to the safe side: by the factors of core/base/box.hpp, or by 2^-44 of the sizes that take part,
+// which is at least 64 times what the operations before it lose.
 namespace graze::tools {
 
 /// The present positions of the points of one region.
