@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assimp/read_assimp.hpp"
+#include "mesh/rigged_file.hpp"
 
 namespace graze::fuzz {
 

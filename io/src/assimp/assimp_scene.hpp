@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "assimp/read_assimp.hpp"
+#include "mesh/rigged_file.hpp"
 
 namespace graze::io {
 

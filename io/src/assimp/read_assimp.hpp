@@ -1,20 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <graze/io/mesh_file.hpp>
 
-#include "mesh/raw_object.hpp"
-#include "mesh/rig.hpp"
+#include "mesh/rigged_file.hpp"
 
 namespace graze::io {
-
-/// A file with nodes, as its reader gives it. Object i of `file` is body i of `rig`, posed as it stands while
-/// nothing plays.
-struct RiggedFile {
-  RawFile file;
-  Rig rig;
-  FileFrame frame;
-};
 
 /// Reads a file of any format that assimp knows. Throws InputError that tells a format that is not read from
 /// a damaged file.

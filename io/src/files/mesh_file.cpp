@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "assimp/read_assimp.hpp"
 #include "files/object_file.hpp"
 #include "formats/read_stl.hpp"
 #include "gltf/read_gltf.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "assimp/read_assimp.hpp"
 #include "gltf/gltf_accessor.hpp"
 #include "gltf/gltf_clips.hpp"
 #include "gltf/gltf_json.hpp"

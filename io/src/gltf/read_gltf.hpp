@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "assimp/read_assimp.hpp"
+#include "mesh/rigged_file.hpp"
 
 namespace graze::io {
 
