@@ -137,6 +137,22 @@ TEST_CASE("survey: a binding that is taken back before a step is where its memor
   CHECK(only_pair(*report).distance.upper == 0.25);
 }
 
+TEST_CASE("survey: one call of positions_changed before the first step is not a second one in a row") {
+  Scene scene(settings_of(0.5, 1));
+  Positions memory = Field::at(0, {0, 0, 0.25});
+  const ObjectId plate = scene.add(plate_mesh());
+  scene.bind_positions(plate, memory, BindPolicy::when_told);
+  scene.positions_changed(plate);
+  CHECK(scene.step()->statistics().objects_surveyed == 0);
+  // No call tells of this, so the plate stays where the first step read it.
+  const Positions elsewhere = Field::at(0, {0, 0, 0.75});
+  std::copy(elsewhere.begin(), elsewhere.end(), memory.begin());
+  scene.add(plate_mesh());
+  const ReportHandle report = scene.step();
+  CHECK(report->diagnostics().empty());
+  CHECK(only_pair(*report).distance.upper == Approx(0.25).epsilon(1e-12));
+}
+
 TEST_CASE("survey: bad memory freezes what is far too, until it is good") {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   Field field;

@@ -49,8 +49,9 @@ std::optional<Diagnostic> check_promise(const Object& object, double displacemen
   // The displacement is rounded, so a promise that is kept to the last bit must not count as broken.
   if (!(displacement > object.promised * round_up)) return std::nullopt;
   return diagnostic_of(object, DiagnosticKind::broken_promise, [&] {
+    const double promised = object.promised == 0 ? 0 : object.promise_sum;
     return name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
-           ", further than the " + number_text(object.promise_sum) + " promised; all positions were read";
+           ", further than the " + number_text(promised) + " promised; all positions were read";
   });
 }
 

@@ -167,7 +167,8 @@ void ObjectStore::apply(const PositionsChanged& call) {
   }
   expect_input(*object);
   object->is_notified = true;
-  if (object->notified_step != steps_ + 1) object->is_notified_again = object->notified_step == steps_;
+  if (object->notified_step != steps_ + 1)
+    object->is_notified_again = steps_ > 0 && object->notified_step == steps_;
   object->notified_step = steps_ + 1;
   object->is_new = true;
   object->promise = call.max_displacement;
