@@ -40,7 +40,9 @@ ORDER = {
         "pairs": "filters, memory, list of jobs",
         "report": "reports, handles, contact rows",
         "jobs": "refit, searches on all threads",
+        "recording": "what steps take up, as chunks",
         "step": "one step, and the scene",
+        "replay": "recordings: write, read, replay, cut",
     },
     "io": {
         "text": "numbers, JSON, errors, log",

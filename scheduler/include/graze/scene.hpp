@@ -17,6 +17,11 @@
 
 namespace graze {
 
+/// @cond internal
+class Recorder;
+class Replay;
+/// @endcond
+
 /// @addtogroup scene
 /// @{
 
@@ -277,6 +282,8 @@ class GRAZE_API Scene {
   /// Takes 16 numbers for each object: its 4 x 4 matrix, column by column.
   void set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices);
 
+  friend class Recorder;
+  friend class Replay;
   class State;
   std::unique_ptr<State> state_;
 };

@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "calls/call_queue.hpp"
 #include "calls/object_ids.hpp"
@@ -55,6 +56,12 @@ class Staging {
   void set_ignored(ObjectId a, ObjectId b, bool ignored);
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
   void reserve(const SceneCapacity& capacity);
+
+  /// Queues a call as it is, for a replay. The caller has checked what the call's own function would check.
+  template <typename OneCall>
+  void repeat(OneCall call) {
+    CallQueue::Chain(queue_).add(std::move(call));
+  }
 
   /// Pins the object that an id names; the pin is empty if it names none.
   [[nodiscard]] ObjectIds::Pin find(ObjectId object) { return ids_.pin(object); }

@@ -48,6 +48,12 @@ Object* ObjectStore::find(ObjectId id) {
   return object->id == id ? object : nullptr;
 }
 
+const Object* ObjectStore::find_serial(std::uint64_t serial) const {
+  const auto found = std::lower_bound(serials_.begin(), serials_.end(), serial);
+  if (found == serials_.end() || *found != serial) return nullptr;
+  return objects_[static_cast<std::size_t>(found - serials_.begin())].get();
+}
+
 void ObjectStore::apply(AddObject& call) {
   auto object = std::make_unique<Object>();
   make_room_for_one(serials_);
@@ -242,7 +248,8 @@ void ObjectStore::drop_removed() {
             [](const DepartedObject& left, const DepartedObject& right) { return left.id < right.id; });
 }
 
-void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
+void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
+                                 MemoryObserver* observer) {
   report_problems(diagnostics);  // those of a step that came to no end
   changed_ = std::exchange(will_have_changed_, false);
   ++steps_;
@@ -254,8 +261,10 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   // Everything is done in one pass, since a second pass would find the first objects out of the caches.
   std::erase_if(with_input_, [&](Object* object) {
     object->may_have_input = has_input(*object);
-    if (object->may_have_input) plan_read(*object);
-    return !object->may_have_input;
+    if (!object->may_have_input) return true;
+    if (observer != nullptr && object->bound && !stays_unread(*object)) observer->see_memory(*object);
+    plan_read(*object);
+    return false;
   });
   read_listed(tasks, diagnostics);
   mark_new_seen();

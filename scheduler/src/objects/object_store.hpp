@@ -104,6 +104,15 @@ struct DepartedObject {
   std::uint64_t serial = 0;  ///< Object::serial
 };
 
+/// Sees the memory that a step is going to read, before it is read.
+class MemoryObserver {
+ public:
+  virtual void see_memory(const Object& object) noexcept = 0;
+
+ protected:
+  ~MemoryObserver() = default;
+};
+
 /// The objects of a scene in the order of addition. Stepping thread only.
 ///
 /// A step's work here is proportional to the number of objects that received calls, and of removals. A step
@@ -131,8 +140,8 @@ class ObjectStore {
   /// promises keep far from everything stays unread. An object that no pair of the last step tested, or that
   /// can be viewed, is surveyed: only its box is computed. A survey copies no bound memory, and reads no
   /// vertex of copies and poses. Objects are processed in parallel. Appends diagnostics in the order of the
-  /// objects.
-  void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
+  /// objects. `observer`, if there is one, sees each object whose bound memory may be read.
+  void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics, MemoryObserver* observer);
   /// Reads the objects in `wanted`, which are unread and listed once each.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
@@ -149,6 +158,10 @@ class ObjectStore {
   /// The objects that exist after `read_positions`, ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
   [[nodiscard]] Object* find(ObjectId id);
+  /// The serial of the next object that is added.
+  [[nodiscard]] std::uint64_t next_serial() const { return next_serial_; }
+  /// The object of a serial, or null.
+  [[nodiscard]] const Object* find_serial(std::uint64_t serial) const;
   /// The objects removed since `forget_departed`, sorted by id once `read_positions` has returned.
   [[nodiscard]] std::span<const DepartedObject> departed() const { return departed_; }
   /// Forgets the removed objects. Call it when a report has named the pairs that their removal ended.

@@ -40,6 +40,21 @@ class PairFilter {
   /// Forgets the ignored pairs of a removed object.
   void forget(const Object& object);
 
+  /// Calls `visit(kind_a, kind_b, rule)` with every rule, and the lower kind first.
+  template <typename Visit>
+  void visit_rules(const Visit& visit) const {
+    if (rule_of_.empty()) return;
+    for (std::uint32_t kind_a = 0; kind_a < kind_count; ++kind_a)
+      for (std::uint32_t kind_b = kind_a; kind_b < kind_count; ++kind_b)
+        if (const std::size_t rule = rule_of_[index_of(kind_a, kind_b)]; rule > 0)
+          visit(kind_a, kind_b, rules_[rule - 1]);
+  }
+  /// Calls `visit(serial_a, serial_b)` with every pair that is ignored, in no order. Objects may be gone.
+  template <typename Visit>
+  void visit_ignored(const Visit& visit) const {
+    ignored_.visit([&](const PairSet::Pair& pair) { visit(pair.first, pair.second); });
+  }
+
   [[nodiscard]] PairVerdict verdict(const ObjectSummary& a, const ObjectSummary& b) const;
   [[nodiscard]] PairThresholds thresholds(const ObjectSummary& a, const ObjectSummary& b) const;
   /// PairThresholds::reach.

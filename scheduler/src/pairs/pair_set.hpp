@@ -27,6 +27,12 @@ class PairSet {
     size_ = 0;
     for (const Pair& pair : kept_) insert(pair);
   }
+  /// Calls `visit` with every pair, in no order.
+  template <typename Visit>
+  void visit(const Visit& visit) const {
+    for (const Pair& pair : slots_)
+      if (pair != nothing) visit(pair);
+  }
   /// Whether the next new pair makes the array grow.
   [[nodiscard]] bool is_full() const { return 2 * (size_ + 1) > slots_.size(); }
   void grow();

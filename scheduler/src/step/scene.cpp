@@ -5,20 +5,12 @@
 #include <memory>
 #include <utility>
 
-#include "base/settings_check.hpp"
-#include "calls/staging.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/pair/pair_query.hpp"
-#include "report/report_pool.hpp"
-#include "step/stepper.hpp"
+#include "step/scene_state.hpp"
 
 namespace graze {
 namespace {
-
-const SceneSettings& checked(const SceneSettings& settings) {
-  if (const auto problem = problem_of(settings)) throw Error(*problem);
-  return settings;
-}
 
 /// Prepares what pairs of an object will need of its mesh, so that no step waits for it.
 void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneSettings& scene) {
@@ -30,10 +22,6 @@ void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneS
                                                : IndexedMesh::Use::normals);
   if (object.motion != Motion::deformable) mesh.prepare_for(IndexedMesh::Use::poses);
 }
-
-/// Says whether a step runs. The step shares it, since the scene may be destroyed before the step has cleared
-/// it.
-using Stepping = std::shared_ptr<std::atomic<bool>>;
 
 void begin_stepping(const Stepping& stepping) {
   if (stepping->exchange(true, std::memory_order_acquire))
@@ -58,28 +46,7 @@ class SteppingEnd {
   Stepping stepping_;
 };
 
-/// The pool deletes itself when its scene and all handles are gone.
-struct PoolCloser {
-  void operator()(ReportPool* pool) const { pool->close(); }
-};
-
 }  // namespace
-
-class Scene::State {
- public:
-  explicit State(const SceneSettings& given)
-      : settings(checked(given)), reports(ReportPool::create()), stepper(settings, staging, *reports) {}
-  ~State() { stepping->wait(true, std::memory_order_acquire); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-
-  const SceneSettings settings;
-  Staging staging;
-  const std::unique_ptr<ReportPool, PoolCloser> reports;
-  Stepper stepper;  ///< goes before `staging`, to which its objects give buffers back
-  const Stepping stepping = std::make_shared<std::atomic<bool>>(false);
-  std::exception_ptr problem;  ///< of the last step_async
-};
 
 Scene::Scene(const SceneSettings& settings) : state_(std::make_unique<State>(settings)) {}
 Scene::~Scene() = default;

@@ -63,14 +63,14 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       refit_(settings, tasks_),
       jobs_(settings, tasks_) {}
 
-void Step::run(const FrameReport& previous, FrameReport& report) {
+void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* capture) {
   const Clock::time_point start = Clock::now();
   Lap lap(start);
   ReportBuilder builder(report);
   StepStatistics& statistics = builder.statistics();
 
-  apply_calls(builder.diagnostics());
-  store_.read_positions(tasks_, builder.diagnostics());
+  apply_calls(builder.diagnostics(), capture);
+  store_.read_positions(tasks_, builder.diagnostics(), capture);
   statistics.read_ms = lap();
   if (std::exchange(can_repeat_report_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
@@ -95,43 +95,49 @@ void Step::run(const FrameReport& previous, FrameReport& report) {
   statistics.step_ms = Lap(start)();
 }
 
-void Step::apply_calls(std::vector<Diagnostic>& diagnostics) {
-  staging_.visit_collected(Overloaded{
-      [&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
-      [&](SetRule& rule) {
-        pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
-        can_repeat_report_ = false;
-      },
-      [&](IgnorePair& pair) {
-        can_repeat_report_ = false;
-        const Object* const a = store_.find(pair.a);
-        const Object* const b = store_.find(pair.b);
-        if (a != nullptr && b != nullptr) pairs_.filter().set_ignored(*a, *b, pair.ignored);
-      },
-      [&](RemoveObject& removed) {
-        if (const Object* const object = store_.find(removed.object)) pairs_.filter().forget(*object);
-        store_.apply(removed);
-      },
-      [&](RefusePose& refused) {
-        diagnostics.push_back(refused.problem);
-        store_.apply(refused);
-      },
-      [&](BindPositions& bound) {
-        store_.apply(bound);
-        Object* const object = store_.find(bound.object);
-        if (is_reserved_ && object != nullptr) prepare_copy(*object);
-      },
-      [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
-      [&](Reserve& call) {
-        can_repeat_report_ = false;  // a step that repeats rows does not count what is made room for
-        // If there is no memory for it, it is not tried again: the scene does without it.
-        reserve(std::exchange(call.capacity, {}));
-      },
-      [&](AddObject& added) {
-        if (is_reserved_) prepare_surface(*added.surface, added.settings.motion);
-        store_.apply(added);
-      },
-      [&](auto& other) { store_.apply(other); }});
+void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* capture) {
+  const Overloaded apply{[&](Diagnostic& diagnostic) { diagnostics.push_back(std::move(diagnostic)); },
+                         [&](SetRule& rule) {
+                           pairs_.filter().set_rule(rule.kind_a, rule.kind_b, std::move(rule.rule));
+                           can_repeat_report_ = false;
+                         },
+                         [&](IgnorePair& pair) {
+                           can_repeat_report_ = false;
+                           const Object* const a = store_.find(pair.a);
+                           const Object* const b = store_.find(pair.b);
+                           if (a != nullptr && b != nullptr)
+                             pairs_.filter().set_ignored(*a, *b, pair.ignored);
+                         },
+                         [&](RemoveObject& removed) {
+                           if (const Object* const object = store_.find(removed.object))
+                             pairs_.filter().forget(*object);
+                           store_.apply(removed);
+                         },
+                         [&](RefusePose& refused) {
+                           diagnostics.push_back(refused.problem);
+                           store_.apply(refused);
+                         },
+                         [&](BindPositions& bound) {
+                           store_.apply(bound);
+                           Object* const object = store_.find(bound.object);
+                           if (is_reserved_ && object != nullptr) prepare_copy(*object);
+                         },
+                         [&](UnbindPositions& call) { store_.apply(call, diagnostics); },
+                         [&](Reserve& call) {
+                           can_repeat_report_ =
+                               false;  // a step that repeats rows does not count what is made room for
+                           // If there is no memory for it, it is not tried again: the scene does without it.
+                           reserve(std::exchange(call.capacity, {}));
+                         },
+                         [&](AddObject& added) {
+                           if (is_reserved_) prepare_surface(*added.surface, added.settings.motion);
+                           store_.apply(added);
+                         },
+                         [&](auto& other) { store_.apply(other); }};
+  if (capture == nullptr) return staging_.visit_collected(apply);
+  capture->begin_step(store_);
+  staging_.visit_collected([&](auto& call) { capture->see(call, [&] { apply(call); }); });
+  capture->see_content(pairs_.filter());
 }
 
 void Step::reserve(const SceneCapacity& capacity) {

@@ -9,6 +9,7 @@
 #include "jobs/pair_jobs.hpp"
 #include "jobs/region_refit.hpp"
 #include "pairs/pair_table.hpp"
+#include "recording/frame_capture.hpp"
 #include "report/contact_rows.hpp"
 #include "report/report_builder.hpp"
 #include "report/report_pool.hpp"
@@ -22,15 +23,15 @@ class Step {
   Step(const SceneSettings& settings, SceneContent& content, Staging& staging, ReportPool& reports);
 
   /// Fills `report`, the last one that the pool has begun, which follows `previous`. If it throws, neither
-  /// the report nor this object can be used again.
-  void run(const FrameReport& previous, FrameReport& report);
+  /// the report nor this object can be used again. `capture` sees what is taken up, unless it is null.
+  void run(const FrameReport& previous, FrameReport& report, FrameCapture* capture);
   /// Reserves memory ahead of time, unless all numbers are 0.
   void reserve(const SceneCapacity& capacity);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void apply_calls(std::vector<Diagnostic>& diagnostics);
+  void apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* capture);
   void reserve_for_pairs(const SceneCapacity& capacity);
   void prepare_surface(Surface& surface, Motion motion);
   void prepare_copy(Object& object);

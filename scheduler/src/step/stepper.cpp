@@ -11,6 +11,7 @@ Stepper::Stepper(const SceneSettings& settings, Staging& staging, ReportPool& re
 
 ReportHandle Stepper::run(std::uint64_t tag) {
   const FloatingPointScope scope;
+  if (capture_ != nullptr && capture_->is_closed()) capture_.reset();
   try {
     if (step_ == nullptr) step_ = begun_afresh();
     fill(reports_.begin(), tag);
@@ -18,7 +19,9 @@ ReportHandle Stepper::run(std::uint64_t tag) {
     step_failed();
     throw;
   }
-  return reports_.publish();
+  ReportHandle report = reports_.publish();
+  if (capture_ != nullptr) capture_->end_step(report);
+  return report;
 }
 
 void Stepper::start(std::function<void()> work) {
@@ -49,7 +52,7 @@ void Stepper::fill(FrameReport& report, std::uint64_t tag) {
   builder.begin(previous->frame() + 1, tag);
   if (!untold_.empty()) builder.diagnostics().swap(untold_);
   try {
-    step_->run(*previous, report);
+    step_->run(*previous, report, capture_.get());
   } catch (...) {
     untold_.swap(builder.diagnostics());
     step_.reset();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calls/staging.hpp"
+#include "recording/frame_capture.hpp"
 #include "report/report_pool.hpp"
 #include "step/scene_content.hpp"
 #include "step/step.hpp"
@@ -23,6 +24,11 @@ namespace graze {
 class Stepper {
  public:
   Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports);
+
+  /// Whether no recorder sees the steps.
+  [[nodiscard]] bool can_attach() const { return capture_ == nullptr || capture_->is_closed(); }
+  /// Lets a recorder see the steps from the next one on, until it is closed.
+  void attach(std::shared_ptr<FrameCapture> capture) { capture_ = std::move(capture); }
 
   /// Collects the calls made so far for the next `run`.
   void collect_calls() { staging_.collect(); }
@@ -40,8 +46,9 @@ class Stepper {
   Staging& staging_;
   ReportPool& reports_;
   SceneContent content_;
-  std::unique_ptr<Step> step_;      ///< null after a failed step
-  std::vector<Diagnostic> untold_;  ///< diagnostics of a failed step, not reported yet
+  std::shared_ptr<FrameCapture> capture_;  ///< null where nobody records
+  std::unique_ptr<Step> step_;             ///< null after a failed step
+  std::vector<Diagnostic> untold_;         ///< diagnostics of a failed step, not reported yet
 };
 
 }  // namespace graze

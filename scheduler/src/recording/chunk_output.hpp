@@ -1,0 +1,106 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "recording/byte_buffer.hpp"
+#include "recording/chunks.hpp"
+
+namespace graze {
+
+/// Where the chunks of a recording go. Writing thread only.
+class ChunkOutput {
+ public:
+  virtual ~ChunkOutput() = default;
+  /// Takes a sealed chunk. Throws Error where it cannot be written.
+  virtual void put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) = 0;
+  /// Says that the last keyframe or step adds an object of this mesh.
+  virtual void use_mesh(std::uint32_t number) = 0;
+};
+
+/// A file of chunks, from the first byte to the last. Each chunk is handed to the system as a whole.
+class RecordingFileWriter {
+ public:
+  /// Opens the file and writes its head. Throws Error.
+  explicit RecordingFileWriter(const std::filesystem::path& path);
+  void put(ChunkKind kind, std::uint64_t number, std::span<const std::byte> chunk);
+  /// Writes the index and closes the file. Throws Error.
+  void finish();
+  /// Any thread.
+  [[nodiscard]] std::uint64_t byte_count() const { return offset_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  void write(std::span<const std::byte> bytes);
+  [[noreturn]] void fail(const char* what) const;
+
+  std::string name_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::atomic<std::uint64_t> offset_{0};  ///< others only read it
+  std::vector<IndexEntry> index_;
+};
+
+class FileOutput final : public ChunkOutput {
+ public:
+  explicit FileOutput(const std::filesystem::path& path) : file_(path) {}
+  void put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) override {
+    file_.put(kind, number, chunk.bytes());
+  }
+  void use_mesh(std::uint32_t) override {}
+  void finish() { file_.finish(); }
+  /// Any thread.
+  [[nodiscard]] std::uint64_t byte_count() const { return file_.byte_count(); }
+
+ private:
+  RecordingFileWriter file_;
+};
+
+/// The last frames in memory, within a budget. What is dropped goes from one keyframe to the next.
+class RingOutput final : public ChunkOutput {
+ public:
+  RingOutput(std::size_t byte_budget, std::uint64_t frame_limit)
+      : byte_budget_(byte_budget), frame_limit_(frame_limit) {}
+  void put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) override;
+  void use_mesh(std::uint32_t number) override;
+  /// Writes what is there as a whole recording. Any thread. Throws Error.
+  void write(const std::filesystem::path& path) const;
+  /// Any thread.
+  [[nodiscard]] std::uint64_t byte_count() const;
+
+ private:
+  struct Chunk {
+    ChunkKind kind;
+    std::uint64_t number;
+    ByteBuffer bytes;
+  };
+  /// A keyframe and the steps after it.
+  struct Segment {
+    std::vector<std::shared_ptr<const Chunk>> chunks;
+    std::set<std::uint32_t> meshes;
+    std::uint64_t byte_count = 0;
+    std::uint64_t frames = 0;
+  };
+  void drop_oldest();
+
+  std::size_t byte_budget_;
+  std::uint64_t frame_limit_;
+  mutable std::mutex mutex_;  ///< guards all below
+  std::shared_ptr<const Chunk> settings_;
+  std::map<std::uint32_t, std::shared_ptr<const Chunk>> meshes_;
+  std::deque<Segment> segments_;
+  std::uint64_t byte_count_ = 0;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace graze

@@ -1,0 +1,163 @@
+#include "recording/frame_capture.hpp"
+
+namespace graze {
+
+void CapturedFrame::clear() {
+  record_count = 0;
+  records.clear();
+  is_fresh = false;
+  dropped_before = 0;
+  new_meshes.clear();
+  report = ReportHandle();
+}
+
+// ---- The queue
+
+CapturedFrame* FrameQueue::free_frame() {
+  const std::uint64_t pushed = pushed_.load(std::memory_order_relaxed);
+  const bool is_full = pushed - popped_.load(std::memory_order_acquire) == frames_.size();
+  return is_full ? nullptr : &frames_[pushed % frames_.size()];
+}
+
+void FrameQueue::push() {
+  pushed_.fetch_add(1, std::memory_order_release);
+  pushed_.notify_one();
+}
+
+void FrameQueue::close() {
+  pushed_.fetch_or(closed_bit, std::memory_order_release);
+  pushed_.notify_one();
+}
+
+CapturedFrame* FrameQueue::wait_for_frame() {
+  const std::uint64_t popped = popped_.load(std::memory_order_relaxed);
+  while (true) {
+    const std::uint64_t seen = pushed_.load(std::memory_order_acquire);
+    if ((seen & ~closed_bit) != popped) return &frames_[popped % frames_.size()];
+    if ((seen & closed_bit) != 0) return nullptr;
+    pushed_.wait(seen, std::memory_order_acquire);
+  }
+}
+
+void FrameQueue::pop() {
+  popped_.fetch_add(1, std::memory_order_release);
+  popped_.notify_all();
+}
+
+void FrameQueue::wait_until_empty() {
+  const std::uint64_t pushed = pushed_.load(std::memory_order_acquire) & ~closed_bit;
+  while (true) {
+    const std::uint64_t popped = popped_.load(std::memory_order_acquire);
+    if (popped >= pushed) return;
+    popped_.wait(popped, std::memory_order_acquire);
+  }
+}
+
+// ---- The capture
+
+void FrameCapture::begin_step(const ObjectStore& store) noexcept {
+  store_ = &store;
+  if (frame_ != nullptr) return;
+  frame_ = queue_.free_frame();
+  if (frame_ == nullptr) return drop();
+  frame_->clear();
+  frame_->is_fresh = !is_complete_;
+  frame_->dropped_before = dropped_before_;
+}
+
+void FrameCapture::see_content(const PairFilter& filter) noexcept {
+  if (frame_ == nullptr || !frame_->is_fresh) return;
+  keep_or_drop([&] {
+    for (const auto& object : store_->objects())
+      if (object != nullptr) add_object(*object);
+    filter.visit_rules([&](std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
+      add_record(SetRule{kind_a, kind_b, rule});
+    });
+    filter.visit_ignored([&](std::uint64_t serial_a, std::uint64_t serial_b) {
+      const Object* const a = store_->find_serial(serial_a);
+      const Object* const b = store_->find_serial(serial_b);
+      if (a != nullptr && b != nullptr) add_record(IgnorePair{a->id, b->id, true});
+    });
+  });
+}
+
+void FrameCapture::see_memory(const Object& object) noexcept {
+  if (frame_ == nullptr) return;
+  keep_or_drop([&] { add_record(MemoryRecord{object.id, *object.bound}); });
+}
+
+void FrameCapture::end_step(const ReportHandle& report) noexcept {
+  if (frame_ == nullptr) {
+    ++dropped_before_;
+    dropped_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  frame_->report = report;
+  frame_ = nullptr;
+  is_complete_ = true;
+  dropped_before_ = 0;
+  queue_.push();
+}
+
+void FrameCapture::drop() noexcept {
+  frame_ = nullptr;
+  is_complete_ = false;
+}
+
+std::uint32_t FrameCapture::number_of(const std::shared_ptr<const IndexedMesh>& mesh) {
+  const auto known = meshes_.find(mesh.get());
+  if (known != meshes_.end() && !known->second.mesh.expired()) return known->second.number;
+  frame_->new_meshes.emplace_back(mesh_count_, mesh);
+  meshes_.insert_or_assign(mesh.get(), KnownMesh{mesh_count_, mesh});
+  return mesh_count_++;
+}
+
+void FrameCapture::add_object(const Object& object) {
+  add_record(AddRecord{object.id, object.serial, number_of(object.surface().shared_mesh()), object.settings});
+  if (object.settings.motion != Motion::deformable) {
+    if (object.pose)
+      add_record(SetPose{object.id, *object.pose});
+    else if (object.standing_pose)
+      add_record(SetPose{object.id, *object.standing_pose});
+  } else if (object.bound) {
+    add_record(BindRecord{object.id, object.policy, object.bound->is_double()});
+    add_record(MemoryRecord{object.id, *object.bound});
+  } else if (object.positions) {
+    add_record(PositionsRecord{object.id, std::numeric_limits<double>::infinity(), object.positions->view()});
+  } else {
+    add_record(
+        PositionsRecord{object.id, std::numeric_limits<double>::infinity(), object.surface().positions()});
+  }
+  if (object.frozen) add_freezing_call(object);
+}
+
+/// What froze an object has been told of already, and is told again only for a replay to do it.
+void FrameCapture::add_freezing_call(const Object& object) {
+  if (object.settings.motion != Motion::deformable)
+    return add_record(RefusePose{{object.id, DiagnosticKind::bad_pose, "the pose was not taken"}});
+  if (object.bound) return;  // by the memory itself
+  add_record(BindRecord{object.id});
+  add_record(UnbindRecord{.object = object.id, .problem = DiagnosticKind::not_finite, .positions = {}});
+}
+
+void FrameCapture::add(const AddObject& call) {
+  add_record(
+      AddRecord{call.object, store_->next_serial(), number_of(call.surface->shared_mesh()), call.settings});
+}
+
+void FrameCapture::add(const SetPositions& call) {
+  add_record(PositionsRecord{call.object, call.max_displacement, call.positions->view()});
+}
+
+void FrameCapture::add(const BindPositions& call) {
+  add_record(BindRecord{call.object, call.policy, call.view.is_double()});
+}
+
+void FrameCapture::add(const UnbindPositions& call) {
+  UnbindRecord record{.object = call.object, .is_lost = call.is_lost, .positions = {}};
+  if (call.problem) record.problem = call.problem->kind;
+  if (call.positions) record.positions = call.positions->view();
+  add_record(record);
+}
+
+}  // namespace graze

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <graze/report.hpp>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "calls/calls.hpp"
+#include "core/mesh/indexed_mesh.hpp"
+#include "objects/object_store.hpp"
+#include "pairs/pair_filter.hpp"
+#include "recording/byte_buffer.hpp"
+#include "recording/chunks.hpp"
+#include "recording/records.hpp"
+
+namespace graze {
+
+/// What one step took up and what it answered, on its way to the thread that writes it.
+struct CapturedFrame {
+  std::uint64_t record_count = 0;
+  ByteBuffer records;
+  bool is_fresh = false;  ///< the records make the scene from an empty one
+  std::uint64_t dropped_before = 0;
+  std::vector<std::pair<std::uint32_t, std::shared_ptr<const IndexedMesh>>> new_meshes;
+  ReportHandle report;
+
+  void clear();
+};
+
+/// A fixed number of frames that go round between the stepping thread and the writing one. A frame that is
+/// free belongs to the stepping thread, and one that is full to the writing thread, so no lock is needed:
+/// each side only moves its own counter.
+class FrameQueue {
+ public:
+  explicit FrameQueue(std::size_t size) : frames_(size) {}
+
+  // Stepping thread.
+  /// The next frame to fill, or null while all frames are full.
+  [[nodiscard]] CapturedFrame* free_frame();
+  /// Hands the frame that `free_frame` returned to the writing thread.
+  void push();
+  /// No frame comes any more.
+  void close();
+
+  // Writing thread.
+  /// Waits for the oldest full frame. Null when the queue is closed and empty.
+  [[nodiscard]] CapturedFrame* wait_for_frame();
+  /// Gives the frame that `wait_for_frame` returned back.
+  void pop();
+  /// Waits until all frames that were pushed have been popped. Any thread.
+  void wait_until_empty();
+
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  static constexpr std::uint64_t closed_bit = std::uint64_t{1} << 63;
+
+  std::vector<CapturedFrame> frames_;
+  /// How many were pushed, and `closed_bit`. Release and acquire hand over what is in the frame.
+  std::atomic<std::uint64_t> pushed_{0};
+  std::atomic<std::uint64_t> popped_{0};
+};
+
+/// Writes down what a scene's steps take up, for a recorder. It only copies, and never waits: where no frame
+/// is free, the step is not captured, and the next one that is begins with the whole scene. Stepping thread
+/// only, and it never throws: a step without memory for its capture counts as dropped.
+class FrameCapture final : public MemoryObserver {
+ public:
+  explicit FrameCapture(FrameQueue& queue) : queue_(queue) {}
+
+  /// Begins a step, or goes on with the frame of a step that failed.
+  void begin_step(const ObjectStore& store) noexcept;
+  /// Sees a call, and applies it with `apply`. If that throws, the call is not recorded: it comes again.
+  template <typename OneCall, typename Apply>
+  void see(const OneCall& call, const Apply& apply) {
+    const std::size_t size = frame_ == nullptr ? 0 : frame_->records.size();
+    const std::uint64_t count = frame_ == nullptr ? 0 : frame_->record_count;
+    see(call);
+    try {
+      apply();
+    } catch (...) {
+      if (frame_ != nullptr) {
+        frame_->records.shrink(size);
+        frame_->record_count = count;
+      }
+      throw;
+    }
+  }
+  /// Sees all calls applied, before positions are read.
+  void see_content(const PairFilter& filter) noexcept;
+  /// Sees bound memory that the step is going to read.
+  void see_memory(const Object& object) noexcept override;
+  /// Ends a step with its report.
+  void end_step(const ReportHandle& report) noexcept;
+  /// Says that nobody writes frames any more. Any thread.
+  void close() noexcept { is_closed_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool is_closed() const noexcept { return is_closed_.load(std::memory_order_acquire); }
+  /// How many frames were dropped. Any thread.
+  [[nodiscard]] std::uint64_t dropped_count() const { return dropped_.load(std::memory_order_relaxed); }
+
+ private:
+  template <typename OneCall>
+  static constexpr bool is_told = Is<OneCall, Diagnostic>;
+
+  template <typename OneCall>
+  void see(const OneCall& call) noexcept {
+    // A frame that begins afresh has the scene as it is after the calls, and of these only what is told.
+    if (frame_ == nullptr || (frame_->is_fresh && !is_told<OneCall>)) return;
+    keep_or_drop([&] { add(call); });
+  }
+  template <typename Work>
+  void keep_or_drop(const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      drop();
+    }
+  }
+  void drop() noexcept;
+  template <typename OneRecord>
+  void add_record(const OneRecord& record) {
+    write_record(frame_->records, record);
+    ++frame_->record_count;
+  }
+  std::uint32_t number_of(const std::shared_ptr<const IndexedMesh>& mesh);
+  void add_object(const Object& object);
+  void add_freezing_call(const Object& object);
+
+  // The record of each kind of call.
+  void add(const AddObject& call);
+  void add(const RemoveObject& call) { add_record(call); }
+  void add(const SetPose& call) { add_record(call); }
+  void add(const RefusePose& call) { add_record(call); }
+  void add(const SetPositions& call);
+  void add(const BindPositions& call);
+  void add(const UnbindPositions& call);
+  void add(const PositionsChanged& call) { add_record(call); }
+  void add(const IgnorePair& call) { add_record(call); }
+  void add(const SetRule& call) { add_record(call); }
+  void add(const Reserve& call) { add_record(call); }
+  void add(const Diagnostic& call) { add_record(call); }
+
+  struct KnownMesh {
+    std::uint32_t number;
+    std::weak_ptr<const IndexedMesh> mesh;  ///< another mesh may come to lie where this one was
+  };
+
+  FrameQueue& queue_;
+  const ObjectStore* store_ = nullptr;
+  CapturedFrame* frame_ = nullptr;  ///< null between steps, unless one failed, and while one is not captured
+  bool is_complete_ = false;        ///< the recording has all that the scene's steps have taken up so far
+  std::uint64_t dropped_before_ = 0;
+  std::atomic<std::uint64_t> dropped_{0};
+  std::atomic<bool> is_closed_{false};
+  std::uint32_t mesh_count_ = 0;
+  std::unordered_map<const IndexedMesh*, KnownMesh> meshes_;
+};
+
+}  // namespace graze

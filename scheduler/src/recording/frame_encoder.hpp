@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <graze/settings.hpp>
+
+#include "recording/chunk_output.hpp"
+#include "recording/frame_capture.hpp"
+#include "recording/recorded_rows.hpp"
+#include "recording/scene_model.hpp"
+
+namespace graze {
+
+/// Makes chunks of captured frames. It knows what the recording says so far, so that it can leave out memory
+/// that has not changed and put a keyframe in. Writing thread only.
+class FrameEncoder {
+ public:
+  /// A keyframe comes before the first frame and then every `keyframe_interval` frames.
+  FrameEncoder(ChunkOutput& output, std::uint32_t keyframe_interval)
+      : output_(output), keyframe_interval_(keyframe_interval) {}
+
+  /// Writes the recording's first chunk. `is_cut` is SettingsChunk::is_cut.
+  void write_settings(const SceneSettings& settings, bool is_cut);
+  /// Writes what a frame has taken up and answered.
+  void write_frame(const CapturedFrame& frame);
+
+  /// Writes a mesh.
+  void write_mesh(const IndexedMesh& mesh, std::uint32_t number);
+  /// Writes a keyframe if one is due: the scene as it is before `frame`.
+  void write_keyframe(std::uint64_t frame, bool is_fresh);
+  /// Writes a step, of so many records. `head` has everything but what this leaves out or counts.
+  void write_step(StepHead head, std::span<const std::byte> records, std::uint64_t record_count);
+
+ private:
+  void keep_record(const Record& record);
+
+  ChunkOutput& output_;
+  std::uint32_t keyframe_interval_;
+  std::uint32_t steps_since_keyframe_ = 0;
+  bool has_keyframe_ = false;
+  SceneModel model_;
+  RecordedReport report_;
+  std::vector<RecordedRow> last_rows_;
+  bool has_last_rows_ = false;
+  ByteBuffer chunk_;
+  ByteBuffer kept_records_;
+  std::uint64_t kept_count_ = 0;
+};
+
+}  // namespace graze

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <graze/position_view.hpp>
+#include <graze/report.hpp>
+#include <graze/settings.hpp>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+#include "calls/calls.hpp"
+
+namespace graze {
+
+// What a recording holds of the calls on a scene. This is the one list of them: the writer, the reader, the
+// model of the scene and the replay are made from it. A new kind of call does not compile until it stands
+// here.
+//
+// Where a record holds positions, they are viewed and not owned. Positions of size 0 are left out.
+
+struct AddRecord {
+  ObjectId object;
+  std::uint64_t serial = 0;  ///< ascends in the order of addition
+  std::uint32_t mesh = 0;    ///< the number of a mesh in the recording
+  ObjectSettings settings;
+};
+struct PositionsRecord {
+  ObjectId object;
+  double max_displacement = std::numeric_limits<double>::infinity();
+  PositionView positions;
+};
+struct BindRecord {
+  ObjectId object;
+  BindPolicy policy = BindPolicy::every_step;
+  bool is_double = true;
+};
+/// The content of bound memory when a step began, where it is not what the recording says last.
+struct MemoryRecord {
+  ObjectId object;
+  PositionView positions;
+};
+struct UnbindRecord {
+  ObjectId object;
+  bool is_lost = false;
+  /// Why the memory was refused. `stale_id` says that it was not.
+  DiagnosticKind problem = DiagnosticKind::stale_id;
+  PositionView positions;  ///< what the memory said last
+};
+
+/// Any record. The number of a kind in a recording is its place here, so kinds are added at the end.
+using Record =
+    std::variant<AddRecord, RemoveObject, SetPose, RefusePose, PositionsRecord, BindRecord, MemoryRecord,
+                 UnbindRecord, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
+
+/// `Type`, or a constant of it.
+template <typename Candidate, typename Type>
+concept Is = std::same_as<std::remove_const_t<Candidate>, Type>;
+
+// The fields of each record and of what records are made of, in the order in which they stand in a recording.
+
+template <Is<ObjectSettings> T>
+auto fields(T& r) {
+  return std::tie(r.name, r.motion, r.layer, r.collides_with, r.group, r.margin, r.kind, r.user_data);
+}
+template <Is<PairRule> T>
+auto fields(T& r) {
+  return std::tie(r.contact_distance, r.range, r.epsilon);
+}
+template <Is<Diagnostic> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.kind, r.message);
+}
+template <Is<SceneCapacity> T>
+auto fields(T& r) {
+  return std::tie(r.objects, r.calls_per_step, r.near_pairs, r.contacts, r.reports);
+}
+template <Is<SceneSettings> T>
+auto fields(T& r) {
+  return std::tie(r.contact_distance, r.range, r.detail, r.accuracy, r.threads, r.arena, r.time_budget,
+                  r.work_budget, r.max_contacts, r.max_contacts_per_pair, r.region_distances);
+}
+template <Is<AddRecord> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.serial, r.mesh, r.settings);
+}
+template <Is<RemoveObject> T>
+auto fields(T& r) {
+  return std::tie(r.object);
+}
+template <Is<SetPose> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.rows);
+}
+template <Is<RefusePose> T>
+auto fields(T& r) {
+  return std::tie(r.problem);
+}
+template <Is<PositionsRecord> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.max_displacement, r.positions);
+}
+template <Is<BindRecord> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.policy, r.is_double);
+}
+template <Is<MemoryRecord> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.positions);
+}
+template <Is<UnbindRecord> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.is_lost, r.problem, r.positions);
+}
+template <Is<PositionsChanged> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.max_displacement);
+}
+template <Is<IgnorePair> T>
+auto fields(T& r) {
+  return std::tie(r.a, r.b, r.ignored);
+}
+template <Is<SetRule> T>
+auto fields(T& r) {
+  return std::tie(r.kind_a, r.kind_b, r.rule);
+}
+template <Is<Reserve> T>
+auto fields(T& r) {
+  return std::tie(r.capacity);
+}
+
+}  // namespace graze

@@ -1,0 +1,159 @@
+#include "recording/scene_model.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace graze {
+namespace {
+
+std::span<const std::byte> bytes_of(const PositionView& packed) {
+  const std::size_t number = packed.is_double() ? sizeof(double) : sizeof(float);
+  return {static_cast<const std::byte*>(packed.data()), 3 * number * packed.size()};
+}
+
+std::pair<ObjectId, ObjectId> ordered(ObjectId a, ObjectId b) {
+  return b < a ? std::pair(b, a) : std::pair(a, b);
+}
+
+}  // namespace
+
+PositionView KeptPositions::view() const {
+  if (count_ == 0) return {};
+  const void* const first = bytes_.bytes().data();
+  return is_double_ ? PositionView(static_cast<const double*>(first), count_)
+                    : PositionView(static_cast<const float*>(first), count_);
+}
+
+bool KeptPositions::is_same(const PositionView& packed) const {
+  if (packed.size() != count_ || count_ == 0 || packed.is_double() != is_double_) return false;
+  return std::memcmp(bytes_of(packed).data(), bytes_.bytes().data(), bytes_.size()) == 0;
+}
+
+void KeptPositions::take(const PositionView& packed) {
+  bytes_.clear();
+  bytes_.append(bytes_of(packed));
+  count_ = packed.size();
+  is_double_ = packed.is_double();
+}
+
+KeptPositions KeptPositions::in_form(std::span<const Eigen::Vector3d> rest, bool is_double) const {
+  KeptPositions made;
+  if (count_ > 0 && is_double_ == is_double) {
+    made.take(view());
+  } else if (is_double) {
+    made.take(PositionView(rest));
+  } else {
+    std::vector<Eigen::Vector3f> floats;
+    floats.reserve(rest.size());
+    for (const Eigen::Vector3d& point : rest) floats.push_back(point.cast<float>());
+    made.take(PositionView(floats));
+  }
+  return made;
+}
+
+void KeptPositions::fill(double coordinate) {
+  const auto fill_as = [&]<typename Number>(Number value) {
+    for (std::size_t at = 0; at < bytes_.size(); at += sizeof(Number))
+      std::memcpy(bytes_.bytes().data() + at, &value, sizeof(Number));
+  };
+  if (is_double_)
+    fill_as(coordinate);
+  else
+    fill_as(static_cast<float>(coordinate));
+}
+
+const ModelObject* SceneModel::find(ObjectId id) const {
+  const auto found = objects_.find(id);
+  return found == objects_.end() ? nullptr : &found->second;
+}
+
+std::vector<ObjectId> SceneModel::ids() const {
+  std::vector<ObjectId> all;
+  all.reserve(by_serial_.size());
+  for (const auto& [serial, id] : by_serial_) all.push_back(id);
+  return all;
+}
+
+void SceneModel::apply(const Record& record) {
+  std::visit([this](const auto& one) { take(one); }, record);
+}
+
+bool SceneModel::holds(const MemoryRecord& record) const {
+  const ModelObject* const object = find(record.object);
+  return object != nullptr && object->positions.is_same(record.positions);
+}
+
+void SceneModel::take(const AddRecord& record) {
+  ModelObject& object = objects_[record.object];
+  object = ModelObject();
+  object.serial = record.serial;
+  object.mesh = record.mesh;
+  object.settings = record.settings;
+  by_serial_[object.serial] = record.object;
+}
+
+void SceneModel::take(const RemoveObject& record) {
+  const ModelObject* const object = find(record.object);
+  if (object == nullptr) return;
+  by_serial_.erase(object->serial);
+  objects_.erase(record.object);
+  std::erase_if(ignored_, [&](const auto& pair) {
+    return pair.first == record.object || pair.second == record.object;
+  });
+}
+
+void SceneModel::take(const SetPose& record) {
+  ModelObject* const object = find(record.object);
+  if (object == nullptr) return;
+  object->pose = record.rows;
+  object->frozen_by.reset();
+}
+
+void SceneModel::take(const RefusePose& record) {
+  if (ModelObject* const object = find(record.problem.object)) object->frozen_by = record;
+}
+
+void SceneModel::take(const PositionsRecord& record) {
+  ModelObject* const object = find(record.object);
+  if (object == nullptr) return;
+  object->binding.reset();
+  object->frozen_by.reset();
+  object->positions.take(record.positions);
+}
+
+void SceneModel::take(const BindRecord& record) {
+  ModelObject* const object = find(record.object);
+  if (object == nullptr) return;
+  object->binding = record;
+  object->frozen_by.reset();
+}
+
+void SceneModel::take(const MemoryRecord& record) {
+  if (ModelObject* const object = find(record.object)) object->positions.take(record.positions);
+}
+
+void SceneModel::take(const UnbindRecord& record) {
+  ModelObject* const object = find(record.object);
+  if (object == nullptr) return;
+  const bool was_bound = object->binding.has_value();
+  object->binding.reset();
+  if (record.positions.size() > 0) object->positions.take(record.positions);
+  if (was_bound && record.problem != DiagnosticKind::stale_id) {
+    object->frozen_by = UnbindRecord{.object = record.object, .problem = record.problem, .positions = {}};
+    object->positions.clear();
+  }
+}
+
+void SceneModel::take(const IgnorePair& record) {
+  if (record.ignored)
+    ignored_.insert(ordered(record.a, record.b));
+  else
+    ignored_.erase(ordered(record.a, record.b));
+}
+
+void SceneModel::take(const SetRule& record) {
+  rules_[std::minmax(record.kind_a, record.kind_b)] = record.rule;
+}
+
+}  // namespace graze

@@ -1,0 +1,151 @@
+#include "replay/recording_reader.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <graze/error.hpp>
+
+#include "recording/crc32.hpp"
+
+namespace graze {
+
+RecordingReader::RecordingReader(const std::filesystem::path& path)
+    : name_(path.string()), file_(std::fopen(name_.c_str(), "rb")) {
+  if (file_ == nullptr) throw Error(name_ + ": cannot be opened: " + std::strerror(errno));
+  std::error_code error;
+  size_ = std::filesystem::file_size(path, error);
+  if (error) throw Error(name_ + ": has no size: " + error.message());
+  check_file_head();
+  is_finished_ = read_index();
+  if (!is_finished_) scan();
+  if (entries_.empty() || entries_[0].kind != ChunkKind::settings)
+    fail(FileHead::size, "the recording does not begin with settings");
+  ByteBuffer payload;
+  with_chunk(ChunkKind::settings, entries_[0].offset, payload,
+             [&](ByteSource& source) { source(settings_); });
+}
+
+void RecordingReader::check_file_head() const {
+  std::array<std::byte, FileHead::size> bytes{};
+  if (size_ < bytes.size()) fail(0, "the file is too short for a recording of graze");
+  read_at(0, bytes);
+  FileHead head;
+  const bool is_whole = read_checked(bytes, head);
+  if (head.magic != recording_magic) fail(0, "this is no recording of graze");
+  if (!is_whole) fail(0, "the head of the file is damaged");
+  if (head.version != recording_version)
+    fail(0, "the recording is of version " + std::to_string(head.version) +
+                ", and this graze reads version " + std::to_string(recording_version));
+}
+
+/// Reads the index at the end. Returns false where the file does not end with one.
+bool RecordingReader::read_index() {
+  std::array<std::byte, FileEnd::size> bytes{};
+  if (size_ < FileHead::size + bytes.size()) return false;
+  read_at(size_ - bytes.size(), bytes);
+  FileEnd end;
+  const bool is_whole = read_checked(bytes, end);
+  if (!is_whole || end.magic != end_magic) return false;
+  ByteBuffer payload;
+  std::vector<IndexEntry> index;
+  with_chunk(ChunkKind::index, end.index_offset, payload, [&](ByteSource& source) { source(index); });
+  for (const IndexEntry& entry : index) add(entry);
+  return true;
+}
+
+/// Finds the chunks of a file without an index, one after the other, up to the last whole one.
+void RecordingReader::scan() {
+  for (std::uint64_t offset = FileHead::size; offset + ChunkHead::size <= size_;) {
+    const ChunkHead head = head_at(offset);
+    if (head.payload_size > size_ - offset - ChunkHead::size) return;
+    if (head.kind == ChunkKind::index) {
+      // A chunk follows that names the index. It is damaged, or it would have been found.
+      if (offset + ChunkHead::size + head.payload_size + FileEnd::size == size_)
+        fail(size_ - FileEnd::size, "the end of the file is damaged");
+      return;
+    }
+    add({head.kind, head.number, offset});
+    offset += ChunkHead::size + head.payload_size;
+  }
+}
+
+void RecordingReader::add(const IndexEntry& entry) {
+  entries_.push_back(entry);
+  if (entry.kind == ChunkKind::mesh) meshes_[static_cast<std::uint32_t>(entry.number)] = entry.offset;
+  if (entry.kind == ChunkKind::keyframe) keyframe_offset_ = entry.offset;
+  if (entry.kind == ChunkKind::step) steps_.push_back({entry.offset, std::exchange(keyframe_offset_, 0)});
+}
+
+void RecordingReader::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
+  const bool is_read = std::fseek(file_.get(), static_cast<long>(offset), SEEK_SET) == 0 &&
+                       std::fread(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size();
+  if (!is_read) fail(offset, "the file cannot be read here");
+}
+
+ChunkHead RecordingReader::head_at(std::uint64_t offset) const {
+  if (offset > size_ || size_ - offset < ChunkHead::size) fail(offset, "the file ends before a chunk");
+  std::array<std::byte, ChunkHead::size> bytes{};
+  read_at(offset, bytes);
+  ChunkHead head;
+  if (!read_checked(bytes, head)) fail(offset, "the head of a chunk is damaged");
+  if (head.payload_size % position_alignment != 0) fail(offset, "the size of a chunk is no multiple of 8");
+  return head;
+}
+
+void RecordingReader::load(ChunkKind kind, std::uint64_t offset, ByteBuffer& payload) const {
+  const ChunkHead head = head_at(offset);
+  if (head.kind != kind)
+    fail(offset,
+         std::string("there is a chunk of another kind than the ") + name_of(kind) + " that is expected");
+  if (head.payload_size > size_ - offset - ChunkHead::size)
+    fail(offset, "the file ends within the " + std::string(name_of(kind)) + " chunk");
+  payload.clear();
+  const std::span<std::byte> bytes = payload.grow(static_cast<std::size_t>(head.payload_size));
+  read_at(offset + ChunkHead::size, bytes);
+  if (crc32(bytes) != head.payload_checksum)
+    fail(offset, "the " + std::string(name_of(kind)) + " chunk of number " + std::to_string(head.number) +
+                     " is damaged: its checksum is another");
+}
+
+std::shared_ptr<const Mesh> RecordingReader::mesh(std::uint32_t number) const {
+  if (auto read = read_meshes_[number].lock()) return read;
+  const auto found = meshes_.find(number);
+  if (found == meshes_.end()) throw Error("mesh " + std::to_string(number) + " is not in the recording");
+  std::shared_ptr<const Mesh> mesh;
+  ByteBuffer payload;
+  with_chunk(ChunkKind::mesh, found->second, payload, [&](ByteSource& source) { mesh = read_mesh(source); });
+  read_meshes_[number] = mesh;
+  return mesh;
+}
+
+void RecordingReader::load_mesh(std::uint32_t number, ByteBuffer& chunk) const {
+  const auto found = meshes_.find(number);
+  if (found == meshes_.end()) throw Error("mesh " + std::to_string(number) + " is not in the recording");
+  ByteBuffer payload;
+  load(ChunkKind::mesh, found->second, payload);
+  chunk.clear();
+  chunk.grow(ChunkHead::size);
+  chunk.append(payload.bytes());
+  seal_chunk(chunk, ChunkKind::mesh, number);
+}
+
+/// Reads every chunk, and every byte between the chunks counts as damaged.
+void RecordingReader::check_all() const {
+  ByteBuffer payload;
+  std::uint64_t next = FileHead::size;
+  for (const IndexEntry& entry : entries_) {
+    if (entry.offset != next) fail(next, "the index does not name what stands here");
+    load(entry.kind, entry.offset, payload);
+    next = entry.offset + ChunkHead::size + payload.size();
+  }
+}
+
+std::string RecordingReader::place_of(ChunkKind kind, std::uint64_t offset) const {
+  return name_ + ": byte " + std::to_string(offset) + ": " + name_of(kind) + " chunk: ";
+}
+
+void RecordingReader::fail(std::uint64_t offset, const std::string& what) const {
+  throw Error(name_ + ": byte " + std::to_string(offset) + ": " + what);
+}
+
+}  // namespace graze

@@ -1,0 +1,235 @@
+#include <cstdio>
+#include <graze/error.hpp>
+#include <graze/recording.hpp>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "recording/recorded_rows.hpp"
+#include "replay/recording_reader.hpp"
+#include "replay/replayed_scene.hpp"
+#include "step/scene_state.hpp"
+
+namespace graze {
+namespace {
+
+/// A number to its last digit.
+std::string exact_text(double number) {
+  std::array<char, 32> text{};
+  (void)std::snprintf(text.data(), text.size(), "%.17g", number);
+  return text.data();
+}
+
+std::string line_of(const RecordedRow* row) {
+  if (row == nullptr) return "not listed";
+  std::string line(to_string(row->phase));
+  line += ", distance " + exact_text(row->lower) + " to " + exact_text(row->upper);
+  line += ", " + std::to_string(row->contacts) + " contacts";
+  if (!row->complete) line += ", not complete";
+  if (row->stale) line += ", stale";
+  std::array<char, 64> hashes{};
+  (void)std::snprintf(hashes.data(), hashes.size(), ", answer %016llx, history %016llx",
+                      static_cast<unsigned long long>(row->answer_hash),
+                      static_cast<unsigned long long>(row->history_hash));
+  return line + hashes.data();
+}
+
+bool are_of_one_pair(const RecordedRow& left, const RecordedRow& right) {
+  return left.a == right.a && left.b == right.b;
+}
+
+/// The settings that a replay has.
+SceneSettings replayed_settings(SceneSettings settings, const ReplaySettings& replay) {
+  if (replay.threads) settings.threads = *replay.threads;
+  settings.time_budget.reset();
+  return settings;
+}
+
+}  // namespace
+
+class Replay::State {
+ public:
+  State(const RecordingReader& reader, const ReplaySettings& settings);
+
+  bool step();
+  void run(std::size_t index);
+
+  std::size_t index_ = 0;  ///< of the last step
+  ReportHandle report_;
+  std::optional<ReplayDifference> difference_;
+  std::size_t rows_not_compared_ = 0;
+  std::vector<ReplayObject> objects_;
+  std::unique_ptr<ReplayedScene> replayed_;
+
+ private:
+  void begin_scene(bool knows_history);
+  void begin_at_keyframe(std::uint64_t offset);
+  void take_expected(StepHead& head);
+  void compare();
+  [[nodiscard]] bool is_comparable(const RecordedRow& row) const;
+  [[nodiscard]] bool are_equal(const RecordedRow& recorded, const RecordedRow& replayed) const;
+  [[nodiscard]] bool is_recorded(const RecordedRow& row) const;
+  void compare_rows();
+  void compare_diagnostics();
+  void tell(const RecordedRow* recorded, const RecordedRow* replayed);
+
+  const RecordingReader& reader_;
+  ReplaySettings settings_;
+  std::size_t next_ = 0;  ///< the index of the next step
+  std::unique_ptr<Scene> scene_;
+  /// The scene has gone through all that the recorded one did, so phases, ages, stale rows and diagnostics
+  /// are as they were there.
+  bool knows_history_ = false;
+  bool has_time_budget_ = false;
+  RecordedReport expected_;
+  std::set<std::pair<ObjectId, ObjectId>> recorded_pairs_;  ///< of `expected_`
+  RecordedReport found_;
+  ByteBuffer payload_;
+};
+
+Replay::State::State(const RecordingReader& reader, const ReplaySettings& settings)
+    : reader_(reader), settings_(settings), has_time_budget_(reader.settings().settings.time_budget) {
+  const std::size_t count = reader.steps().size();
+  if (count == 0) throw Error("the recording has no frame");
+  if (settings.first_frame >= count)
+    throw Error("the recording has " + std::to_string(count) + " frames, so there is no frame of index " +
+                std::to_string(settings.first_frame));
+  next_ = settings.first_frame;
+  while (next_ > 0 && reader.steps()[next_].keyframe_offset == 0) --next_;
+  if (reader.steps()[next_].keyframe_offset == 0) throw Error("the recording does not begin with a keyframe");
+  begin_at_keyframe(reader.steps()[next_].keyframe_offset);
+  while (next_ < settings.first_frame) (void)step();
+}
+
+void Replay::State::begin_scene(bool knows_history) {
+  replayed_.reset();
+  scene_ = std::make_unique<Scene>(replayed_settings(reader_.settings().settings, settings_));
+  replayed_ = std::make_unique<ReplayedScene>(reader_, *scene_, scene_->state_->staging);
+  knows_history_ = knows_history;
+}
+
+void Replay::State::begin_at_keyframe(std::uint64_t offset) {
+  begin_scene(false);
+  reader_.with_chunk(ChunkKind::keyframe, offset, payload_, [&](ByteSource& source) {
+    std::uint64_t count = 0;
+    source(count);
+    visit_records(source, count, [&](const Record& record) { replayed_->apply(record); });
+  });
+}
+
+bool Replay::State::step() {
+  if (next_ == reader_.steps().size()) return false;
+  index_ = next_++;
+  replayed_->forget_removed();
+  reader_.with_chunk(ChunkKind::step, reader_.steps()[index_].offset, payload_, [&](ByteSource& source) {
+    StepHead head;
+    source(head);
+    // A recording that begins with a scene's first step knows all that came before: nothing.
+    if (head.is_fresh) begin_scene(head.report.frame == 1 && !reader_.settings().is_cut);
+    visit_records(source, head.record_count, [&](const Record& record) { replayed_->apply(record); });
+    take_expected(head);
+  });
+  report_ = scene_->step(expected_.tag);
+  objects_ = replayed_->objects();
+  compare();
+  return true;
+}
+
+void Replay::State::take_expected(StepHead& head) {
+  if (head.has_rows_of_last) std::swap(head.report.rows, expected_.rows);
+  expected_ = std::move(head.report);
+  if (hash_of(expected_) != head.hash) throw Error("the hash of the report is not that of its rows");
+}
+
+void Replay::State::compare() {
+  difference_.reset();
+  rows_not_compared_ = 0;
+  summarize(*report_, found_);
+  for (RecordedRow& row : found_.rows) {
+    row.a = replayed_->recorded_id(row.a);
+    row.b = replayed_->recorded_id(row.b);
+  }
+  recorded_pairs_.clear();
+  for (const RecordedRow& row : expected_.rows) recorded_pairs_.insert({row.a, row.b});
+  compare_rows();
+  if (!difference_) compare_diagnostics();
+}
+
+/// Whether the replay can know what the row says.
+bool Replay::State::is_comparable(const RecordedRow& row) const {
+  if (has_time_budget_ && !row.complete && !row.contacts_cut) return false;
+  return knows_history_ || (!row.stale && row.phase != PairPhase::ended);
+}
+
+bool Replay::State::are_equal(const RecordedRow& recorded, const RecordedRow& replayed) const {
+  const bool has_history = knows_history_ && !has_time_budget_;
+  return recorded.answer_hash == replayed.answer_hash &&
+         (!has_history || recorded.history_hash == replayed.history_hash);
+}
+
+bool Replay::State::is_recorded(const RecordedRow& row) const {
+  return recorded_pairs_.contains({row.a, row.b});
+}
+
+/// Both reports list pairs in the same order, so the first row that differs is found by going through both.
+void Replay::State::compare_rows() {
+  std::size_t at = 0;
+  for (const RecordedRow& recorded : expected_.rows) {
+    if (at < found_.rows.size() && !is_recorded(found_.rows[at])) return tell(nullptr, &found_.rows[at]);
+    const bool is_there = at < found_.rows.size() && are_of_one_pair(found_.rows[at], recorded);
+    const RecordedRow* const replayed = is_there ? &found_.rows[at++] : nullptr;
+    if (!is_comparable(recorded))
+      ++rows_not_compared_;
+    else if (!is_there || !are_equal(recorded, *replayed))
+      return tell(&recorded, replayed);
+  }
+  if (at < found_.rows.size()) tell(nullptr, &found_.rows[at]);
+}
+
+void Replay::State::compare_diagnostics() {
+  const bool are_same =
+      expected_.diagnostics == found_.diagnostics && expected_.diagnostics_hash == found_.diagnostics_hash;
+  if (are_same || !knows_history_) return;
+  difference_ = ReplayDifference{expected_.frame,
+                                 {},
+                                 std::to_string(expected_.diagnostics) + " diagnostics",
+                                 std::to_string(found_.diagnostics) + " diagnostics"};
+}
+
+void Replay::State::tell(const RecordedRow* recorded, const RecordedRow* replayed) {
+  const RecordedRow& row = recorded != nullptr ? *recorded : *replayed;
+  difference_ =
+      ReplayDifference{expected_.frame, replayed_->name_of(row.a) + " and " + replayed_->name_of(row.b),
+                       line_of(recorded), line_of(replayed)};
+}
+
+Replay::Replay(const Recording& recording, const ReplaySettings& settings)
+    : state_(std::make_unique<State>(*recording.reader_, settings)) {}
+Replay::~Replay() = default;
+
+bool Replay::step() {
+  return state_->step();
+}
+std::size_t Replay::frame_index() const {
+  return state_->index_;
+}
+const ReportHandle& Replay::report() const {
+  return state_->report_;
+}
+const std::optional<ReplayDifference>& Replay::difference() const {
+  return state_->difference_;
+}
+std::size_t Replay::rows_not_compared() const {
+  return state_->rows_not_compared_;
+}
+std::span<const ReplayObject> Replay::objects() const {
+  return state_->objects_;
+}
+void Replay::read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const {
+  state_->replayed_->read_positions(state_->objects_[index].id, positions);
+}
+std::array<double, 12> Replay::pose(std::size_t index) const {
+  return state_->replayed_->pose(state_->objects_[index].id);
+}
+
+}  // namespace graze

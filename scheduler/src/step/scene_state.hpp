@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <graze/error.hpp>
+#include <graze/scene.hpp>
+#include <memory>
+
+#include "base/settings_check.hpp"
+#include "calls/staging.hpp"
+#include "report/report_pool.hpp"
+#include "step/stepper.hpp"
+
+namespace graze {
+
+/// Says whether a step runs. The step shares it, since the scene may be destroyed before the step has cleared
+/// it.
+using Stepping = std::shared_ptr<std::atomic<bool>>;
+
+/// What a scene consists of.
+class Scene::State {
+ public:
+  explicit State(const SceneSettings& given)
+      : settings(checked(given)), reports(ReportPool::create()), stepper(settings, staging, *reports) {}
+  ~State() { stepping->wait(true, std::memory_order_acquire); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+ private:
+  /// The pool deletes itself when its scene and all handles are gone.
+  struct PoolCloser {
+    void operator()(ReportPool* pool) const { pool->close(); }
+  };
+  static const SceneSettings& checked(const SceneSettings& settings) {
+    if (const auto problem = problem_of(settings)) throw Error(*problem);
+    return settings;
+  }
+
+ public:
+  const SceneSettings settings;
+  Staging staging;
+  const std::unique_ptr<ReportPool, PoolCloser> reports;
+  Stepper stepper;  ///< goes before `staging`, to which its objects give buffers back
+  const Stepping stepping = std::make_shared<std::atomic<bool>>(false);
+  std::exception_ptr problem;  ///< of the last step_async
+};
+
+}  // namespace graze
