@@ -14,6 +14,7 @@
 #include "check_failed.hpp"
 #include "command_mistake.hpp"
 #include "inspect_command.hpp"
+#include "recording/commands.hpp"
 #include "run_command.hpp"
 #if GRAZE_HAS_STRESS
 #include "stress/command.hpp"
@@ -37,6 +38,10 @@ int run_program(int argument_count, char** arguments) {
   app.require_subcommand(1);
   graze::tools::add_run_command(app);
   graze::tools::add_inspect_command(app);
+  graze::tools::add_replay_command(app);
+  graze::tools::add_info_command(app);
+  graze::tools::add_cut_command(app);
+  graze::tools::add_picture_command(app);
 #if GRAZE_HAS_STRESS
   graze::tools::add_stress_command(app);
 #endif

@@ -10,6 +10,7 @@
 #include <graze/io/player.hpp>
 #include <graze/io/report_json.hpp>
 #include <graze/io/scene_file.hpp>
+#include <graze/recorder.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -39,6 +40,7 @@ struct RunOptions {
   std::optional<std::string> accuracy;
   std::optional<double> frames_per_second;
   std::optional<std::string> report;
+  std::optional<std::string> record;
   bool no_times = false;
   std::optional<std::string> picture;
   std::optional<std::uint32_t> picture_frame;
@@ -151,6 +153,10 @@ void check_outputs(const RunOptions& options) {
     check_output_file("--report", *options.report);
     check_is_no_input("--report", *options.report, options.files);
   }
+  if (options.record) {
+    check_output_file("--record", *options.record);
+    check_is_no_input("--record", *options.record, options.files);
+  }
   if (options.picture) {
     check_picture_file("--picture", *options.picture);
     check_is_no_input("--picture", *options.picture, options.files);
@@ -161,6 +167,18 @@ void warn_of_threads(unsigned threads) {
   if (threads > max_threads())
     std::fprintf(stderr, "warning: %u threads are more than 8 for each processor; %u are used\n", threads,
                  max_threads());
+}
+
+/// A run has no frame rate to keep, so frames may wait for a slow disk for long.
+constexpr std::uint32_t waiting_frames = 64;
+
+void print_recording(const std::string& file, const RecorderStatistics& statistics) {
+  std::printf("recording %s, %llu frames, %llu bytes", file.c_str(),
+              static_cast<unsigned long long>(statistics.frames),
+              static_cast<unsigned long long>(statistics.bytes));
+  if (statistics.dropped > 0)
+    std::printf(", %llu frames dropped", static_cast<unsigned long long>(statistics.dropped));
+  std::printf("\n");
 }
 
 void run(const RunOptions& options) {
@@ -178,9 +196,14 @@ void run(const RunOptions& options) {
                    io::ReportWriter::Options{.include_times = !options.no_times});
   std::optional<PictureChoice> picture;
   if (options.picture) picture.emplace(options.picture_frame);
+  std::optional<Recorder> recorder;
+  if (options.record)
+    recorder.emplace(player.scene(), *options.record, RecorderSettings{.waiting_frames = waiting_frames});
   const RunSummary summary = play(player, writer, picture);
   if (writer) writer->close();
+  if (recorder) recorder->close();
   std::fputs(summary.text().c_str(), stdout);
+  if (recorder) print_recording(*options.record, recorder->statistics());
   if (writer) std::printf("report    %s\n", options.report->c_str());
   if (picture) {
     const std::uint32_t frame = picture->draw(*options.picture);
@@ -222,6 +245,8 @@ void add_run_command(CLI::App& app) {
       ->add_option("--frames-per-second", options->frames_per_second, "At which rate animations are sampled")
       ->check(real_number(NumberRange::above_0));
   command->add_option("--report", options->report, "Write a report, JSON Lines, a line a frame")
+      ->check(file_name());
+  command->add_option("--record", options->record, "Record the run, for graze replay, view and picture")
       ->check(file_name());
   command->add_flag("--no-times", options->no_times,
                     "Leave timings out of the report: equal runs, equal files");

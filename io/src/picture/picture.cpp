@@ -32,6 +32,13 @@ Vector3d object_colour(std::size_t index) {
   return palette[index % palette.size()] * (1 - lighter) + Vector3d::Constant(lighter);
 }
 
+/// The paper's colours of the lines of each level, told apart by the colour-blind through their lightness.
+Vector3d level_colour(std::uint32_t level) {
+  static const std::array<Vector3d, 4> palette{
+      {{0.84, 0.19, 0.15}, {0.10, 0.60, 0.31}, {0.12, 0.31, 0.85}, {0.30, 0.28, 0.36}}};
+  return palette[std::min<std::size_t>(level == 0 ? 0 : level - 1, palette.size() - 1)];
+}
+
 /// Draws surfaces, then floor and sky behind them.
 class Painter {
  public:
@@ -159,6 +166,8 @@ void Painter::draw_marks() {
   const double size =
       std::clamp(12.0 / std::sqrt(1.0 + static_cast<double>(scene_.contacts.size())), 0.45, 1.0);
   const double normal_length = 0.045 * size * (box_.max() - box_.min()).norm();
+  for (const RegionDistance& region : scene_.region_distances)
+    draw_line(region.point_a, region.point_b, 0.6, level_colour(region.level));
   for (const auto& [from, to] : scene_.distances) {
     draw_line(from, to, 1.0, distance_colour);
     draw_disc(from, 2.4, distance_colour);

@@ -31,6 +31,7 @@ struct BenchOptions {
   std::size_t frames = 0;
   std::vector<std::string> peers = {"all"};
   bool evict = false;
+  bool is_recorded = false;
   bool aims = false;
   std::size_t slow = 1;
   std::vector<std::string> instruction_sets;
@@ -119,6 +120,7 @@ std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<I
         run.threads = threads;
         run.frames = options.frames;
         run.evict = options.evict;
+        run.is_recorded = options.is_recorded;
         run.slow = options.slow;
         run.peers = peers_of(options, module);
         run.instruction_sets = sets;
@@ -182,6 +184,7 @@ void add_bench_command(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--aims", options->aims,
                     "End with a table of graze's own aims beside what was measured (docs/performance.md)");
+  command->add_flag("--recorded", options->is_recorded, "Measure graze once more, with a recorder attached");
   command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
   command->add_option("--slow", options->slow, "Play scenes so many times slower")
       ->check(whole_number(1, 4096))

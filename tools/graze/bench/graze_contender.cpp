@@ -22,8 +22,9 @@ FeaturePair::Feature feature_of(const Feature& feature) {
 }  // namespace
 
 GrazeContender::GrazeContender(const BenchScene& scene, const World& world, Task task, unsigned threads,
-                               Telling telling, InstructionSet set)
+                               Telling telling, InstructionSet set, Recorded recorded)
     : world_(world), task_(task), telling_(telling), set_(set), scene_(settings_of(world, task, threads)) {
+  if (recorded == Recorded::in_memory) recorder_.emplace(scene_, RingSettings());
   const BindPolicy policy = telling == Telling::motion ? BindPolicy::when_told : BindPolicy::every_step;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];

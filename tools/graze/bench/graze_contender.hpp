@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <graze/graze.hpp>
 #include <graze/instruction_set.hpp>
+#include <graze/recorder.hpp>
+#include <optional>
 #include <vector>
 
 #include "bench/contender.hpp"
@@ -15,10 +17,13 @@ namespace graze::bench {
 /// most.
 enum class Telling : std::uint8_t { nothing, motion };
 
+/// Whether a recorder keeps the last frames of the scene in memory.
+enum class Recorded : std::uint8_t { no, in_memory };
+
 class GrazeContender final : public Contender {
  public:
   GrazeContender(const BenchScene& scene, const World& world, Task task, unsigned threads, Telling telling,
-                 InstructionSet set);
+                 InstructionSet set, Recorded recorded);
 
   void frame() override;
   void collect(Found& found) const override;
@@ -37,6 +42,7 @@ class GrazeContender final : public Contender {
   Telling telling_;
   InstructionSet set_;
   Scene scene_;
+  std::optional<Recorder> recorder_;
   std::vector<ObjectId> ids_;
   std::vector<ObjectId> moved_;
   std::vector<double> displacements_;

@@ -144,10 +144,11 @@ void require_threads(unsigned threads) {
 std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& options,
                                  const PeerModule& module) {
   std::vector<Entrant> entrants;
-  const auto add_graze = [&](std::string_view name, Telling telling, InstructionSet set) {
-    entrants.emplace_back(name, nullptr, options.threads, [&moving, &options, telling, set] {
+  const auto add_graze = [&](std::string_view name, Telling telling, InstructionSet set,
+                             Recorded recorded = Recorded::no) {
+    entrants.emplace_back(name, nullptr, options.threads, [&moving, &options, telling, set, recorded] {
       return std::make_unique<GrazeContender>(moving.scene(), moving.world(), options.task, options.threads,
-                                              telling, set);
+                                              telling, set, recorded);
     });
   };
   for (const InstructionSet set : options.instruction_sets) {
@@ -156,6 +157,9 @@ std::vector<Entrant> entrants_of(const MovingWorld& moving, const RunOptions& op
         is_first ? std::string(graze_name) : std::string(graze_name) + ", " + std::string(to_string(set)),
         moving.scene().is_told ? Telling::motion : Telling::nothing, set);
   }
+  if (options.is_recorded)
+    add_graze(recorded_name, moving.scene().is_told ? Telling::motion : Telling::nothing,
+              options.instruction_sets.front(), Recorded::in_memory);
   if (moving.scene().tries_telling) add_graze(told_name, Telling::motion, options.instruction_sets.front());
   const auto add_peer = [&](const PeerEntry& entry) {
     entrants.emplace_back(entry.name, &entry, options.threads, [&moving, &options, make = entry.make] {

@@ -13,6 +13,7 @@
 namespace graze::bench {
 
 inline constexpr std::string_view graze_name = "graze";
+inline constexpr std::string_view recorded_name = "graze, recorded";
 inline constexpr std::string_view told_name = "graze, told of motion";
 /// Graze's kernels on what clipping finds near, in task B with one thread, where clipping takes part.
 inline constexpr std::string_view kernels_name = "graze's kernels, clipping's candidates";
@@ -23,6 +24,7 @@ struct RunOptions {
   std::size_t frames = 0;               ///< that are timed; 0: as many as the scene says
   bool evict = false;                   ///< 64 MB of other memory are touched before each contender's turn
   std::size_t slow = 1;                 ///< how many times slower than its own motion the scene is
+  bool is_recorded = false;             ///< graze takes part once more, with a recorder
   std::vector<std::string_view> peers;  ///< those that cannot do the task are left out
   /// Graze takes part with each; the name alone stands for the first, which is what the aims are about.
   std::vector<InstructionSet> instruction_sets;  ///< at least one

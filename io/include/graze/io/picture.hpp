@@ -29,6 +29,9 @@ struct PictureScene {
   std::vector<Contact> contacts{};
   /// Pairs of points. Each is a line between the two points.
   std::vector<std::array<Eigen::Vector3d, 2>> distances{};
+  /// Region distances. Each is a line between two middle vertices: red at level 1, green at level 2 and blue
+  /// at level 3, as in figure 7 of the paper, and darker beyond.
+  std::vector<RegionDistance> region_distances{};
 };
 
 /// Says how a picture is drawn.

@@ -1,0 +1,95 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <graze/io/scene_file.hpp>
+#include <graze/recording.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "recording/commands.hpp"
+
+namespace graze::tools {
+namespace {
+
+/// What all frames of a recording say together.
+struct FrameSums {
+  std::size_t keyframes = 0;
+  std::uint64_t dropped = 0;
+  std::size_t incomplete = 0;
+  std::uint64_t diagnostics = 0;
+  std::uint64_t most_contacts = 0;
+  std::uint64_t frame_of_most_contacts = 0;
+  std::vector<double> step_ms;
+
+  void add(const RecordedFrame& frame) {
+    if (frame.has_keyframe) ++keyframes;
+    dropped += frame.dropped_before;
+    if (!frame.complete) ++incomplete;
+    diagnostics += frame.diagnostics;
+    step_ms.push_back(frame.step_ms);
+    if (frame.contacts <= most_contacts) return;
+    most_contacts = frame.contacts;
+    frame_of_most_contacts = frame.frame;
+  }
+};
+
+void print_settings(const SceneSettings& settings) {
+  std::printf("  settings   contact distance %.9g, range %.9g, detail %s, %u threads\n",
+              settings.contact_distance, settings.range, std::string(io::to_string(settings.detail)).c_str(),
+              settings.threads);
+}
+
+void print_frames(const Recording& recording) {
+  FrameSums sums;
+  for (std::size_t index = 0; index < recording.frame_count(); ++index) sums.add(recording.frame(index));
+  if (sums.step_ms.empty()) return;
+  std::sort(sums.step_ms.begin(), sums.step_ms.end());
+  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  std::printf("  frames     %llu to %llu, %zu keyframes, %llu dropped\n", number(recording.frame(0).frame),
+              number(recording.frame(recording.frame_count() - 1).frame), sums.keyframes,
+              number(sums.dropped));
+  std::printf("  contacts   at most %llu, in frame %llu\n", number(sums.most_contacts),
+              number(sums.frame_of_most_contacts));
+  std::printf("  steps      median %.3f ms, worst %.3f ms, %zu incomplete\n",
+              sums.step_ms[sums.step_ms.size() / 2], sums.step_ms.back(), sums.incomplete);
+  std::printf("  problems   %llu diagnostics\n", number(sums.diagnostics));
+}
+
+void print_objects(const Recording& recording) {
+  if (recording.frame_count() == 0) return;
+  Replay replay(recording, {.threads = 1, .first_frame = recording.frame_count() - 1});
+  (void)replay.step();
+  std::printf("  objects    %zu in the last frame, of %zu meshes\n", replay.objects().size(),
+              recording.mesh_count());
+  constexpr std::size_t most_listed = 40;
+  for (const ReplayObject& object : replay.objects().first(std::min(most_listed, replay.objects().size())))
+    std::printf("    %llu \"%s\", %u vertices\n", static_cast<unsigned long long>(object.serial),
+                object.settings.name.c_str(), object.mesh->vertex_count());
+  if (replay.objects().size() > most_listed)
+    std::printf("    and %zu more\n", replay.objects().size() - most_listed);
+}
+
+void inform(const std::string& file) {
+  const Recording recording(file);
+  recording.check();
+  std::printf("%s: %zu frames, %llu bytes, recorded by graze %s%s%s\n", file.c_str(), recording.frame_count(),
+              static_cast<unsigned long long>(recording.byte_count()), recording.made_by().c_str(),
+              recording.is_finished() ? "" : ", not finished",
+              recording.is_cut() ? ", begins amid a run" : "");
+  print_settings(recording.settings());
+  print_frames(recording);
+  print_objects(recording);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand(
+      "info", "Checks a recording and says what it holds: frames, objects, contacts, times.");
+  const auto file = std::make_shared<std::string>();
+  command->add_option("file", *file, "A recording, as graze run --record writes it")->required();
+  command->callback([file] { inform(*file); });
+}
+
+}  // namespace graze::tools

@@ -1,0 +1,98 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <graze/instruction_set.hpp>
+#include <graze/io/error.hpp>
+#include <graze/recording.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "check_failed.hpp"
+#include "option_checks.hpp"
+#include "progress.hpp"
+#include "recording/commands.hpp"
+#include "text_format.hpp"
+
+namespace graze::tools {
+namespace {
+
+struct ReplayOptions {
+  std::string file;
+  std::optional<unsigned> threads;
+  std::optional<std::string> instruction_set;
+  std::size_t first_frame = 0;
+  bool validate = false;
+};
+
+InstructionSet parse_instruction_set(const std::string& word) {
+  std::string known;
+  for (const InstructionSet set : available_instruction_sets()) {
+    if (word == to_string(set)) return set;
+    known += (known.empty() ? "" : ", ") + std::string(to_string(set));
+  }
+  throw io::InputError("--instruction-set: this processor has " + known + ", got \"" + word + "\"");
+}
+
+/// The structure validators are built in or not.
+void check_validators() {
+#ifndef GRAZE_VALIDATE
+  throw io::InputError(
+      "--validate: this graze is built without structure validators; build one with -DGRAZE_VALIDATE=ON, as "
+      "the preset debug does");
+#endif
+}
+
+void replay(const ReplayOptions& options) {
+  if (options.validate) check_validators();
+  if (options.instruction_set) use_instruction_set(parse_instruction_set(*options.instruction_set));
+  const Recording recording(options.file);
+  Replay replayed(recording, {.threads = options.threads, .first_frame = options.first_frame});
+  std::size_t compared = 0;
+  std::size_t differing = 0;
+  std::size_t rows_not_compared = 0;
+  std::optional<ReplayDifference> first;
+  Progress progress("frame", recording.frame_count());
+  while (replayed.step()) {
+    progress.at(replayed.frame_index());
+    ++compared;
+    rows_not_compared += replayed.rows_not_compared();
+    if (!replayed.difference()) continue;
+    ++differing;
+    if (!first) first = replayed.difference();
+  }
+  std::printf("%s: %zu frames, recorded by graze %s\n", options.file.c_str(), recording.frame_count(),
+              recording.made_by().c_str());
+  if (rows_not_compared > 0)
+    std::printf("not compared: %zu rows that a time budget cut short, or that depend on earlier frames\n",
+                rows_not_compared);
+  if (!first) {
+    std::printf("%zu frames answered again, all the same\n", compared);
+    return;
+  }
+  std::printf("DIVERGED in %zu of %zu frames, first in frame %llu: %s\n  recorded  %s\n  replayed  %s\n",
+              differing, compared, static_cast<unsigned long long>(first->frame),
+              first->pair.empty() ? "diagnostics" : first->pair.c_str(), first->recorded.c_str(),
+              first->replayed.c_str());
+  throw CheckFailed(format("%s: the replay differs from frame %llu on", options.file.c_str(),
+                           static_cast<unsigned long long>(first->frame)));
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app) {
+  CLI::App* const command =
+      app.add_subcommand("replay", "Does a recording again and compares every frame with what was recorded.");
+  const auto options = std::make_shared<ReplayOptions>();
+  command->add_option("file", options->file, "A recording, as graze run --record writes it")->required();
+  command->add_option("--threads", options->threads, "How many threads, in place of the recorded number")
+      ->check(whole_number(0, std::numeric_limits<unsigned>::max()));
+  command->add_option("--instruction-set", options->instruction_set,
+                      "scalar, baseline, avx2 or avx512, in place of the best one");
+  command->add_option("--from", options->first_frame, "Compare from this frame on, counted from 0")
+      ->check(whole_number(0));
+  command->add_flag("--validate", options->validate, "Check all structures too, if graze is built for it");
+  command->callback([options] { replay(*options); });
+}
+
+}  // namespace graze::tools
