@@ -43,6 +43,7 @@ class Names:
         self.file_names, self.paths = set(), set()
         self.options, self.commands = set(), set()
         self.targets = set()
+        self.words_by_path = {}
         for folder in SOURCE_FOLDERS:
             for path in sorted((root / folder).rglob("*")):
                 if not path.is_file():
@@ -82,6 +83,14 @@ class Names:
         self.targets.update(re.findall(r"graze_add_library\((\w+)", text))
         if is_build:
             self.targets.update(re.findall(r"\bgraze::(\w+)", text))
+
+    def words_in(self, path):
+        """The words of a file or of all files of a folder; none where it is not there."""
+        if path not in self.words_by_path:
+            files = [path] if path.is_file() else [file for file in path.rglob("*") if file.is_file()]
+            texts = [file.read_text(encoding="utf-8", errors="replace") for file in files]
+            self.words_by_path[path] = {word for text in texts for word in re.findall(r"\w+", text)}
+        return self.words_by_path[path]
 
     def mistake_of_chain(self, chain, is_start=False):
         """What is wrong with a name that has `::` in it, or nothing. `is_start`: more letters may follow."""

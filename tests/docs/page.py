@@ -14,6 +14,7 @@ class Page:
         prose = self._split(path.read_text(encoding="utf-8").split("\n"))
         # A comment is read for no names: nobody sees it.
         text = re.sub(r"<!--.*?-->", lambda found: re.sub(r"[^\n]", " ", found.group(0)), "\n".join(prose), flags=re.S)
+        self.text = text  # the prose, with line breaks where the file has them
         self._read_spans(text)
         self._read_anchors(text)
 

@@ -35,6 +35,7 @@ HISTORY_PAGES = {"tried.md", "changelog.md"}  # they speak of names that are gon
 OTHER_PROGRAMS = {"cmake", "ctest", "ninja", "git", "apt-get", "pkg-config", "python3", "clang-format", "clang-tidy",
                   "valgrind", "g++", "clang++", "doxygen", "assimp"}
 NAME = r"[A-Za-z_]\w*"
+PATH = r"[\w.-]+(?:/[\w.-]+)+"
 
 
 class Checker:
@@ -59,6 +60,7 @@ class Checker:
             self.check_link(page, line, target, is_picture)
         for line, span in page.spans:
             self.check_span(page, line, span)
+        self.check_names_in_paths(page)
         for first, language, text in page.blocks:
             if language in ("indented", "sh", "bash", "console", "shell"):
                 for offset, line in enumerate(text.split("\n")):
@@ -134,6 +136,17 @@ class Checker:
                 self.add(page, line, "path", f"there is no {word}")
         except (ValueError, NotImplementedError):
             self.add(page, line, "path", f"{word} is no path")
+
+    def check_names_in_paths(self, page):
+        """Names that a page says to be in a file or folder: `name` in `path`, or `path`: `name`, `other name`."""
+        said = [(found.start(), found.group(2), found.group(1))
+                for found in re.finditer(rf"`([\w:]+)`\s+in\s+`({PATH})`", page.text)]
+        for found in re.finditer(rf"`({PATH})`:((?:(?:(?!\n\n)[^`;|.])*`[\w:]+`(?!\s+in\s+`))+)", page.text):
+            said += [(found.start(), found.group(1), name) for name in re.findall(r"`([\w:]+)`", found.group(2))]
+        for start, path, name in said:
+            words = self.names.words_in(self.root / path) if path.startswith(FOLDERS) else None
+            if words and not words.issuperset(re.findall(NAME, name)):
+                self.add(page, page.text.count("\n", 0, start) + 1, "name", f"{path} has no `{name}`")
 
     def check_names(self, page, line, span):
         if page.path.name in HISTORY_PAGES:
