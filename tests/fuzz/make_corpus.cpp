@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <graze/graze.hpp>
 #include <graze/io/report_json.hpp>
+#include <graze/recorder.hpp>
 #include <iostream>
 #include <limits>
 
@@ -120,6 +121,39 @@ void write_reports(Seeds& seeds) {
   }
 }
 
+/// Writes seeds with recordings of a few objects that are moved in every way, one of them badly.
+void write_recordings(Seeds& seeds) {
+  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features}) {
+    SceneSettings settings;
+    settings.contact_distance = 0.25;
+    settings.range = 2;
+    settings.detail = detail;
+    settings.threads = 1;
+    if (detail == ContactDetail::none) settings.region_distances = 16;
+    std::vector<Eigen::Vector3d> bound(4, Eigen::Vector3d(0, 0.125, 0));
+    const std::vector<Eigen::Vector3f> copied(3, Eigen::Vector3f(0.5F, 0, 0));
+    Scene scene(settings);
+    Recorder recorder(scene, seeds.next_path(), {.keyframe_interval = 2, .waiting_frames = 64});
+    const ObjectId first = scene.add(report_mesh(3, 2), {.name = "first"});
+    const ObjectId second = scene.add(report_mesh(4, 2), {.margin = 0.5, .kind = 2});
+    const ObjectId third = scene.add(report_mesh(5, 2), {.motion = Motion::rigid});
+    scene.set_rule(0, 2, {0.5, 3, {}});
+    scene.bind_positions(second, bound);
+    (void)scene.step(7);
+    scene.set_positions(first, copied, 0.5);
+    scene.set_pose_rows(third, {1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0});
+    scene.ignore(first, third);
+    (void)scene.step();
+    bound[1].x() = std::numeric_limits<double>::infinity();
+    scene.set_pose_rows(third, {2, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0});
+    (void)scene.step();
+    scene.unbind_positions(second);
+    scene.remove(third);
+    (void)scene.step();
+    recorder.close();
+  }
+}
+
 std::string read(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -176,6 +210,8 @@ void make_corpus(const std::filesystem::path& corpus, const std::filesystem::pat
   for (const std::string& text : stl_texts()) stl_seeds.add(text);
   Seeds report_seeds(corpus, "report_json");
   write_reports(report_seeds);
+  Seeds recording_seeds(corpus, "recording");
+  write_recordings(recording_seeds);
   Seeds assimp_seeds(corpus, "assimp_data");
   for (std::uint64_t seed = 0; seed < 40; ++seed) assimp_seeds.add_random(seed, 100 + 40 * seed);
   Seeds pair_seeds(corpus, "pair");

@@ -15,6 +15,7 @@ bool AllocationCount::is_possible() {
   return false;
 }
 void AllocationCount::begin() {}
+void AllocationCount::begin_of_this_thread() {}
 void AllocationCount::end() {}
 std::uint64_t AllocationCount::by_tbb() {
   return 0;
@@ -48,6 +49,8 @@ namespace graze::tests {
 namespace {
 
 std::atomic<bool> is_counting{false};
+std::atomic<bool> counts_one_thread{false};
+thread_local bool is_that_thread = false;
 std::atomic<std::uint64_t> count_of_tbb{0};
 std::atomic<std::uint64_t> count_of_exceptions{0};
 std::atomic<std::uint64_t> count_of_others{0};
@@ -80,6 +83,7 @@ int find(dl_phdr_info* info, std::size_t, void*) {
 
 void count(const void* caller) {
   if (!is_counting.load(std::memory_order_relaxed)) return;
+  if (counts_one_thread.load(std::memory_order_relaxed) && !is_that_thread) return;
   const auto address = std::uintptr_t(caller);
   if (tbb.has(address))
     ++count_of_tbb;
@@ -105,8 +109,16 @@ void AllocationCount::begin() {
   is_counting = true;
 }
 
+void AllocationCount::begin_of_this_thread() {
+  is_that_thread = true;
+  counts_one_thread = true;
+  begin();
+}
+
 void AllocationCount::end() {
   is_counting = false;
+  counts_one_thread = false;
+  is_that_thread = false;
 }
 
 std::uint64_t AllocationCount::by_tbb() {

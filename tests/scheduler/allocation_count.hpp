@@ -14,6 +14,8 @@ class AllocationCount {
 
   /// Counts from here until `end`, from zero. One at a time.
   static void begin();
+  /// The same, but only of what the thread that calls this allocates.
+  static void begin_of_this_thread();
   static void end();
 
   /// The number of allocations counted: by oneTBB's library, for exceptions that were thrown, and by all

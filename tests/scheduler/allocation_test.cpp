@@ -1,11 +1,15 @@
 // After one period of a periodic motion, or after `reserve`, no step and no call around it takes memory,
 // whatever the detail, the number of threads, the budgets, and who else holds reports.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <graze/recorder.hpp>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -381,6 +385,33 @@ TEST_CASE("first contacts take no memory where room was reserved") {
     check_none_thrown();
   else
     CHECK(AllocationCount::by_others() > 50);
+}
+
+TEST_CASE("no allocation: a step that is recorded, while the writer follows") {
+  if (is_skipped()) return;
+  SceneSettings settings = settings_of(0.125, 0.5);
+  settings.threads = 1;
+  Bobbing bobbing(settings);
+  const auto file =
+      std::filesystem::temp_directory_path() / ("graze_allocation_" + std::to_string(::getpid()));
+  Recorder recorder(bobbing.scene(), file, {.keyframe_interval = 16, .waiting_frames = 2});
+  std::size_t contacts = 0;
+  const auto play_recorded = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t frame = begin; frame < end; ++frame) {
+      bobbing.tell(frame);
+      contacts += bobbing.scene().step()->contacts().size();
+      while (recorder.statistics().frames <= frame) std::this_thread::yield();
+    }
+  };
+  play_recorded(0, 3 * period);
+  AllocationCount::begin_of_this_thread();
+  play_recorded(3 * period, fewer_frames);
+  AllocationCount::end();
+  check_none_thrown();
+  CHECK(contacts > 0);
+  recorder.close();
+  CHECK(recorder.statistics().dropped == 0);
+  std::filesystem::remove(file);
 }
 
 }  // namespace graze::tests

@@ -1,0 +1,116 @@
+// graze run --record and the commands about recordings, as a user runs them.
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "tools/program.hpp"
+#include "tools/shapes.hpp"
+#include "tools/temporary_folder.hpp"
+
+namespace {
+
+using Catch::Matchers::Contains;
+using namespace graze::tests;  // NOLINT: the vocabulary of these tests
+
+/// A sheet under a spike that comes down, and a third object far away: 40 frames, in a recording.
+struct Recorded {
+  TemporaryFolder folder;
+  std::string file = (folder.path() / "run.graze").string();
+  std::string out;
+
+  Recorded() {
+    folder.write("sheet.obj", obj_text(sheet(4, 0.25, {0, 0, 0})));
+    folder.write("spike.ply", ply_text(spike({0, 0, 0}, 0.5)));
+    const std::string scene = folder
+                                  .write("scene.json", R"({"graze": 1, "contact_distance": 0.01, "range": 2,
+      "frames": 40, "objects": [{"name": "sheet", "mesh": "sheet.obj", "motion": "fixed"},
+      {"name": "spike", "mesh": "spike.ply", "poses": [
+        {"frame": 0, "translate": [0.4375, 0.5625, 1]}, {"frame": 20, "translate": [0.4375, 0.5625, 0]},
+        {"frame": 39, "translate": [0.4375, 0.5625, 0.0625]}]},
+      {"name": "far", "mesh": "sheet.obj", "translate": [0, 0, 1.5]}]})")
+                                  .string();
+    const ProgramResult result = run_graze({"run", scene, "--record", file});
+    REQUIRE(result.exit_code == 0);
+    out = result.out;
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+};
+
+}  // namespace
+
+TEST_CASE("recording: a run is recorded, replayed and described") {
+  const Recorded recorded;
+  CHECK_THAT(recorded.out, Contains("recording " + recorded.file + ", 40 frames, "));
+  for (const std::string threads : {"1", "2", "8"}) {
+    const ProgramResult again = run_graze({"replay", recorded.file, "--threads", threads});
+    CHECK(again.exit_code == 0);
+    CHECK_THAT(again.out, Contains("40 frames answered again, all the same"));
+  }
+  CHECK(run_graze({"replay", recorded.file, "--instruction-set", "scalar", "--from", "13"}).exit_code == 0);
+  const ProgramResult info = run_graze({"info", recorded.file});
+  CHECK(info.exit_code == 0);
+  CHECK_THAT(info.out, Contains("40 frames") && Contains("frames     1 to 40, 1 keyframes, 0 dropped"));
+  CHECK_THAT(info.out, Contains("1 \"spike\", ") && Contains("objects    3 in the last frame"));
+}
+
+TEST_CASE("recording: a part is cut out, and answers as the whole does") {
+  const Recorded recorded;
+  const std::string part = recorded.path("part.graze");
+  const ProgramResult cut =
+      run_graze({"cut", recorded.file, "--frames", "19..21", "--pair", "sheet,spike", "-o", part});
+  CHECK(cut.exit_code == 0);
+  CHECK_THAT(cut.out, Contains("3 of 40 frames") && Contains("a replay answers as it was recorded"));
+  CHECK(std::filesystem::file_size(part) < std::filesystem::file_size(recorded.file));
+  const ProgramResult info = run_graze({"info", part});
+  CHECK_THAT(info.out, Contains("begins amid a run") && Contains("objects    2 in the last frame"));
+  CHECK(run_graze({"replay", part}).exit_code == 0);
+}
+
+TEST_CASE("recording: a frame is drawn") {
+  const Recorded recorded;
+  const std::string picture = recorded.path("frame.png");
+  const ProgramResult drawn = run_graze({"picture", recorded.file, "--frame", "20", "-o", picture});
+  CHECK(drawn.exit_code == 0);
+  CHECK_THAT(drawn.out, Contains("frame 20, 1 contacts"));
+  CHECK(std::filesystem::file_size(picture) > 10'000);
+  CHECK(run_graze({"picture", recorded.file, "--select", "spike", "-o", picture}).exit_code == 0);
+}
+
+TEST_CASE("recording: what is wrong is said in a line") {
+  const Recorded recorded;
+  std::string bytes;
+  {
+    std::ifstream in(recorded.file, std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  const std::string damaged = recorded.folder.write("damaged.graze", bytes).string();
+  const std::string part = recorded.path("part.graze");
+  const struct {
+    std::vector<std::string> arguments;
+    std::string complaint;
+  } bad_calls[] = {
+      {{"replay", damaged}, "damaged.graze: byte "},
+      {{"info", damaged}, "damaged.graze: byte "},
+      {{"info", recorded.path("scene.json")}, "this is no recording of graze"},
+      {{"replay", recorded.file, "--from", "40"}, "the recording has 40 frames"},
+      {{"replay", recorded.file, "--instruction-set", "mmx"}, "--instruction-set: this processor has scalar"},
+      {{"cut", recorded.file, "--frames", "9..3", "-o", part}, "--frames: expected frames as 10..20"},
+      {{"cut", recorded.file, "--frames", "40..", "-o", part}, "--frames: the recording has 40 frames"},
+      {{"cut", recorded.file, "--pair", "sheet,nobody", "-o", part}, "--pair: no object of the first frame"},
+      {{"cut", recorded.file, "-o", recorded.file}, "-o"},
+      {{"picture", recorded.file, "--lines", "-o", recorded.path("a.png")},
+       "--lines: the recorded scene has no"},
+      {{"picture", recorded.file, "--select", "nobody", "-o", recorded.path("a.png")}, "--select: no object"},
+  };
+  for (const auto& [arguments, complaint] : bad_calls) {
+    const ProgramResult result = run_graze(arguments);
+    INFO(result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(is_one_line(result.err));
+    CHECK_THAT(result.err, Contains(complaint));
+  }
+}
