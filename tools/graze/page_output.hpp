@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <graze/io/page.hpp>
+#include <graze/io/player.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze::tools {
+
+/// A page is made smaller than this, unless the user says how many frames it has.
+inline constexpr std::uint64_t most_page_bytes = 100'000'000;
+
+/// Throws io::InputError where a page cannot be written, also since its ending is none that pages have, or
+/// since the program was built without the viewer.
+void check_page_file(const std::string& option, const std::filesystem::path& file);
+
+/// Whether a file has a page's data alone, by its ending.
+bool is_page_data(const std::filesystem::path& file);
+
+/// Writes what a player plays into a page.
+class PageOutput {
+ public:
+  struct Options {
+    std::string option;  ///< how messages name it
+    std::string title;
+    std::string source;
+    std::optional<std::uint32_t> every;  ///< no value: each frame, or as many as keep the page small
+    bool include_times = true;
+  };
+
+  PageOutput(const std::filesystem::path& path, io::Player& player, const SceneSettings& settings,
+             const Options& options);
+
+  /// Takes a frame that was played.
+  void add(std::uint32_t frame, const io::Player& player, const FrameReport& report);
+  /// Ends the page, and gives a line for the summary.
+  std::string close();
+
+ private:
+  void warn_of_size();
+
+  std::filesystem::path path_;
+  Options options_;
+  io::PageWriter writer_;
+  std::vector<bool> is_deformable_;  ///< by object
+  std::vector<Eigen::Vector3d> positions_;
+  std::uint32_t frame_count_;
+  bool has_warned_ = false;
+};
+
+}  // namespace graze::tools
