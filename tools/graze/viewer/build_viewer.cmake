@@ -49,6 +49,7 @@ macro(give_up why)
   endif()
   message("graze: built without the viewer, which `graze run --html` needs: ${why}")
   write_result("")
+  file(TOUCH ${WORK}/gave_up)
   return()
 endmacro()
 
