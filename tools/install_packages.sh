@@ -6,11 +6,15 @@
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
-  nlohmann-json3-dev libcli11-dev libpng-dev"
+  nlohmann-json3-dev libcli11-dev libpng-dev zlib1g-dev"
 [ "${1:-}" = demo ] || packages="$packages libtinyobjloader-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
-  libmd4c-html0-dev libmd4c-dev python3"
+  libmd4c-html0-dev libmd4c-dev python3 chromium"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
   libbenchmark-dev valgrind clang-format clang-tidy shellcheck pyflakes3 doxygen doxygen-awesome-css"
+
+# The viewer's page is built with Node.js and npm. They may be there without these packages.
+command -v node >/dev/null || packages="$packages nodejs"
+command -v npm >/dev/null || packages="$packages npm"
 
 missing=""
 for package in $packages; do

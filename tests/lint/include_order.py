@@ -6,7 +6,8 @@
 
 Each layer (core, scheduler, io) is a list of folders, from the bottom up. A file includes from its own folder and from
 folders further down. Between layers: io includes scheduler's and core's public headers, scheduler also the headers in
-core/internal, and core includes none of either. Public headers include public headers alone.
+core/internal, and core includes none of either. Of io the folder `page` alone includes headers of core/internal, for the
+regions of a mesh. Public headers include public headers alone.
 """
 import argparse
 import pathlib
@@ -55,8 +56,11 @@ ORDER = {
         "scene": "scene files, players",
         "report": "reports as JSON",
         "picture": "pictures as PNG",
+        "page": "pages for a browser",
     },
 }
+# The folders that may include headers of core/internal.
+INTERNAL_USERS = {"scheduler": set(ORDER["scheduler"]), "io": {"page"}}
 LOWER_LAYERS = {"core": [], "scheduler": ["core"], "io": ["core", "scheduler"]}
 # Libraries that a layer may include, by the beginning of the header's name. The standard library's have no slash.
 LIBRARIES = {"core": ["Eigen/"], "scheduler": ["Eigen/", "oneapi/tbb", "tbb/"],
@@ -116,7 +120,7 @@ def objection(source, name, target, is_quoted):
     if source.folder == PUBLIC and target.folder != PUBLIC:
         return "a public header includes a header that is not installed"
     if target.layer != source.layer:
-        if target.internal and source.layer != "scheduler":
+        if target.internal and source.folder not in INTERNAL_USERS[source.layer]:
             return f"{source.layer} includes public headers of core alone"
         return None
     if source.internal and not target.internal and target.folder != PUBLIC:

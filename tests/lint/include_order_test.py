@@ -23,6 +23,7 @@ GOOD = {
     "scheduler/include/graze/scene.hpp": "#include <graze/mesh.hpp>\n",
     "scheduler/src/step/step.cpp": '#include "core/surface/surface.hpp"\n#include <oneapi/tbb/task_arena.h>\n',
     "io/include/graze/io/log.hpp": "#include <graze/scene.hpp>\n",
+    "io/src/page/mesh_table.cpp": '#include "core/surface/surface.hpp"\n',
     "io/src/text/log.cpp": "#include <spdlog/spdlog.h>\n#include <graze/io/log.hpp>\n",
 }
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes the demonstration scene, plays it, and leaves a report and a picture in out/demo.
+# Writes the demonstration scene, plays it, and leaves a report, a picture and a page for a browser in out/demo.
 # Usage: tools/demo/run.sh [BUILD FOLDER] [OUTPUT FOLDER]; more arguments go to graze run.
 set -eu
 
@@ -16,4 +16,12 @@ for program in "$build/tools/demo/graze_demo_scene" "$build/tools/graze/graze"; 
 done
 
 scene=$("$build/tools/demo/graze_demo_scene" "$out")
-"$build/tools/graze/graze" run "$scene" --report "$out/report.jsonl" --picture "$out/frame.png" "$@"
+graze=$build/tools/graze/graze
+
+# A graze that was built without Node.js writes the page's data alone.
+page=view.html
+if "$graze" run --help | tr -s '\n ' ' ' | grep -q 'built without the viewer'; then
+  page=view.grazeview
+fi
+"$graze" run "$scene" --report "$out/report.jsonl" --picture "$out/frame.png" --html "$out/$page" \
+  --region-distances 4096 "$@"

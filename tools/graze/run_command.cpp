@@ -20,8 +20,10 @@
 
 #include "option_checks.hpp"
 #include "output_path.hpp"
+#include "page_output.hpp"
 #include "progress.hpp"
 #include "run_summary.hpp"
+#include "viewer/viewer_page.hpp"
 
 namespace graze::tools {
 namespace {
@@ -44,6 +46,9 @@ struct RunOptions {
   bool no_times = false;
   std::optional<std::string> picture;
   std::optional<std::uint32_t> picture_frame;
+  std::optional<std::string> html;
+  std::optional<std::uint32_t> html_every;
+  std::optional<std::size_t> region_distances;
 };
 
 /// `exact`, `within:0.001`, `paper` or `paper:24,14,8`.
@@ -87,6 +92,7 @@ io::SceneDescription describe(const RunOptions& options) {
   if (options.threads) settings.threads = *options.threads;
   if (options.max_contacts) settings.max_contacts = options.max_contacts;
   if (options.max_contacts_per_pair) settings.max_contacts_per_pair = options.max_contacts_per_pair;
+  if (options.region_distances) settings.region_distances = *options.region_distances;
   if (options.frames) scene.frames = options.frames;
   if (options.frames_per_second) scene.frames_per_second = *options.frames_per_second;
   return scene;
@@ -127,9 +133,16 @@ class PictureChoice {
   io::PictureScene scene_;
 };
 
+/// What a run writes.
+struct RunOutputs {
+  std::optional<io::ReportWriter> report;
+  std::optional<PictureChoice> picture;
+  std::optional<PlayedPage> page;
+  std::optional<Recorder> recorder;
+};
+
 /// Steps through all frames.
-RunSummary play(io::Player& player, std::optional<io::ReportWriter>& writer,
-                std::optional<PictureChoice>& picture) {
+RunSummary play(io::Player& player, RunOutputs& outputs) {
   RunSummary summary(player.objects());
   Progress progress("frame", player.frame_count());
   for (std::uint32_t frame = 0; frame < player.frame_count(); ++frame) {
@@ -139,8 +152,9 @@ RunSummary play(io::Player& player, std::optional<io::ReportWriter>& writer,
     const ReportHandle report = player.scene().step();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     summary.add(frame, *report, elapsed.count());
-    if (writer) writer->write(frame, *report);
-    if (picture) picture->offer(frame, player, report);
+    if (outputs.report) outputs.report->write(frame, *report);
+    if (outputs.picture) outputs.picture->offer(frame, player, report);
+    if (outputs.page) outputs.page->add(frame, player, *report);
   }
   return summary;
 }
@@ -160,6 +174,12 @@ void check_outputs(const RunOptions& options) {
   if (options.picture) {
     check_picture_file("--picture", *options.picture);
     check_is_no_input("--picture", *options.picture, options.files);
+  }
+  if (options.html_every && !options.html)
+    throw InputError("--html-every: says which frames --html writes; add --html FILE");
+  if (options.html) {
+    check_page_file("--html", *options.html);
+    check_is_no_input("--html", *options.html, options.files);
   }
 }
 
@@ -181,6 +201,45 @@ void print_recording(const std::string& file, const RecorderStatistics& statisti
   std::printf("\n");
 }
 
+std::string page_title(const RunOptions& options) {
+  std::string title;
+  for (const std::string& file : options.files)
+    title += (title.empty() ? "" : ", ") + std::filesystem::path(file).stem().string();
+  return title;
+}
+
+std::string page_source(const RunOptions& options) {
+  std::string source;
+  for (const std::string& file : options.files) source += (source.empty() ? "" : ", ") + file;
+  return source;
+}
+
+void open_outputs(RunOutputs& outputs, const RunOptions& options, io::Player& player,
+                  const SceneSettings& settings) {
+  if (options.report)
+    outputs.report.emplace(*options.report, player.objects(), settings,
+                           io::ReportWriter::Options{.include_times = !options.no_times});
+  if (options.picture) outputs.picture.emplace(options.picture_frame);
+  if (options.record)
+    outputs.recorder.emplace(player.scene(), *options.record,
+                             RecorderSettings{.waiting_frames = waiting_frames});
+  if (options.html)
+    outputs.page.emplace(*options.html, player, settings,
+                         PageOutput::Options{"--html", page_title(options), page_source(options),
+                                             options.html_every, !options.no_times});
+}
+
+/// Ends the outputs, with a line for each.
+void close_outputs(RunOutputs& outputs, const RunOptions& options) {
+  if (outputs.report) std::printf("report    %s\n", options.report->c_str());
+  if (outputs.picture) {
+    const std::uint32_t frame = outputs.picture->draw(*options.picture);
+    std::printf("picture   %s, frame %u\n", options.picture->c_str(), frame);
+  }
+  if (outputs.recorder) print_recording(*options.record, outputs.recorder->statistics());
+  if (outputs.page) std::printf("page      %s\n", outputs.page->close().c_str());
+}
+
 void run(const RunOptions& options) {
   check_outputs(options);
   const io::SceneDescription description = describe(options);
@@ -190,25 +249,13 @@ void run(const RunOptions& options) {
   if (options.picture_frame && *options.picture_frame >= player.frame_count())
     throw InputError("--picture-frame: the run ends before frame " + std::to_string(*options.picture_frame) +
                      "; frames are 0 to " + std::to_string(player.frame_count() - 1));
-  std::optional<io::ReportWriter> writer;
-  if (options.report)
-    writer.emplace(*options.report, player.objects(), description.settings,
-                   io::ReportWriter::Options{.include_times = !options.no_times});
-  std::optional<PictureChoice> picture;
-  if (options.picture) picture.emplace(options.picture_frame);
-  std::optional<Recorder> recorder;
-  if (options.record)
-    recorder.emplace(player.scene(), *options.record, RecorderSettings{.waiting_frames = waiting_frames});
-  const RunSummary summary = play(player, writer, picture);
-  if (writer) writer->close();
-  if (recorder) recorder->close();
+  RunOutputs outputs;
+  open_outputs(outputs, options, player, description.settings);
+  const RunSummary summary = play(player, outputs);
+  if (outputs.report) outputs.report->close();
+  if (outputs.recorder) outputs.recorder->close();
   std::fputs(summary.text().c_str(), stdout);
-  if (recorder) print_recording(*options.record, recorder->statistics());
-  if (writer) std::printf("report    %s\n", options.report->c_str());
-  if (picture) {
-    const std::uint32_t frame = picture->draw(*options.picture);
-    std::printf("picture   %s, frame %u\n", options.picture->c_str(), frame);
-  }
+  close_outputs(outputs, options);
 }
 
 }  // namespace
@@ -249,11 +296,23 @@ void add_run_command(CLI::App& app) {
   command->add_option("--record", options->record, "Record the run, for graze replay, view and picture")
       ->check(file_name());
   command->add_flag("--no-times", options->no_times,
-                    "Leave timings out of the report: equal runs, equal files");
+                    "Leave timings out of the report and the page: equal runs, equal files");
   command->add_option("--picture", options->picture, "Draw one frame into a PNG")->check(file_name());
   command
       ->add_option("--picture-frame", options->picture_frame, "Which one; else the first with most contacts")
       ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()));
+  command
+      ->add_option("--html", options->html,
+                   std::string("Write a page that plays all frames in a browser, or its data (.grazeview)") +
+                       (has_viewer() ? "" : "; this graze was built without the viewer: data only"))
+      ->check(file_name());
+  command->add_option("--html-every", options->html_every, "Write each K-th frame into the page")
+      ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()));
+  command
+      ->add_option(
+          "--region-distances", options->region_distances,
+          "List at most so many distances between regions a frame, for the page; 0, the default: none")
+      ->check(whole_number(0));
   command->callback([options] { run(*options); });
 }
 

@@ -163,6 +163,10 @@ void Player::advance(std::uint32_t frame) {
   for (std::size_t index = 0; index < state_->objects.size(); ++index) state_->advance_object(index, frame);
 }
 
+const Eigen::Isometry3d& Player::pose(std::size_t index) const {
+  return state_->playbacks[index].pose;
+}
+
 void Player::read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const {
   const Playback& playback = state_->playbacks[index];
   if (playback.source) {

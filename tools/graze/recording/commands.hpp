@@ -12,6 +12,8 @@ void add_replay_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 /// `graze cut`: writes a part of a recording into a file of its own.
 void add_cut_command(CLI::App& app);
+/// `graze view`: writes a page that shows a recording in a browser.
+void add_view_command(CLI::App& app);
 /// `graze picture`: draws a frame of a recording.
 void add_picture_command(CLI::App& app);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <graze/export.hpp>
 #include <graze/io/scene_file.hpp>
@@ -60,6 +60,9 @@ class GRAZE_API Player {
   /// Gives the positions of the vertices of object `index` after the last advance(). `index` is one into
   /// objects(), and is not checked.
   void read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const;
+  /// Returns the pose of a rigid or fixed object after the last advance(). It is the identity for a
+  /// deformable object. `index` is one into objects(), and is not checked.
+  [[nodiscard]] const Eigen::Isometry3d& pose(std::size_t index) const;
 
  private:
   struct State;

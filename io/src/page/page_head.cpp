@@ -1,0 +1,116 @@
+#include "page/page_head.hpp"
+
+#include "report/report_fields.hpp"
+#include "report/statistics_fields.hpp"
+#include "text/file_bytes.hpp"
+#include "text/json_text.hpp"
+
+namespace graze::io {
+namespace {
+
+constexpr std::uint64_t page_version = 1;
+
+std::string_view motion_word(Motion motion) {
+  switch (motion) {
+    case Motion::deformable:
+      return "deformable";
+    case Motion::rigid:
+      return "rigid";
+    case Motion::fixed:
+      return "fixed";
+  }
+  return "";
+}
+
+void write_whole_numbers(JsonText& json, std::string_view key, const std::vector<std::uint64_t>& numbers) {
+  json.key(key).open('[');
+  for (const std::uint64_t number : numbers) json.whole(number);
+  json.close(']');
+}
+
+/// Frames of objects that never appear may be -1.
+void write_page_frame(JsonText& json, std::string_view key, std::int64_t frame) {
+  json.key(key);
+  if (frame < 0)
+    json.real(static_cast<double>(frame));
+  else
+    json.whole(static_cast<std::uint64_t>(frame));
+}
+
+void write_head_object(JsonText& json, const PageHeadObject& object, std::size_t serial) {
+  json.open('{').key("serial").whole(serial).key("name").text(object.name);
+  json.key("motion").text(motion_word(object.motion)).key("mesh").whole(object.mesh);
+  write_page_frame(json, "first", object.first);
+  write_page_frame(json, "last", object.last);
+  json.key("user_data").text(std::to_string(object.user_data));
+  json.key("position_error").real(object.position_error).close('}');
+}
+
+void write_head_mesh(JsonText& json, const MeshCounts& mesh, std::size_t number) {
+  json.open('{').key("chunk").text(numbered_chunk("mesh", number));
+  json.key("vertices").whole(mesh.vertices).key("edges").whole(mesh.edges);
+  json.key("triangles").whole(mesh.triangles).key("quads").whole(mesh.quads);
+  json.key("levels").whole(mesh.levels).close('}');
+}
+
+}  // namespace
+
+void PageSeries::add(const FrameReport& report, bool include_times) {
+  std::array<std::uint64_t, 5> rows{};
+  for (const PairReport& pair : report.pairs()) {
+    rows[0] += pair.phase == PairPhase::began ? 1 : 0;
+    rows[1] += pair.phase == PairPhase::ended ? 1 : 0;
+    rows[2] += pair.complete ? 0 : 1;
+    rows[3] += pair.stale ? 1 : 0;
+    rows[4] += pair.contacts_cut ? 1 : 0;
+  }
+  const StepStatistics& statistics = report.statistics();
+  const std::array<std::uint64_t, count_names.size()> values{statistics.contacts,
+                                                             statistics.pairs_near,
+                                                             statistics.pairs_in_contact,
+                                                             rows[0],
+                                                             rows[1],
+                                                             rows[2],
+                                                             rows[3],
+                                                             rows[4],
+                                                             report.diagnostics().size()};
+  for (std::size_t i = 0; i < values.size(); ++i) counts_[i].push_back(values[i]);
+  for (std::size_t i = 0; i < time_fields.size(); ++i)
+    times_[i].push_back(include_times ? statistics.*time_fields[i].second : 0);
+}
+
+void PageSeries::write(JsonText& json) const {
+  json.open('{');
+  for (std::size_t i = 0; i < counts_.size(); ++i) write_whole_numbers(json, count_names[i], counts_[i]);
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    json.key(time_fields[i].first).open('[');
+    for (const double time : times_[i]) json.real(time);
+    json.close(']');
+  }
+  json.close('}');
+}
+
+std::string PageHead::json() const {
+  JsonText json;
+  json.open('{').key("version").whole(page_version).key("graze").text(GRAZE_VERSION);
+  json.key("title").text(options.title).key("source").text(options.source).key("settings");
+  write_settings(json, options.settings);
+  json.key("frames").whole(frame_numbers.size());
+  write_whole_numbers(json, "frame_numbers", frame_numbers);
+  json.key("every").whole(options.every).key("source_frames").whole(source_frames);
+  json.key("block").whole(block).key("objects").open('[');
+  for (std::size_t i = 0; i < objects.size(); ++i) write_head_object(json, objects[i], i);
+  json.close(']').key("meshes").open('[');
+  for (std::size_t i = 0; i < meshes.size(); ++i) write_head_mesh(json, meshes[i], i);
+  json.close(']').key("series");
+  series.write(json);
+  if (!diverged.empty()) write_whole_numbers(json, "diverged", diverged);
+  json.close('}');
+  return json.line();
+}
+
+std::string numbered_chunk(std::string_view kind, std::uint64_t number) {
+  return joined(kind, "/", number);
+}
+
+}  // namespace graze::io

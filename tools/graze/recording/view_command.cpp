@@ -1,0 +1,110 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <graze/recording.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "option_checks.hpp"
+#include "output_path.hpp"
+#include "page_output.hpp"
+#include "progress.hpp"
+#include "recording/commands.hpp"
+
+namespace graze::tools {
+namespace {
+
+struct ViewOptions {
+  std::string file;
+  std::string output;
+  std::optional<std::uint32_t> every;
+};
+
+/// Tells a page which objects a replay has, and where they are.
+class ReplayedPage {
+ public:
+  ReplayedPage(const Recording& recording, const ViewOptions& options)
+      : page_(
+            options.output, recording.settings(), recording.frame_count(),
+            {"-o", std::filesystem::path(options.file).stem().string(), options.file, options.every, true}) {}
+
+  void add(const Recording& recording, const Replay& replay) {
+    change_objects(replay);
+    if (page_.writer().takes_next_frame()) place_objects(replay);
+    if (replay.difference()) page_.writer().mark_diverged();
+    page_.frame(recording.frame(replay.frame_index()).frame, *replay.report());
+  }
+  std::string close() { return page_.close(); }
+
+ private:
+  void change_objects(const Replay& replay) {
+    std::set<ObjectId> now;
+    for (const ReplayObject& object : replay.objects()) now.insert(object.id);
+    for (const ObjectId id : known_)
+      if (!now.contains(id)) page_.writer().remove_object(id);
+    for (const ReplayObject& object : replay.objects()) {
+      if (known_.contains(object.id)) continue;
+      const ObjectSettings& settings = object.settings;
+      const std::string name =
+          settings.name.empty() ? "object " + std::to_string(object.serial) : settings.name;
+      page_.writer().add_object(object.id, {name, object.mesh, settings.motion, settings.user_data});
+    }
+    known_ = std::move(now);
+  }
+  void place_objects(const Replay& replay) {
+    for (std::size_t i = 0; i < replay.objects().size(); ++i) {
+      const ReplayObject& object = replay.objects()[i];
+      if (object.settings.motion == Motion::deformable) {
+        replay.read_positions(i, positions_);
+        page_.writer().set_positions(object.id, positions_);
+      } else {
+        page_.writer().set_pose(object.id, replay.pose(i));
+      }
+    }
+  }
+
+  PageOutput page_;
+  std::set<ObjectId> known_;  ///< the objects of the page
+  std::vector<Eigen::Vector3d> positions_;
+};
+
+void view(const ViewOptions& options) {
+  check_page_file("-o", options.output);
+  check_is_no_input("-o", options.output, std::vector{options.file});
+  const Recording recording(options.file);
+  Replay replay(recording);
+  ReplayedPage page(recording, options);
+  Progress progress("frame", recording.frame_count());
+  std::size_t differing = 0;
+  while (replay.step()) {
+    progress.at(replay.frame_index());
+    page.add(recording, replay);
+    if (replay.difference()) ++differing;
+  }
+  std::printf("page      %s\n", page.close().c_str());
+  if (differing > 0)
+    std::printf("DIVERGED in %zu of %zu frames; the page marks them, and graze replay names the first\n",
+                differing, recording.frame_count());
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app) {
+  CLI::App* const command =
+      app.add_subcommand("view", "Writes a page that shows a recording in a browser, frame by frame.");
+  const auto options = std::make_shared<ViewOptions>();
+  command->add_option("file", options->file, "A recording, as graze run --record writes it")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "The page to write (.html), or its data (.grazeview), which a page opens")
+      ->required()
+      ->check(file_name());
+  command->add_option("--every", options->every, "Write each K-th frame")
+      ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()));
+  command->callback([options] { view(*options); });
+}
+
+}  // namespace graze::tools
