@@ -50,7 +50,7 @@ class ObjectStore {
   /// vertex of copies and poses. Objects are processed in parallel. Appends diagnostics in the order of the
   /// objects.
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
-  /// Reads the objects in `wanted`, which are unread and listed once each.
+  /// Reads the objects in `wanted`, which are unread, listed once each and planned to be read.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
   /// Ignores all promises made before the next read. Call it after a step that failed at any point, even
@@ -99,6 +99,8 @@ class ObjectStore {
   void expect_input(Object& object);
   void drop_removed();
   void plan_read(Object& object);
+  void leave_unread(Object& object);
+  void plan_late_read(Object& object);
   void mark_new_seen();
   void clear_read_list();
   void list_to_read(Object& object);
