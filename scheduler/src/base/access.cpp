@@ -10,7 +10,7 @@ namespace {
 
 thread_local AccessRights rights{AccessRight::everything(), AccessRight::everything()};
 
-void require(StepData data, const void* one, bool writes) {
+void require_right(StepData data, const void* one, bool writes) {
   const AccessRight& right = data == StepData::surfaces ? rights.surfaces : rights.pairs;
   using Level = AccessRight::Level;
   const bool own = right.level == Level::write_one && right.one == one;
@@ -28,11 +28,11 @@ AccessScope::~AccessScope() {
 }
 
 void require_read(StepData data, const void* one) {
-  require(data, one, false);
+  require_right(data, one, false);
 }
 
 void require_write(StepData data, const void* one) {
-  require(data, one, true);
+  require_right(data, one, true);
 }
 
 }  // namespace graze

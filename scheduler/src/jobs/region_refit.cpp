@@ -123,7 +123,7 @@ void RegionRefit::prepare(Surface& surface) const {
 void RegionRefit::count_job(Object& object, const Object& other, const PairJob& job) {
   if (object.asked.refit != refits_) {
     object.asked = {refits_, 0, false, 0};
-    object.asked_for_blocks = with_blocks_;
+    if (with_blocks_) object.demand = Demand::blocks;
     objects_.push_back(&object);
   }
   ++object.asked.jobs;

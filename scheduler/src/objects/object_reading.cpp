@@ -1,7 +1,7 @@
 #include "objects/object_reading.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cassert>
 #include <new>
 #include <string>
 #include <utility>
@@ -47,16 +47,12 @@ const char* const pose_refused = "the pose was not taken";
 /// Returns a diagnostic if a displacement is larger than the promised one.
 std::optional<Diagnostic> check_promise(const Object& object, double displacement) {
   // The displacement is rounded, so a promise that is kept to the last bit must not count as broken.
-  if (!(displacement > object.promised * round_up)) return std::nullopt;
+  if (!(displacement > object.promises.motion * round_up)) return std::nullopt;
   return diagnostic_of(object, DiagnosticKind::broken_promise, [&] {
-    const double promised = object.promised == 0 ? 0 : object.promise_sum;
+    const double promised = object.promises.motion == 0 ? 0 : object.promises.sum;
     return name_of(object.id, object) + ": a vertex moved by " + number_text(displacement) +
            ", further than the " + number_text(promised) + " promised; all positions were read";
   });
-}
-
-bool is_read_in_every_step(const Object& object) {
-  return object.bound && object.policy == BindPolicy::every_step;
 }
 
 /// The pose that the object is to have: a new one, or the one that the last survey used.
@@ -66,11 +62,7 @@ const Pose& pose_of(const Object& object) {
 
 /// The positions that the object is to have.
 PositionView positions_of(const Object& object) {
-  return object.positions ? object.positions->view() : *object.bound;
-}
-
-bool is_posed(const Object& object) {
-  return object.settings.motion != Motion::deformable;
+  return object.positions ? object.positions->view() : object.bound->view;
 }
 
 bool is_same(const Box& left, const Box& right) {
@@ -87,30 +79,30 @@ bool hardly_moves(const Object& object, double motion) {
   return list_slack_of_vertices.of(2 * motion, object.surface().leaf_size()) > 0;
 }
 
-/// The number of steps in which an object does not count as nearly static after its vertices moved further
-/// than its box.
-constexpr std::uint8_t static_cooldown = 16;
-
 /// Whether an object seems nearly static by its box. Counts down its cooldown.
 bool seems_nearly_static(Object& object, const Box& now) {
-  if (object.static_cooldown_steps == 0) return hardly_moves(object, motion_between(object.box, now));
-  --object.static_cooldown_steps;
-  return false;
+  return object.nearly_static.may_begin() && hardly_moves(object, motion_between(object.box, now));
+}
+
+/// Judges by the exact motion whether an object that seemed nearly static is so.
+void check_nearly_static(Object& object, double displacement, const Box& now) {
+  if (!object.nearly_static || hardly_moves(object, displacement)) return;
+  object.nearly_static.set(false);
+  if (hardly_moves(object, motion_between(object.box, now))) object.nearly_static.begin_cooldown();
 }
 
 /// Notes that the surface has the object's current positions.
 void note_read(Object& object) {
-  object.unread = object.surveyed = object.stays_unread = false;
-  object.box = object.seen = object.surface().box();
-  object.has_surface = true;
+  object.state = ReadState::read;
+  object.box = object.surface().box();
+  object.seen = {object.box, true};
   object.version = object.surface().version();
 }
 
 void note_survey(Object& object, const Box& box) {
-  object.unread = object.surveyed = true;
-  object.stays_unread = false;
-  object.box = object.seen = box;
-  object.has_surface = false;
+  object.state = ReadState::surveyed;
+  object.box = box;
+  object.seen = {box, false};
 }
 
 /// Refuses a pose that moves a vertex beyond the limits. The object's pairs are stale until a good pose
@@ -150,7 +142,7 @@ void finish_pose(Object& object) {
 }
 
 ReadOutcome read_pose(Object& object) {
-  if (object.to_survey) return survey_pose(object);
+  if (is_survey(object.plan)) return survey_pose(object);
   const Surface::ReadResult result = object.surface_to_write().set_pose(pose_of(object));
   ReadOutcome outcome = accept_pose(object, result);
   if (outcome.accepted) finish_pose(object);
@@ -162,15 +154,16 @@ ReadOutcome accept_survey(Object& object, const Surface::PartSeen& all) {
   ReadOutcome outcome;
   object.frozen = all.bad_vertex != Surface::ReadResult::no_vertex;
   if (object.frozen) {
-    object.unread = object.surveyed = false;
+    object.state = ReadState::read;
     outcome.changed = true;
     outcome.problem = bad_vertex(object, all.bad_vertex, all.bad_position, stands_still);
   } else {
     outcome.changed = !is_same(object.box, all.box);
     object.moved = outcome.changed;
-    object.is_nearly_static = object.to_block && seems_nearly_static(object, all.box);
+    object.nearly_static.set(object.plan == ReadPlan::survey_and_view &&
+                             seems_nearly_static(object, all.box));
     note_survey(object, all.box);
-    object.promised = 0;
+    object.promises.motion = 0;
   }
   return outcome;
 }
@@ -192,36 +185,33 @@ Surface::ReadResult accept_positions(Object& object, const Surface::PartSeen& al
 }  // namespace
 
 bool has_input(const Object& object) {
-  if (object.pose || is_read_in_every_step(object)) return true;
-  if (object.unread && object.surveyed) return object.is_new || !object.stays_unread;
-  return object.positions || (object.bound && object.is_notified);
+  if (object.pose || object.is_read_in_every_step()) return true;
+  if (object.is_surveyed()) return object.promises.next || object.state != ReadState::still_surveyed;
+  return object.positions || (object.bound && object.bound->is_notified);
 }
 
 bool stays_unread(const Object& object) {
-  return object.unread && object.surveyed && !object.pose && !object.is_new && !is_read_in_every_step(object);
+  return object.is_surveyed() && !object.pose && !object.promises.next && !object.is_read_in_every_step();
 }
 
 void add_promise(Object& object) {
-  const bool may_have_moved = is_read_in_every_step(object) || object.is_new;
-  if (may_have_moved) {
-    object.promise_sum = object.promised == 0 ? object.promise : object.promise_sum + object.promise;
-    object.promised = (object.promised + object.promise) * round_up;
-  }
-  object.is_new = false;
-  object.promise = std::numeric_limits<double>::infinity();
+  const bool may_have_moved = object.is_read_in_every_step() || object.promises.next;
+  if (may_have_moved) object.promises.add_next();
 }
 
 bool can_be_viewed(const Object& object) {
-  return (object.positions || is_read_in_every_step(object)) &&
+  return (object.positions || object.is_read_in_every_step()) &&
          object.surface().can_view(positions_of(object));
 }
 
 bool can_be_surveyed(const Object& object, bool with_views) {
-  if (object.pose) return !object.tested;
-  if (!object.positions && !is_read_in_every_step(object) && !object.is_notified_again) return false;
-  return !object.promises && !std::isfinite(object.promised) && !object.frozen &&
-         (object.surveyed || object.moved) &&
-         (!object.tested || (with_views && !object.is_nearly_static && can_be_viewed(object)));
+  const bool is_tested = object.demand != Demand::nothing;
+  if (object.pose) return !is_tested;
+  const bool is_told_again = object.bound && object.bound->is_notified_again;
+  if (!object.positions && !object.is_read_in_every_step() && !is_told_again) return false;
+  return !object.promises.are_made && !object.promises.are_bounds() && !object.frozen &&
+         (object.was_surveyed() || object.moved) &&
+         (!is_tested || (with_views && !object.nearly_static && can_be_viewed(object)));
 }
 
 bool has_known_box(const Object& object) {
@@ -230,80 +220,76 @@ bool has_known_box(const Object& object) {
 
 Surface::PartSeen scan_part(const Object& object, std::uint32_t begin, std::uint32_t end) {
   const Surface& surface = object.surface();
-  if (is_posed(object)) return surface.scan_pose(pose_of(object), begin, end);
-  if (object.to_survey) return Surface::survey(*object.mesh, *object.bound, begin, end);
+  if (object.is_posed()) return surface.scan_pose(pose_of(object), begin, end);
+  if (is_survey(object.plan)) return Surface::survey(*object.mesh, object.bound->view, begin, end);
   // A promise is checked against the exact largest displacement, not against a bound of it.
-  const bool is_held = object.has_surface && std::isfinite(object.promised);
+  const bool is_held = object.seen.is_in_surface && object.promises.are_bounds();
   const auto displacement = is_held ? Surface::Displacement::exact : Surface::Displacement::bound;
   return surface.scan_positions(positions_of(object), begin, end, displacement);
 }
 
 ReadOutcome accept_scan(Object& object, const Surface::PartSeen& all) {
-  if (is_posed(object)) return accept_pose(object, object.surface_to_write().accept(all));
-  if (object.to_survey) return accept_survey(object, all);
+  if (object.is_posed()) return accept_pose(object, object.surface_to_write().accept(all));
+  if (is_survey(object.plan)) return accept_survey(object, all);
   const bool was_behind = object.surface().is_behind();
   const bool seems_at_rest = was_behind && is_same(object.box, all.box);
   const bool is_copy = object.positions != nullptr;
   const Surface::ReadResult result = accept_positions(object, all);
-  if (!was_behind && object.is_nearly_static) {
-    object.is_nearly_static = hardly_moves(object, result.displacement);
-    if (!object.is_nearly_static && hardly_moves(object, motion_between(object.box, all.box)))
-      object.static_cooldown_steps = static_cooldown;
-  }
+  if (!was_behind) check_nearly_static(object, result.displacement, all.box);
   ReadOutcome outcome{result.changed && !is_copy, result.changed, std::nullopt};
   // After a view, only the next step can tell whether the object moves.
   object.moved = result.changed && !seems_at_rest;
   outcome.changed = outcome.changed || object.frozen == result.taken();
   outcome.accepted = result.taken();
   object.frozen = !outcome.accepted;
-  outcome.problem = object.frozen
-                        ? bad_vertex(object, result.bad_vertex, result.bad_position, stands_still)
-                        : check_promise(object, object.has_surface ? result.displacement
-                                                                   : motion_between(object.seen, all.box));
+  outcome.problem = object.frozen ? bad_vertex(object, result.bad_vertex, result.bad_position, stands_still)
+                                  : check_promise(object, object.seen.is_in_surface
+                                                              ? result.displacement
+                                                              : motion_between(object.seen.box, all.box));
   return outcome;
 }
 
 void write_part(Object& object, std::uint32_t begin, std::uint32_t end) {
   Surface& surface = object.surface_to_write();
-  if (is_posed(object)) return surface.write_pose(pose_of(object), begin, end);
-  surface.write_positions(*object.bound, begin, end);
+  if (object.is_posed()) return surface.write_pose(pose_of(object), begin, end);
+  surface.write_positions(object.bound->view, begin, end);
 }
 
 void finish_read(Object& object, bool accepted) {
-  if (object.to_survey || !accepted) return;
-  if (is_posed(object)) return finish_pose(object);
-  if (object.bound) object.is_notified = false;
+  if (is_survey(object.plan) || !accepted) return;
+  if (object.is_posed()) return finish_pose(object);
+  if (object.bound) object.bound->is_notified = false;
   object.positions.reset();  // now, so that the buffer can be lent again at once
-  object.promised = 0;
+  object.promises.motion = 0;
   note_read(object);
 }
 
 void view_memory(Object& object) {
+  assert(can_be_viewed(object) && !object.frozen);
   Surface& surface = object.surface_to_write();
   surface.view(positions_of(object), object.box);
   // A copy stays valid; the caller's memory may go after the step.
-  object.viewed = !object.positions;
+  object.state = object.positions ? ReadState::read : ReadState::viewed;
   object.standing_positions = std::move(object.positions);
-  object.unread = object.surveyed = object.stays_unread = object.to_view = false;
   object.version = surface.version();
   if (!object.in_parts) surface.make_blocks();
 }
 
 ReadOutcome read_whole(Object& object) {
-  if (is_posed(object)) return read_pose(object);
-  if (object.to_view) {
+  if (object.is_posed()) return read_pose(object);
+  if (object.plan == ReadPlan::view) {
     view_memory(object);
     return {};
   }
   const std::uint32_t count = object.mesh->vertex_count();
   Surface::PartSeen all;
-  if (object.to_survey && object.positions)
+  if (is_survey(object.plan) && object.positions)
     all.box = object.box_of_positions;
   else
     all = scan_part(object, 0, count);
   ReadOutcome outcome = accept_scan(object, all);
   if (outcome.to_write) write_part(object, 0, count);
-  if (object.to_survey && object.to_block && !object.frozen && can_be_viewed(object)) view_memory(object);
+  if (object.plan == ReadPlan::survey_and_view && !object.frozen) view_memory(object);
   finish_read(object, outcome.accepted);
   return outcome;
 }

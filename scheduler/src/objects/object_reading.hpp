@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/surface/surface.hpp"
-#include "objects/object_store.hpp"
+#include "objects/object.hpp"
 
 namespace graze {
 

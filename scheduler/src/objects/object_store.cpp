@@ -33,6 +33,11 @@ void discard(SparePositions::Loan& positions) {
   positions.reset();
 }
 
+/// Whether an object may stay unread, if its promises keep it far from everything.
+bool may_stay_unread(const Object& object) {
+  return !checks_every_promise && !object.pose && !object.frozen && object.promises.are_bounds();
+}
+
 /// Surfaces with more vertices than this are read and refitted in parts, each of which takes some tens of
 /// microseconds.
 constexpr std::uint32_t vertices_of_part = 8192;
@@ -64,7 +69,7 @@ void ObjectStore::apply(AddObject& call) {
   object->serial = next_serial_++;
   object->settings = std::move(call.settings);
   object->owned_surface = std::move(call.surface);
-  object->box = object->seen = object->surface().box();
+  object->box = object->seen.box = object->surface().box();
   object->version = object->surface().version();
   object->mesh = &object->surface().mesh();
   object->in_parts = object->mesh->vertex_count() > vertices_of_part;
@@ -118,8 +123,7 @@ void ObjectStore::apply(SetPositions& call) {
   object->bound.reset();
   object->positions = std::move(call.positions);
   object->box_of_positions = call.box;
-  object->is_new = true;
-  object->promise = call.max_displacement;
+  object->promises.next = call.max_displacement;
 }
 
 void ObjectStore::apply(const BindPositions& call) {
@@ -127,22 +131,17 @@ void ObjectStore::apply(const BindPositions& call) {
   if (object == nullptr) return;
   expect_input(*object);
   object->positions.reset();
-  object->bound = call.view;
+  object->bound = BoundMemory{call.view, call.policy};
   object->moved = true;  // it may be anywhere
-  object->policy = call.policy;
-  object->is_notified = true;
-  object->notified_step = 0;
-  object->is_notified_again = false;
-  object->is_new = true;
-  object->promise = std::numeric_limits<double>::infinity();
-  object->promises = false;
+  object->promises.next = Promises::any_distance;
+  object->promises.are_made = false;
 }
 
 void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics) {
   Object* const object = find(call.object);
   const bool is_bound = object != nullptr && object->bound;
   // Positions that were only surveyed have not been read yet.
-  const bool is_wanted = call.is_due || (is_bound && object->unread && object->surveyed);
+  const bool is_wanted = call.is_due || (is_bound && object->is_surveyed());
   if (is_bound && is_wanted && call.positions) expect_input(*object);
   if (is_wanted && call.problem) diagnostics.push_back(std::move(*call.problem));
   if (!is_bound) return;
@@ -151,15 +150,15 @@ void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnost
     return apply(last);
   }
   object->bound.reset();
-  if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
+  object->end_view();
   // A frozen object stays frozen: if it was surveyed before, its last good positions are unknown.
   object->frozen = object->frozen || call.is_lost || (is_wanted && call.problem);
-  object->unread = object->surveyed = false;
+  object->state = ReadState::read;
   will_have_changed_ = true;
   if (object->frozen) return;
-  object->promised = 0;
-  object->box = object->seen = object->surface().box();
-  object->has_surface = true;
+  object->promises.motion = 0;
+  object->box = object->surface().box();
+  object->seen = {object->box, true};
 }
 
 void ObjectStore::apply(const PositionsChanged& call) {
@@ -168,17 +167,13 @@ void ObjectStore::apply(const PositionsChanged& call) {
   if (!object->bound) {
     // A call with positions may have been lost. Later promises would then not count from the positions seen
     // last.
-    if (std::isinf(call.max_displacement)) object->promised = call.max_displacement;
+    if (std::isinf(call.max_displacement)) object->promises.motion = call.max_displacement;
     return;
   }
   expect_input(*object);
-  object->is_notified = true;
-  if (object->notified_step != steps_ + 1)
-    object->is_notified_again = steps_ > 0 && object->notified_step == steps_;
-  object->notified_step = steps_ + 1;
-  object->is_new = true;
-  object->promise = call.max_displacement;
-  object->promises = object->promises || std::isfinite(call.max_displacement);
+  object->bound->notify(steps_ + 1);
+  object->promises.next = call.max_displacement;
+  if (std::isfinite(call.max_displacement)) object->promises.are_made = true;
 }
 
 void ObjectStore::reserve(std::size_t count) {
@@ -213,10 +208,11 @@ void ObjectStore::expect_input(Object& object) {
 void ObjectStore::forget() noexcept {
   for (const auto& object : objects_) {
     if (object == nullptr) continue;
-    if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
+    object->end_view();
     object->surface_to_write().forget_bounds();
-    object->tested = object->asked_for_blocks = object->goes_by_lists = object->wanted = false;
-    object->to_block = object->to_view = object->to_survey = false;
+    object->plan = ReadPlan::skip;
+    object->demand = Demand::nothing;
+    object->goes_by_lists = false;
     object->asked = {};
     object->may_have_input = false;
     count_bytes(*object);
@@ -255,7 +251,7 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   ++steps_;
   drop_removed();
   if (!std::exchange(promises_count_, true))
-    for (const auto& object : objects_) object->promised = std::numeric_limits<double>::infinity();
+    for (const auto& object : objects_) object->promises.motion = Promises::any_distance;
   clear_read_list();
   unread_count_ = surveyed_count_ = 0;
   // Everything is done in one pass, since a second pass would find the first objects out of the caches.
@@ -268,34 +264,48 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   });
   read_listed(tasks, diagnostics);
   mark_new_seen();
+  validate(objects_);
 }
 
 /// Decides how an object with input is read. It stays unread if promises allow that, and is listed otherwise.
 void ObjectStore::plan_read(Object& object) {
-  object.stays_unread = stays_unread(object);
-  if (object.stays_unread) return;
+  if (stays_unread(object)) {
+    object.state = ReadState::still_surveyed;
+    return;
+  }
   add_promise(object);
-  if (std::exchange(object.viewed, false)) object.surface_to_write().end_view();
-  object.to_survey = can_be_surveyed(object, with_blocks_);
-  if (object.to_survey) ++surveyed_count_;
-  const bool was_tested = std::exchange(object.tested, false);
-  object.goes_by_lists = was_tested && !std::exchange(object.asked_for_blocks, false);
-  object.to_block = with_blocks_ && was_tested && !object.goes_by_lists;
-  const bool was_unread = object.unread;
-  // A pose that is refused later leaves the object as it is, read or unread.
-  if (!object.pose) object.unread = !checks_every_promise && !object.frozen && std::isfinite(object.promised);
-  if ((was_unread && !object.to_survey) || object.unread) changed_ = true;
-  if (!object.unread || object.pose) return list_to_read(object);
-  object.box = grown(object.seen, object.promised);
-  object.surveyed = false;
+  object.end_view();
+  const bool surveys = can_be_surveyed(object, with_blocks_);
+  if (surveys) ++surveyed_count_;
+  const Demand demand = std::exchange(object.demand, Demand::nothing);
+  object.goes_by_lists = demand == Demand::test;
+  if (object.is_unread() && (object.pose || !surveys)) changed_ = true;
+  if (may_stay_unread(object)) return leave_unread(object);
+  if (demand == Demand::blocks)
+    object.plan = surveys ? ReadPlan::survey_and_view : ReadPlan::read_with_blocks;
+  else
+    object.plan = surveys ? ReadPlan::survey : ReadPlan::read;
+  // A pose that is refused later leaves the object as it is, read or surveyed.
+  if (object.was_surveyed())
+    object.state = object.pose ? ReadState::surveyed : ReadState::due;
+  else
+    object.state = ReadState::read;
+  list_to_read(object);
+}
+
+/// Leaves an object unread that promises keep far from everything.
+void ObjectStore::leave_unread(Object& object) {
+  object.state = ReadState::unread;
+  object.box = grown(object.seen.box, object.promises.motion);
   ++unread_count_;
+  changed_ = true;
 }
 
 /// Lets promises count from the rest positions of new objects without input.
 void ObjectStore::mark_new_seen() {
   for (auto object = objects_.rbegin(); object != objects_.rend() && (*object)->serial >= first_unseen_;
        ++object)
-    if (!has_input(**object)) (*object)->promised = 0;
+    if (!has_input(**object)) (*object)->promises.motion = 0;
   first_unseen_ = next_serial_;
 }
 
@@ -303,18 +313,25 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
                               std::vector<Diagnostic>& diagnostics) {
   clear_read_list();
   for (Object* const object : wanted) {
-    if (!object->surveyed) --unread_count_;
-    object->wanted = object->to_survey = false;
-    object->to_block = with_blocks_ && !object->goes_by_lists;
-    object->to_view = with_blocks_ && object->surveyed && can_be_viewed(*object);
-    if (object->to_view && object->in_parts)
-      view_memory(*object);
-    else
-      list_to_read(*object);
+    if (!object->is_surveyed()) --unread_count_;
+    plan_late_read(*object);
   }
   read_listed(tasks, diagnostics);
+  validate(objects_);
   // The next step has to look for the pairs that this read has brought near.
   will_have_changed_ = true;
+}
+
+/// Lists an unread object that is near others, or views it at once if it is large.
+void ObjectStore::plan_late_read(Object& object) {
+  const bool views = with_blocks_ && object.is_surveyed() && can_be_viewed(object);
+  if (views && object.in_parts) {
+    object.plan = ReadPlan::skip;
+    return view_memory(object);
+  }
+  const bool makes_blocks = with_blocks_ && !object.goes_by_lists;
+  object.plan = views ? ReadPlan::view : makes_blocks ? ReadPlan::read_with_blocks : ReadPlan::read;
+  list_to_read(object);
 }
 
 void ObjectStore::clear_read_list() {
@@ -324,7 +341,8 @@ void ObjectStore::clear_read_list() {
 }
 
 void ObjectStore::list_to_read(Object& object) {
-  if (!object.in_parts || (object.to_survey && has_known_box(object))) return to_read_.push_back(&object);
+  if (!object.in_parts || (is_survey(object.plan) && has_known_box(object)))
+    return to_read_.push_back(&object);
   const std::uint32_t count = object.mesh->vertex_count();
   for (std::uint32_t begin = 0; begin < count; begin += vertices_of_part)
     parts_.push_back({&object, begin, std::min(vertices_of_part, count - begin), {}});
@@ -342,7 +360,8 @@ void ObjectStore::read_small(std::size_t index) {
     some_problems_.store(true, std::memory_order_relaxed);
   }
   // This comes last, since it may throw for lack of memory.
-  if (object.to_block && !object.to_survey) object.surface_to_write().make_blocks();
+  if (std::exchange(object.plan, ReadPlan::skip) == ReadPlan::read_with_blocks)
+    object.surface_to_write().make_blocks();
 }
 
 void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
@@ -397,8 +416,10 @@ void ObjectStore::finish_large(TaskPool& tasks) {
       const AccessScope access({AccessRight::write(object), {}});
       write_part(*object, begin, begin + count);
     });
-    for (const LargeObject& large : std::span(large_).first(finished))
+    for (const LargeObject& large : std::span(large_).first(finished)) {
       finish_read(*large.object, large.accepted);
+      large.object->plan = ReadPlan::skip;
+    }
   };
   try {
     for (; finished < large_.size(); ++finished) finish_parts(finished, to_write);
@@ -417,7 +438,7 @@ void ObjectStore::finish_parts(std::size_t index, std::size_t& to_write) {
   Surface::PartSeen all;
   for (std::size_t part = begin; part < end; ++part) all.add(parts_[part].seen);
   ReadOutcome outcome = accept_scan(*object, all);
-  if (object->to_survey && object->to_block && !object->frozen) view_memory(*object);
+  if (object->plan == ReadPlan::survey_and_view && !object->frozen) view_memory(*object);
   accepted = outcome.accepted;
   if (outcome.changed) changed_ = true;
   if (outcome.problem) {

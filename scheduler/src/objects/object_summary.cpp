@@ -58,18 +58,19 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
     for (std::size_t slot = index * objects_at_once; slot < end; ++slot) {
       const Object& object = *objects[slot];
       ObjectSummary& summary = summaries_[slot];
+      const bool is_unread = object.is_unread();
       summary.motion = shift_of(summary.box, object.box);
       summary.moved = summary.read_late || !(summary.motion == 0);
       summary.read_late = false;
       const bool changed = !(summary.motion == 0) || summary.version != object.version ||
-                           summary.frozen != object.frozen || summary.unread != object.unread ||
-                           (object.unread && !object.stays_unread);
+                           summary.frozen != object.frozen || summary.unread != is_unread ||
+                           (is_unread && object.state != ReadState::still_surveyed);
       changed_[slot] = changed ? 1 : 0;
       summary.box = object.box;
       summary.version = object.version;
       summary.frozen = object.frozen;
-      summary.unread = object.unread;
-      unread = unread || object.unread;
+      summary.unread = is_unread;
+      unread = unread || is_unread;
     }
     if (unread) some_unread.store(true, std::memory_order_relaxed);
   };
@@ -84,7 +85,7 @@ void ObjectSummaries::refresh(std::span<Object* const> read_late) {
     summary.box = object->box;
     summary.version = object->version;
     summary.frozen = object->frozen;
-    summary.unread = object->unread;
+    summary.unread = object->is_unread();
   }
 }
 

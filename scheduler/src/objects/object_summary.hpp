@@ -8,7 +8,7 @@
 #include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "core/base/bytes_of.hpp"
-#include "objects/object_store.hpp"
+#include "objects/object.hpp"
 
 namespace graze {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "broad_phase/broad_phase.hpp"
-#include "objects/object_store.hpp"
+#include "objects/object.hpp"
 #include "objects/object_summary.hpp"
 #include "pairs/pair_set.hpp"
 

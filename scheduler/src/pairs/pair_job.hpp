@@ -6,7 +6,7 @@
 
 #include "base/access.hpp"
 #include "base/slot_pair.hpp"
-#include "objects/object_store.hpp"
+#include "objects/object.hpp"
 #include "pairs/pair_filter.hpp"
 #include "pairs/pair_memory.hpp"
 

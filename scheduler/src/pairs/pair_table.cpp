@@ -108,7 +108,8 @@ void PairTable::read_near_objects(std::span<const SlotPair> pairs, TaskPool& tas
   const bool same_filter = std::exchange(filter_version_, filter_.version()) == filter_.version();
   const auto want = [&](std::uint32_t slot) {
     Object* const object = objects[slot].get();
-    if (object->unread && !std::exchange(object->wanted, true)) wanted_.push_back(object);
+    if (object->is_unread() && std::exchange(object->plan, ReadPlan::read) == ReadPlan::skip)
+      wanted_.push_back(object);
   };
   for (const SlotPair pair : pairs) {
     // Both objects are read, or an earlier step found them apart.
@@ -198,7 +199,8 @@ void PairTable::count_jobs(StepStatistics& statistics) const {
   for (const PairJob& job : jobs_) {
     if (job.is_tested()) {
       ++statistics.pairs_tested;
-      job.a->tested = job.b->tested = true;
+      for (Object* const object : {job.a, job.b})
+        if (object->demand == Demand::nothing) object->demand = Demand::test;
     }
     if (job.task == PairJob::Task::unchanged) ++statistics.pairs_unchanged;
   }

@@ -83,7 +83,7 @@ void FrameCapture::see_content(const PairFilter& filter) noexcept {
 
 void FrameCapture::see_memory(const Object& object) noexcept {
   if (frame_ == nullptr) return;
-  keep_or_drop([&] { add_record(MemoryRecord{object.id, *object.bound}); });
+  keep_or_drop([&] { add_record(MemoryRecord{object.id, object.bound->view}); });
 }
 
 void FrameCapture::end_step(const ReportHandle& report) noexcept {
@@ -114,14 +114,14 @@ std::uint32_t FrameCapture::number_of(const std::shared_ptr<const IndexedMesh>& 
 
 void FrameCapture::add_object(const Object& object) {
   add_record(AddRecord{object.id, object.serial, number_of(object.surface().shared_mesh()), object.settings});
-  if (object.settings.motion != Motion::deformable) {
+  if (object.is_posed()) {
     if (object.pose)
       add_record(SetPose{object.id, *object.pose});
     else if (object.standing_pose)
       add_record(SetPose{object.id, *object.standing_pose});
   } else if (object.bound) {
-    add_record(BindRecord{object.id, object.policy, object.bound->is_double()});
-    add_record(MemoryRecord{object.id, *object.bound});
+    add_record(BindRecord{object.id, object.bound->policy, object.bound->view.is_double()});
+    add_record(MemoryRecord{object.id, object.bound->view});
   } else if (object.positions) {
     add_record(PositionsRecord{object.id, std::numeric_limits<double>::infinity(), object.positions->view()});
   } else {
@@ -133,7 +133,7 @@ void FrameCapture::add_object(const Object& object) {
 
 /// What froze an object has been told of already, and is told again only for a replay to do it.
 void FrameCapture::add_freezing_call(const Object& object) {
-  if (object.settings.motion != Motion::deformable)
+  if (object.is_posed())
     return add_record(RefusePose{{object.id, DiagnosticKind::bad_pose, "the pose was not taken"}});
   if (object.bound) return;  // by the memory itself
   add_record(BindRecord{object.id});

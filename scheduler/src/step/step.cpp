@@ -158,7 +158,7 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
   contacts_.reserve(capacity.near_pairs);
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
-    if (std::exchange(object->viewed, false)) object->surface_to_write().end_view();
+    object->end_view();
     prepare_surface(object->surface_to_write(), object->settings.motion);
     store_.count_bytes(*object);
     prepare_copy(*object);
@@ -178,9 +178,9 @@ void Step::prepare_surface(Surface& surface, Motion motion) {
 void Step::prepare_copy(Object& object) {
   if (!object.bound) return;
   const bool is_viewed = wants_blocks(settings_.detail, settings_.accuracy.mode()) &&
-                         settings_.region_distances == 0 && object.surface().can_view(*object.bound);
+                         settings_.region_distances == 0 && object.surface().can_view(object.bound->view);
   if (is_viewed) return;
-  object.surface_to_write().reserve_positions(object.bound->is_double());
+  object.surface_to_write().reserve_positions(object.bound->view.is_double());
   store_.count_bytes(object);
 }
 
