@@ -35,7 +35,7 @@ const POINT_FRAGMENT = /* glsl */ `
     if (vShape > 1.5 && vShape < 2.5) d = (abs(p.x) + abs(p.y)) * 0.8 - r * 0.9;
     if (vShape > 3.5 && vShape < 4.5) d = max(abs(p.x) * 0.87 - p.y * 0.5, p.y) - r * 0.55;
     float cover = clamp(0.5 - d, 0.0, 1.0);
-    float border = 1.4 * ratio;
+    float border = min(1.2 * ratio, 0.09 * vSize);
     float inner = clamp(0.5 - (d + border), 0.0, 1.0);
     vec3 colour = mix(outline, vTint.rgb, inner);
     if (vShape > 0.5 && vShape < 1.5) {

@@ -27,6 +27,13 @@ export class Bounds {
   radius(): number {
     return Math.hypot(...this.low.map((x, k) => this.high[k]! - x)) / 2;
   }
+
+  /** Makes the box at least so large. */
+  widen(least: number): void {
+    const grow = Math.max(0, least - this.radius());
+    this.low = this.low.map((x) => x - grow);
+    this.high = this.high.map((x) => x + grow);
+  }
 }
 
 const FLIGHT_MS = 260;
@@ -61,20 +68,34 @@ export class Eye {
     this.onMove();
   }
 
-  /** Looks at a ball from the present direction, or from the one given. */
-  fit(centre: THREE.Vector3, radius: number, direction?: THREE.Vector3, isSudden = false): void {
-    const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
+  /** Looks at a box from the present direction, or from the one given, as near as all its corners allow. */
+  fit(low: readonly number[], high: readonly number[], direction?: THREE.Vector3, isSudden = false): void {
+    const centre = new THREE.Vector3(...low.map((x, k) => (x + high[k]!) / 2));
     const away = direction ?? this.camera.position.clone().sub(this.controls.target);
     if (away.lengthSq() === 0) away.set(1, -1, 1);
-    const place = centre.clone().addScaledVector(away.normalize(), (1.02 * Math.max(radius, 1e-9)) / Math.sin(narrow));
+    away.normalize();
+    const place = centre.clone().addScaledVector(away, 1.06 * this.distanceFor(low, high, centre, away));
     const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
     if (isSudden || isStill) this.place(place, centre);
     else {
       this.flight = { began: performance.now(), from: [this.camera.position.clone(), this.controls.target.clone()],
-                      to: [place, centre.clone()] };
+                      to: [place, centre] };
       this.onMove();
     }
+  }
+
+  private distanceFor(low: readonly number[], high: readonly number[], centre: THREE.Vector3, away: THREE.Vector3): number {
+    const turn = new THREE.Matrix4().lookAt(away, new THREE.Vector3(), this.camera.up);
+    const [right, up, back] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+    turn.extractBasis(right, up, back);
+    const tall = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    let most = 1e-9;
+    for (let i = 0; i < 8; ++i) {
+      const corner = new THREE.Vector3(...low.map((x, k) => (i >> k) & 1 ? high[k]! : x)).sub(centre);
+      const sideways = Math.max(Math.abs(corner.dot(right)) / (tall * this.camera.aspect), Math.abs(corner.dot(up)) / tall);
+      most = Math.max(most, sideways + corner.dot(back));
+    }
+    return most;
   }
 
   place(position: THREE.Vector3, target: THREE.Vector3): void {

@@ -70,8 +70,12 @@ export class FileChunks implements ChunkSource {
 }
 
 async function gunzip(bytes: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Response(stream).arrayBuffer();
+  const stream = new DecompressionStream('gzip');
+  const writer = stream.writable.getWriter();
+  // A bad chunk fails where it is read; here it is only kept from being reported twice.
+  writer.write(bytes).catch(() => {});
+  writer.close().catch(() => {});
+  return new Response(stream.readable).arrayBuffer();
 }
 
 const ARRAY_TYPES = {

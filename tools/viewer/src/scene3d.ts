@@ -16,6 +16,18 @@ export interface Layer {
   resize?(width: number, height: number, ratio: number, near: number): void;
 }
 
+/** Where the processor has to draw, edges are not smoothed: that would take several times as long. */
+function makeRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer {
+  const options = { antialias: true, alpha: false, powerPreference: 'high-performance' } as const;
+  const context = canvas.getContext('webgl2', { ...options, failIfMajorPerformanceCaveat: true }) ??
+    canvas.getContext('webgl2', { ...options, antialias: false });
+  if (!context) throw new Error('This browser gives no WebGL 2, which the 3D view needs.');
+  const renderer = new THREE.WebGLRenderer({ canvas, context: context as WebGL2RenderingContext });
+  // Asking for errors waits until each shader is ready.
+  renderer.debug.checkShaderErrors = false;
+  return renderer;
+}
+
 export class Stage {
   readonly eye: Eye;
   readonly contacts = new ContactsLayer();
@@ -33,9 +45,10 @@ export class Stage {
   private readonly layers: Layer[] = [this.lines, this.contacts, this.highlight];
   private isAsked = false;
   private isStale = true;
+  private size = '';
 
   constructor(readonly viewer: Viewer, readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.renderer = makeRenderer(canvas);
     this.eye = new Eye(canvas, () => {
       this.ask();
       viewer.emit('camera');
@@ -110,14 +123,14 @@ export class Stage {
   fitAll(isSudden = false, direction?: THREE.Vector3): void {
     const bounds = this.sceneBounds();
     if (bounds.isEmpty) return;
-    this.eye.fit(new THREE.Vector3(...this.local(bounds.centre())), bounds.radius() * 0.92, direction, isSudden);
+    this.eye.fit(this.local(bounds.low), this.local(bounds.high), direction, isSudden);
   }
 
   fitSelection(): void {
     const bounds = this.highlight.boundsOf(this.viewer);
     if (!bounds || bounds.isEmpty) return this.fitAll();
-    const least = 0.004 * this.radius;
-    this.eye.fit(new THREE.Vector3(...this.local(bounds.centre())), Math.max(bounds.radius(), least));
+    bounds.widen(0.004 * this.radius);
+    this.eye.fit(this.local(bounds.low), this.local(bounds.high));
   }
 
   sceneBounds(): Bounds {
@@ -191,6 +204,9 @@ export class Stage {
   private resize(): void {
     const box = this.canvas.parentElement!.getBoundingClientRect();
     const [width, height] = [Math.max(1, box.width), Math.max(1, box.height)];
+    const size = `${width} ${height} ${devicePixelRatio}`;
+    if (size === this.size) return;
+    this.size = size;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.eye.camera.aspect = width / height;

@@ -30,10 +30,10 @@ export class Timeline {
     const go = (text: string, id: string, title: string, to: () => number) => button(text, id, title, () => void viewer.goTo(to()));
     this.element.append(
       h('div', { class: 'transport' },
-        go('⏮', 'first', 'First frame (Home)', () => 0),
+        go('|◂', 'first', 'First frame (Home)', () => 0),
         go('◂', 'back', 'One frame back (←)', () => viewer.frame - 1), this.play,
         go('▸', 'next', 'One frame on (→)', () => viewer.frame + 1),
-        go('⏭', 'last', 'Last frame (End)', () => viewer.page!.head.frames - 1), this.loop,
+        go('▸|', 'last', 'Last frame (End)', () => viewer.page!.head.frames - 1), this.loop,
         h('label', {}, this.speed, h('span', { class: 'quiet' }, 'fps')),
         h('datalist', { id: 'speeds' }, ...SPEEDS.map((s) => h('option', { value: s }))),
         h('label', { class: 'framebox' }, h('span', { class: 'quiet' }, 'frame'), this.place), this.words,
@@ -56,7 +56,7 @@ export class Timeline {
     viewer.on(['page', 'theme'], () => this.redraw());
     viewer.on(['frame'], () => this.show());
     viewer.on(['play', 'page'], () => {
-      this.play.textContent = this.player.isPlaying ? '⏸' : '▶';
+      this.play.textContent = this.player.isPlaying ? '❚❚' : '▶';
       this.loop.setAttribute('aria-pressed', String(this.player.loops));
       if (document.activeElement !== this.speed) this.speed.value = String(this.player.speed);
     });
