@@ -86,7 +86,7 @@ function regionsOf(points, levels) {
   const regions = [{ level: 0, parent: 0, vertices: points.map((_, i) => i) }];
   for (let i = 0; i < regions.length; ++i) {
     const region = regions[i];
-    if (region.level + 1 >= levels || region.vertices.length < 16) continue;
+    if (region.level + 1 >= levels || region.vertices.length < 8) continue;
     let parts = [region.vertices];
     for (let k = 0; k < 3; ++k) parts = parts.flatMap((part) => halve(part, points));
     for (const part of parts) regions.push({ level: region.level + 1, parent: i, vertices: part });
@@ -377,26 +377,34 @@ function contactAt(scene, a, b, near, pa, pb, frameNumber, ages) {
            side_b: [1, 1, 2, 0][near.vb % 4] };
 }
 
-/// The nearest pairs of regions of each level from 1 on.
-function regionLines(scene, a, b, pa, pb, most) {
+/// The children of each region; a leaf is its own child.
+function childrenOf(regions) {
+  const children = regions.map(() => []);
+  regions.forEach((r, i) => i > 0 && children[r.parent].push(i));
+  return children.map((list, i) => (list.length ? list : [i]));
+}
+
+/// The nearest pairs of regions of each level from 1 on. A pair is looked for only below one that was found.
+function regionLines(scene, a, b, pa, pb) {
   const lines = [];
   const [ra, rb] = [scene.objects[a].mesh.regions, scene.objects[b].mesh.regions];
+  const [ca, cb] = [childrenOf(ra), childrenOf(rb)];
+  let above = [[0, 0]];
   for (let level = 1; level <= scene.lineLevels; ++level) {
-    const at = (regions) => {
-      const deepest = Math.min(level, Math.max(...regions.map((r) => r.level)));
-      return regions.flatMap((r, i) => (r.level === deepest ? [i] : []));
-    };
-    if (![...ra, ...rb].some((r) => r.level === level)) break;
     const found = [];
-    for (const i of at(ra))
-      for (const j of at(rb)) {
-        const [u, v] = [3 * ra[i].middle, 3 * rb[j].middle];
-        const points = [pa[u], pa[u + 1], pa[u + 2], pb[v], pb[v + 1], pb[v + 2]];
-        const distance = Math.hypot(points[3] - points[0], points[4] - points[1], points[5] - points[2]);
-        if (Number.isFinite(distance)) found.push({ level, ids: [i, j, ra[i].middle, rb[j].middle], points, distance });
-      }
+    for (const [p, q] of above)
+      for (const i of ca[p])
+        for (const j of cb[q]) {
+          if (Math.max(ra[i].level, rb[j].level) !== level) continue;
+          const [u, v] = [3 * ra[i].middle, 3 * rb[j].middle];
+          const points = [pa[u], pa[u + 1], pa[u + 2], pb[v], pb[v + 1], pb[v + 2]];
+          const distance = Math.hypot(points[3] - points[0], points[4] - points[1], points[5] - points[2]);
+          if (Number.isFinite(distance)) found.push({ level, ids: [i, j, ra[i].middle, rb[j].middle], points, distance });
+        }
     found.sort((p, q) => p.distance - q.distance);
-    lines.push(...found.slice(0, most * level));
+    const kept = found.slice(0, scene.linesPerLevel * level);
+    lines.push(...kept);
+    above = kept.map((line) => [line.ids[0], line.ids[1]]);
   }
   return lines;
 }
@@ -435,7 +443,7 @@ export function makeReports(scene) {
         lower: first.distance, upper: first.distance * (1 + 2 ** -52),
         witness: { features: [0, first.va, 0, first.vb], points },
         contacts: list.map((n) => contactAt(scene, a, b, n, pa, pb, frameNumber, ages)),
-        regions: pa && pb ? regionLines(scene, a, b, pa, pb, scene.linesPerLevel) : [],
+        regions: pa && pb ? regionLines(scene, a, b, pa, pb) : [],
       });
     }
     touched = touching;
@@ -491,7 +499,7 @@ function finish(scene) {
     o.serial = o.serial ?? i + 3;
   });
   return { every: 2, origin: [-4, -4, -1], flags: () => ({}), diagnostics: () => [], diverged: undefined, block: BLOCK,
-           mostContacts: 400, linesPerLevel: 6, lineLevels: 3, ...scene };
+           mostContacts: 400, linesPerLevel: 5, lineLevels: 3, ...scene };
 }
 
 /// Five objects with everything that a page can hold.

@@ -252,6 +252,7 @@ export class SphereBatch {
     this.tintColumn = new Column(this.circles, 'tint', 4, true, true);
     this.columns = [this.ballColumn, this.tintColumn];
     const lines = new THREE.LineSegments(this.circles, overlay(SPHERE_VERTEX, SPHERE_FRAGMENT, {}, false));
+    lines.material.uniforms.opacity!.value = 0.55;
     const faces = new THREE.Mesh(this.balls, overlay(SPHERE_VERTEX, SPHERE_FRAGMENT, {}, false));
     (faces.material as THREE.ShaderMaterial).side = THREE.FrontSide;
     (faces.material as THREE.ShaderMaterial).uniforms.opacity!.value = 0.14;

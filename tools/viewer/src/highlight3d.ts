@@ -2,6 +2,7 @@
 
 import { PointBatch, SegmentBatch, SHAPE } from './batches3d';
 import { Bounds } from './camera3d';
+import type { ObjectState } from './motion';
 import { palette } from './palette';
 import type { Layer, Stage } from './scene3d';
 import type { Viewer } from './viewer';
@@ -76,13 +77,21 @@ export class HighlightLayer implements Layer {
       const object = page.objects[index]!;
       if (!object.isThere) return;
       for (const v of object.mesh.featureCorners(kind, feature)) bounds.add(object.vertex(v));
-      growAround(bounds, object.mesh.edgeCount, Math.hypot(...object.low.map((x, k) => object.high[k]! - x)));
+      growAround(bounds, surroundings(object));
     };
     if (selection.type === 'object') addObject(selection.object);
     if (selection.type === 'feature') addFeature(selection.object, selection.kind, selection.index);
     if (selection.type === 'contact') {
-      addFeature(selection.a, selection.features[0]!, selection.features[1]!);
-      addFeature(selection.b, selection.features[2]!, selection.features[3]!);
+      const row = viewer.selectedContactRow();
+      if (row < 0) {
+        addFeature(selection.a, selection.features[0]!, selection.features[1]!);
+        addFeature(selection.b, selection.features[2]!, selection.features[3]!);
+      } else {
+        // A contact may lie on the face of a whole floor, so its points say more of where it is than its features.
+        bounds.add(report!.block.points.subarray(6 * row, 6 * row + 3));
+        bounds.add(report!.block.points.subarray(6 * row + 3, 6 * row + 6));
+        growAround(bounds, Math.min(...[selection.a, selection.b].map((i) => surroundings(page.objects[i]!))));
+      }
     }
     if (selection.type === 'pair') {
       const row = report?.rowOf(selection.a, selection.b) ?? -1;
@@ -93,10 +102,14 @@ export class HighlightLayer implements Layer {
   }
 }
 
-/** Shows some of the surface around a feature, and not the feature alone. */
-function growAround(bounds: Bounds, edgeCount: number, size: number): void {
+/** How much of an object to show around one of its features: a few edges. */
+function surroundings(object: ObjectState): number {
+  const size = Math.hypot(...object.low.map((x, k) => object.high[k]! - x));
+  return Math.min(0.5 * size, (3 * size) / Math.sqrt(Math.max(1, object.mesh.edgeCount)));
+}
+
+function growAround(bounds: Bounds, around: number): void {
   if (bounds.isEmpty) return;
-  const around = Math.min(size, (3 * size) / Math.sqrt(Math.max(1, edgeCount)));
   bounds.add(bounds.low, around);
   bounds.add(bounds.high, around);
 }

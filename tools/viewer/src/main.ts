@@ -124,7 +124,7 @@ function timeCommands(): Command[] {
     { group, keys: ['.'], text: 'next mark', run: () => goToMark(1) },
     { group, keys: ['['], text: 'slower', run: () => player.faster(-1) },
     { group, keys: [']'], text: 'faster', run: () => player.faster(1) },
-    { group, keys: ['-'], text: 'turn time round', run: () => player.setSpeed(-player.speed) },
+    { group, keys: ['Shift+r'], text: 'turn time round', run: () => player.setSpeed(-player.speed) },
     { group, keys: ['t'], text: 'plots on or off', run: togglePlots },
   ];
 }
@@ -146,7 +146,7 @@ function cameraCommands(): Command[] {
     { group, keys: ['Alt+ArrowUp'], text: 'pan up', run: pan(0, 0.06) },
     { group, keys: ['Alt+ArrowDown'], text: 'pan down', run: pan(0, -0.06) },
     { group, keys: ['+', '='], text: 'nearer', run: () => eye.zoom(0.85) },
-    { group, keys: ['_'], text: 'further', run: () => eye.zoom(1 / 0.85) },
+    { group, keys: ['-', '_'], text: 'further', run: () => eye.zoom(1 / 0.85) },
     { group, keys: ['u'], text: 'y or z is up', run: () => {
       viewer.display.up = viewer.display.up === 'z' ? 'y' : 'z';
       viewer.changed();

@@ -72,10 +72,11 @@ export class Plots {
       cursor: { sync: { key: 'graze' }, y: false, points: { size: 5 }, drag: { x: false, y: false } },
       legend: { live: true },
       scales: { x: { time: false }, y: { range: (_, low, high) => range(low, high, plot.id === 'bounds') } },
-      axes: [{ ...axis, size: 18, gap: 2 }, { ...axis, size: 42, gap: 3, values: (_, ticks) => ticks.map(short) }],
+      axes: [{ ...axis, size: 18, gap: 2 }, { ...axis, size: 42, gap: 3, values: (_, ticks) => ticks.map((x) => String(Number(x.toPrecision(4)))) }],
       series: [{ label: plot.title, value: (_, frame) => frame === null ? '' : String(frame) }, ...plot.lines.map((line) => ({
         label: line.label, stroke: line.colour, width: 1.25, points: { show: false },
-        value: (_: uPlot, value: number | null) => value === null ? '' : short(value) }))],
+        // Six values do not fit; those of the stages are in the inspector.
+        value: (_: uPlot, value: number | null) => value === null || (plot.id === 'ms' && line.label !== 'step') ? '' : short(value) }))],
       hooks: { ready: [(chart) => this.listen(chart)] },
     };
     const data = [frames, ...plot.lines.map((line) => line.values.length ? line.values : frames.map(() => null))];

@@ -5,7 +5,7 @@ import { Bounds, Eye } from './camera3d';
 import { ContactsLayer } from './contacts3d';
 import { HighlightLayer } from './highlight3d';
 import { LinesLayer } from './lines3d';
-import { palette } from './palette';
+import { channels, palette } from './palette';
 import { SurfaceView } from './surfaces3d';
 import type { Viewer } from './viewer';
 
@@ -23,6 +23,8 @@ function makeRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer {
     canvas.getContext('webgl2', { ...options, antialias: false });
   if (!context) throw new Error('This browser gives no WebGL 2, which the 3D view needs.');
   const renderer = new THREE.WebGLRenderer({ canvas, context: context as WebGL2RenderingContext });
+  // Colours are written as they are on the screen.
+  renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
   // Asking for errors waits until each shader is ready.
   renderer.debug.checkShaderErrors = false;
   return renderer;
@@ -161,12 +163,12 @@ export class Stage {
     this.isStale = false;
     const { page, display, selection } = this.viewer;
     const colours = palette();
-    this.renderer.setClearColor(new THREE.Color().setStyle(colours.background, THREE.LinearSRGBColorSpace));
+    this.renderer.setClearColor(new THREE.Color(...channels(colours.background).map((x) => x / 255)));
     if (!page) return;
     const chosen = this.viewer.selectedObjects();
     this.surfaces.forEach((surface, i) => {
       surface.sync();
-      const selected = selection ? chosen.indexOf(i) + 1 : 0;
+      const selected = selection?.type === 'object' || selection?.type === 'pair' ? chosen.indexOf(i) + 1 : 0;
       const look = { faces: display.surfaces, edges: display.edges, opacity: display.opacity, selected };
       surface.look(look, colours, display.hiddenObjects.has(i));
     });
