@@ -131,7 +131,7 @@ export class SurfaceView {
     const size = Math.hypot(...[0, 1, 2].map((k) => this.state.high[k]! - this.state.low[k]!)) / 2;
     const far = Math.hypot(...centre.map((x, k) => x - this.origin[k]! - eye.getComponent(k)));
     const pixels = (this.edgeLength * pixelsPerUnit) / Math.max(far - 0.7 * size, 0.05 * size, 1e-12);
-    const fade = this.faces.visible ? Math.min(1, Math.max(0, (pixels - 1.5) / 8)) : Math.min(1, pixels / 4 + 0.15);
+    const fade = this.faces.visible ? Math.min(1, Math.max(0, (pixels - 4) / 8)) : Math.min(1, pixels / 4 + 0.15);
     this.edgeMaterial.uniforms.opacity!.value = this.edgeOpacity * fade;
     this.edges.visible = this.edgeOpacity * fade > 0.01;
   }
