@@ -1,0 +1,434 @@
+// Drives the viewer in a browser, without a network and without a graphics card.
+//   node tests/viewer/viewer_test.mjs [PAGE.html REPORT.jsonl]
+// Without arguments it makes its own pages. With a page of `graze` and its report it compares these two as well.
+// CHROMIUM names the browser. Times are asserted unless the machine is busy or TIMES=print is set.
+
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { availableParallelism, loadavg, tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { largeScene, longScene, makePage, pageHtml, smallScene, viewFile } from './make_page.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const viewer = join(here, '../../tools/viewer');
+const { chromium } = await import(join(viewer, 'node_modules/playwright-core/index.mjs'));
+const template = readFileSync(join(viewer, 'dist/viewer.html'), 'utf8');
+const folder = mkdtempSync(join(tmpdir(), 'graze-viewer-'));
+
+let failures = 0;
+function check(name, isGood, detail = '') {
+  if (!isGood) ++failures;
+  console.log(`${isGood ? 'ok  ' : 'FAIL'} ${name}${detail === '' ? '' : `: ${detail}`}`);
+}
+
+function same(name, got, wanted) {
+  const isSame = JSON.stringify(got) === JSON.stringify(wanted);
+  check(name, isSame, isSame ? '' : `got ${JSON.stringify(got)}, wanted ${JSON.stringify(wanted)}`);
+}
+
+const isBusy = () => process.env.TIMES === 'print' || loadavg()[0] > 1.5 * availableParallelism();
+
+/** A limit of time, asserted only where the machine has time to keep it. */
+function within(name, ms, limit) {
+  const detail = `${ms.toFixed(0)} ms, limit ${limit} ms`;
+  if (ms > limit && isBusy()) console.log(`note ${name}: ${detail} (not asserted: the machine is busy)`);
+  else check(name, ms <= limit, detail);
+}
+
+// ---- The browser ----
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: 'light', offline: true });
+context.setDefaultTimeout(60000);
+
+/** Opens a page and collects what the console says. */
+async function open(path, hash = '') {
+  const page = await context.newPage();
+  page.errors = [];
+  page.on('console', (m) => {
+    // A browser that draws with the processor warns of stalls when pixels are read; the page cannot help that.
+    if (['error', 'warning'].includes(m.type()) && !/GPU stall|GL Driver Message/.test(m.text())) page.errors.push(m.text());
+  });
+  page.on('pageerror', (e) => page.errors.push(e.message));
+  const began = performance.now();
+  await page.goto(pathToFileURL(path).href + hash);
+  await page.evaluate(() => window.graze.ready);
+  page.openMs = performance.now() - began;
+  return page;
+}
+
+function write(name, data) {
+  const path = join(folder, name);
+  writeFileSync(path, data);
+  return path;
+}
+
+const drawn = (page) => page.evaluate(() => window.graze.drawn());
+const goTo = (page, frame) => page.evaluate((f) => window.graze.goTo(f), frame);
+const inspect = (page) => page.evaluate(() => window.graze.inspect());
+const press = (page, id) => page.click(`[data-testid="${id}"]`);
+
+// ---- What each check asks ----
+
+/** The contacts of a report, in its order, with their pair. */
+const contactsOf = (report) => report.pairs.flatMap((pair) => pair.contacts.map((contact) => ({ pair, contact })));
+
+async function checkPlaying(page, frames) {
+  await goTo(page, 0);
+  await page.fill('[data-testid=speed]', '60');
+  await page.press('[data-testid=speed]', 'Enter');
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.graze.frame >= 3);
+  check('plays', (await drawn(page)).isPlaying);
+  await page.keyboard.press('Space');
+  check('pauses', !(await drawn(page)).isPlaying);
+  const box = await page.locator('[data-testid=track]').boundingBox();
+  const seen = [];
+  for (const share of [0.9, 0.1, 0.55]) {
+    await page.mouse.click(box.x + share * box.width, box.y + box.height / 2);
+    await page.waitForFunction((f) => window.graze.frame === f, Math.floor(share * frames));
+    seen.push(await page.evaluate(() => window.graze.frame));
+  }
+  same('scrubs forth and back', seen, [0.9, 0.1, 0.55].map((s) => Math.floor(s * frames)));
+  await page.keyboard.press('ArrowRight');
+  await page.waitForFunction((f) => window.graze.frame === f, Math.floor(0.55 * frames) + 1);
+  check('steps by key', true);
+}
+
+async function checkSelection(page, made) {
+  const frame = 52;
+  await goTo(page, frame);
+  await press(page, 'tab-pairs');
+  const before = await page.evaluate(() => window.graze.link());
+  await page.click('[data-key="p1-4"]');
+  same('a pair is selected in the list', (await drawn(page)).selection, 'pair:4:90');
+  await page.waitForTimeout(400);
+  check('the camera goes there', (await page.evaluate(() => window.graze.link())).split('&')[1] !== before.split('&')[1]);
+  await goTo(page, 3);
+  await goTo(page, 80);
+  same('the selection survives scrubbing', (await drawn(page)).selection, 'pair:4:90');
+  await goTo(page, frame);
+  await page.evaluate(() => window.graze.select(null));
+  await page.keyboard.press('a');
+  await page.waitForTimeout(400);
+  await drawn(page);
+  await page.fill('[data-testid=search]', 'cloth');
+  same('the search finds pairs', (await drawn(page)).rows, made.reports[frame].pairs.filter((p) => p.b === 4).length);
+  await page.fill('[data-testid=search]', '');
+  await page.keyboard.press('Escape');
+  await press(page, 'sort-distance');
+  const distances = await page.$$eval('[data-testid=list] .row b:first-of-type', (cells) => cells.map((c) => Number(c.textContent)));
+  check('the list sorts', distances.every((d, i) => i === 0 || distances[i - 1] <= d), distances.join(' '));
+  await checkClick(page);
+}
+
+/** Clicks a contact where it stands on the screen, and expects it or one at the same place. */
+async function checkClick(page) {
+  const count = (await drawn(page)).contacts;
+  const places = await page.evaluate((n) => Array.from({ length: n }, (_, i) => window.graze.contactAt(i)), count);
+  const lonely = places.find((p) => p && p.y > 60 && p.y < 380 &&
+    places.every((q) => q === p || Math.hypot(p.x - q.x, p.y - q.y) > 6));
+  const box = await page.locator('[data-testid=view]').boundingBox();
+  await page.mouse.click(box.x + lonely.x, box.y + lonely.y);
+  const selection = await page.evaluate(() => window.graze.selection);
+  const key = selection?.type === 'contact' &&
+    `c${selection.a}-${selection.b}-${selection.kind}-${selection.features.join('-')}`;
+  same('a click in 3D selects the contact there', key, lonely.key);
+  await press(page, 'pick-object');
+  await page.mouse.click(box.x + lonely.x, box.y + lonely.y);
+  same('a click can select the object', (await page.evaluate(() => window.graze.selection))?.type, 'object');
+  await press(page, 'pick-feature');
+  await page.mouse.click(box.x + lonely.x, box.y + lonely.y);
+  same('a click can select a feature', (await inspect(page)).selection?.type, 'feature');
+  await press(page, 'pick-auto');
+}
+
+async function checkFilters(page, made) {
+  const frame = 52;
+  await page.evaluate(() => window.graze.select(null));
+  await goTo(page, frame);
+  const all = contactsOf(made.reports[frame]);
+  const expect = async (name, test) => same(name, (await drawn(page)).contacts, all.filter(test).length);
+  await expect('all contacts are drawn', () => true);
+  await press(page, 'kind-VF');
+  await expect('the filter by kind', ({ contact }) => contact.kind !== 'VF');
+  await press(page, 'kind-VF');
+  await press(page, 'tab-show');
+  await press(page, 'side-front-front');
+  await expect('the filter by sides', ({ contact }) => contact.side_a !== 1 || contact.side_b !== 1);
+  await press(page, 'side-front-front');
+  await page.fill('[data-testid=filter-distanceTo]', '0.05');
+  await expect('the filter by distance', ({ contact }) => contact.distance <= 0.05);
+  await page.fill('[data-testid=filter-ageFrom]', '4');
+  const number = made.reports[frame].info.frame;
+  await expect('the filter by age', ({ contact }) => contact.distance <= 0.05 && number - contact.since >= 4);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('x');
+  await expect('without filters', () => true);
+}
+
+async function checkLines(page, made) {
+  await goTo(page, 52);
+  await page.keyboard.press('a');
+  await page.waitForTimeout(400);
+  const lines = made.reports[52].pairs.flatMap((p) => p.regions);
+  for (const level of [1, 2, 3]) {
+    const wanted = lines.filter((l) => l.level === level).length;
+    const before = await pixelsOf(page);
+    await press(page, `level-${level}`);
+    const off = (await drawn(page)).lines[level] ?? 0;
+    const changed = difference(before, await pixelsOf(page));
+    await press(page, `level-${level}`);
+    const on = (await drawn(page)).lines[level] ?? 0;
+    check(`lines of level ${level} on and off`, on === wanted && off === 0 && changed > 20, `${on} lines, ${changed} pixels`);
+  }
+  for (const [key, name, what] of [['w', 'faces', 500], ['e', 'edges', 200], ['k', 'contacts', 100], ['m', 'normals', 50],
+    ['d', 'witnesses', 5], ['c', 'the clip plane', 500], ['r', 'transparency', 500]]) {
+    const before = await pixelsOf(page);
+    await page.keyboard.press(key);
+    const changed = difference(before, await pixelsOf(page));
+    await page.keyboard.press(key);
+    const back = difference(before, await pixelsOf(page));
+    check(`${name} on and off`, changed > what && back === 0, `${changed} pixels`);
+  }
+  await page.keyboard.press('b');
+  const circles = (await drawn(page)).bounds;
+  await page.keyboard.press('b');
+  await page.keyboard.press('b');
+  check('bounds of regions', circles > 0 && (await drawn(page)).bounds === 0, `${circles} regions`);
+}
+
+async function pixelsOf(page) {
+  const text = await page.evaluate(() => {
+    const { data } = window.graze.pixels();
+    let text = '';
+    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode((data[i] + 2 * data[i + 1] + 4 * data[i + 2]) & 2047);
+    return text;
+  });
+  return text;
+}
+
+function difference(before, after) {
+  let count = 0;
+  for (let i = 0; i < before.length; ++i) if (before[i] !== after[i]) ++count;
+  return count;
+}
+
+/** Numbers that the inspector shows as text, by the name of the fact. */
+const shownFacts = (page) => page.$$eval('[data-testid=selection-facts] output', (outputs) =>
+  Object.fromEntries(outputs.map((o) => [o.dataset.fact, o.textContent])));
+
+async function checkNumbers(page, made) {
+  for (const frame of [5, 24, 52]) {
+    const report = made.reports[frame];
+    await goTo(page, frame);
+    let wrong = 0;
+    let compared = 0;
+    for (const pair of report.pairs) {
+      const serials = [pair.a, pair.b].map((i) => made.head.objects[i].serial);
+      await page.evaluate((s) => window.graze.select(s), `pair:${serials.join(':')}`);
+      const facts = await shownFacts(page);
+      const [x, y, z] = pair.witness.points;
+      const wanted = { lower: pair.lower, upper: pair.upper, 'point_a.x': x, 'point_a.y': y, 'point_a.z': z };
+      // Three coordinates that are all integers are shown in one line.
+      const plain = [x, y, z].every(Number.isInteger) ? { lower: pair.lower, upper: pair.upper } : wanted;
+      for (const [key, value] of Object.entries(plain)) {
+        ++compared;
+        if (facts[key] !== String(value)) ++wrong;
+      }
+      if (facts.phase !== pair.phase) ++wrong;
+    }
+    for (const { pair, contact } of contactsOf(report).slice(0, 12)) {
+      const kinds = ['vertex', 'edge', 'face'];
+      const [ka, ia, kb, ib] = contact.features;
+      const serials = [pair.a, pair.b].map((i) => made.head.objects[i].serial);
+      await page.evaluate((s) => window.graze.select(s),
+        `contact:${serials.join(':')}:${contact.kind}:${kinds[ka]}.${ia}:${kinds[kb]}.${ib}`);
+      const { selection } = await inspect(page);
+      const twins = pair.contacts.filter((c) => c.kind === contact.kind && c.features.join() === contact.features.join());
+      const got = JSON.stringify([selection.distance, selection.point_a, selection.point_b, selection.normal, selection.since]);
+      ++compared;
+      if (!twins.some((c) => got === JSON.stringify([c.distance, c.points.slice(0, 3), c.points.slice(3), c.normal, c.since]))) ++wrong;
+    }
+    check(`numbers of frame ${frame} to the last digit`, wrong === 0 && compared > 5, `${compared} compared, ${wrong} wrong`);
+  }
+  await goTo(page, 24);
+  await page.evaluate(() => window.graze.select('feature:5:vertex.3'));
+  const box = made.scene.objects[2];
+  const m = box.pose(24);
+  const [x, y, z] = box.mesh.points[3];
+  const place = [0, 1, 2].map((k) => m[3 * k] * x + m[3 * k + 1] * y + m[3 * k + 2] * z + m[9 + k]);
+  same('a vertex of a rigid object to the last digit', (await inspect(page)).selection.position, place);
+  await page.evaluate(() => window.graze.select('feature:4:vertex.100'));
+  const at = (await inspect(page)).selection;
+  const wanted = made.scene.objects[1].positions(24);
+  const error = Math.max(...at.position.map((p, k) => Math.abs(p - wanted[300 + k])));
+  check('a vertex of a deformable object within the position error', error <= at.position_error, `${error}`);
+}
+
+async function checkMarks(page) {
+  await goTo(page, 41);
+  const state = await drawn(page);
+  check('a diagnostic is drawn where it happened', state.warnings === 1);
+  const badges = () => page.textContent('[data-testid=badges]');
+  check('stale and diagnostics are marked', /stale/.test(await badges()) && /1 diagnostic/.test(await badges()));
+  await goTo(page, 60);
+  check('incomplete is marked', /incomplete/.test(await badges()));
+  await goTo(page, 78);
+  check('DIVERGED is marked', /DIVERGED/.test(await badges()));
+  await goTo(page, 10);
+  same('objects are there from their first frame', (await drawn(page)).surfaces, 4);
+  await goTo(page, 30);
+  same('and until their last', (await drawn(page)).surfaces, 5);
+  await page.keyboard.press('?');
+  check('help opens and lists licences', /three 0\./.test(await page.textContent('#help')) && /uplot 1\./.test(await page.textContent('#help')));
+  await page.keyboard.press('Escape');
+}
+
+async function checkLink(page, path) {
+  await goTo(page, 33);
+  await page.evaluate(() => window.graze.select('object:6'));
+  const hash = await page.evaluate(() => window.graze.link());
+  const other = await open(path, hash);
+  same('a link shows the same place', await other.evaluate(() => window.graze.link()), hash);
+  await other.close();
+}
+
+async function checkSchemes(page) {
+  const light = await pixelsOf(page);
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.waitForTimeout(200);
+  const dark = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  check('the dark scheme', dark === 'rgb(27, 31, 36)' && difference(light, await pixelsOf(page)) > 1000, dark);
+  await press(page, 'theme');
+  const chosen = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  check('the switch to light', chosen === 'rgb(255, 255, 255)', chosen);
+}
+
+async function checkFile(made) {
+  const page = await open(write('empty.html', template));
+  check('a page without data asks for a file', /Drop a .grazeview/.test(await page.textContent('[data-testid=empty]')));
+  await page.setInputFiles('[data-testid=file]', write('small.grazeview', viewFile(made.chunks)));
+  await page.waitForFunction(() => window.graze.frame === 0);
+  same('a file opens', await page.textContent('[data-testid=title]'), made.head.title);
+  await page.setInputFiles('[data-testid=file]', write('bad.grazeview', Buffer.from('no such file')));
+  await page.waitForFunction(() => /not a .grazeview/.test(document.getElementById('note').textContent));
+  check('a bad file is refused with a reason', true);
+  same('no console error without data', page.errors, []);
+  await page.close();
+}
+
+// ---- Large pages ----
+
+const median = (values) => [...values].sort((p, q) => p - q)[values.length >> 1];
+
+async function checkLarge(name, scene, level, limits) {
+  const { chunks, head } = makePage(scene, level);
+  const path = write(`${name}.html`, pageHtml(template, chunks));
+  const size = statSync(path).size / 1e6;
+  const page = await open(path);
+  const script = await page.evaluate(async ({ frames, times }) => {
+    const seeks = [];
+    for (let i = 0; i < times; ++i) {
+      const began = performance.now();
+      await window.graze.goTo((i * 397 + 200) % frames);
+      seeks.push(performance.now() - began);
+      // The software renderer is behind by now; a person would not seek again before they see something.
+      window.graze.pixels();
+    }
+    const draws = [];
+    for (let i = 0; i < 3; ++i) {
+      const began = performance.now();
+      window.graze.pixels();
+      draws.push(performance.now() - began);
+    }
+    return { seeks, draws };
+  }, { frames: head.frames, times: limits.seeks });
+  const stats = await page.evaluate(() => window.graze.stats());
+  console.log(`info ${name}: page ${size.toFixed(1)} MB, open ${page.openMs.toFixed(0)} ms, seek ${median(script.seeks).toFixed(0)} ms, ` +
+    `drawn in software in ${median(script.draws).toFixed(0)} ms, block decoded in ${stats.decodeMs.toFixed(0)} ms`);
+  check(`${name}: the page is below ${limits.size} MB`, size < limits.size, `${size.toFixed(1)} MB`);
+  if (limits.open) within(`${name}: opens`, page.openMs, limits.open);
+  if (limits.seek) within(`${name}: seeks, median`, median(script.seeks), limits.seek);
+  same(`${name}: no console error`, page.errors, []);
+  await page.close();
+}
+
+// ---- A page of graze ----
+
+async function checkAgainstReport(path, reportPath) {
+  const [header, ...lines] = readFileSync(reportPath, 'utf8').trim().split('\n').map((line) => JSON.parse(line));
+  const page = await open(path);
+  const numbers = await page.evaluate(() => {
+    const frames = Number(document.getElementById('frame').max) + 1;
+    return { frames };
+  });
+  let compared = 0;
+  let wrong = 0;
+  for (const share of [0, 0.5, 1]) {
+    await goTo(page, Math.round(share * (numbers.frames - 1)));
+    const { frame } = await inspect(page);
+    const report = lines.find((line) => line.frame === frame.frame);
+    for (const pair of report?.pairs ?? []) {
+      await page.evaluate((s) => window.graze.select(s), { type: 'pair', a: pair.a, b: pair.b });
+      const { selection } = await inspect(page);
+      ++compared;
+      const got = [selection.phase, selection.lower, selection.upper, selection.witness_a, selection.point_a, selection.point_b, selection.contacts];
+      const wanted = [pair.phase, ...pair.distance, pair.witness.a, pair.witness.point_a, pair.witness.point_b, (pair.contacts ?? []).length];
+      if (JSON.stringify(got) !== JSON.stringify(wanted)) ++wrong;
+      for (const c of (pair.contacts ?? []).slice(0, 20)) {
+        const feature = ([kind, index]) => [['vertex', 'edge', 'face'].indexOf(kind), index];
+        await page.evaluate((s) => window.graze.select(s), {
+          type: 'contact', a: pair.a, b: pair.b, kind: ['VV', 'VE', 'VF', 'EE', 'EF', 'FF'].indexOf(c.kind),
+          features: [...feature(c.a), ...feature(c.b)] });
+        const shown = (await inspect(page)).selection;
+        ++compared;
+        const gotContact = [shown.feature_a, shown.feature_b, shown.distance, shown.point_a, shown.point_b, shown.normal, shown.side_a, shown.side_b, shown.since];
+        const wantedContact = [c.a, c.b, c.distance, c.point_a, c.point_b, c.normal, ...c.side, c.since];
+        if (JSON.stringify(gotContact) !== JSON.stringify(wantedContact)) ++wrong;
+      }
+    }
+  }
+  check(`numbers of ${path} are those of its report`, compared > 0 && wrong === 0,
+    `${header.objects.length} objects, ${compared} compared, ${wrong} wrong`);
+  same('no console error', page.errors, []);
+  await page.close();
+}
+
+// ---- All of it ----
+
+try {
+  const [givenPage, givenReport] = process.argv.slice(2);
+  if (givenPage) {
+    await checkAgainstReport(givenPage, givenReport);
+  } else {
+    const scene = smallScene();
+    const made = { scene, ...makePage(scene) };
+    const path = write('small.html', pageHtml(template, made.chunks));
+    const page = await open(path);
+    check('a page from disk opens', (await page.evaluate(() => window.graze.error)) === null);
+    await checkPlaying(page, scene.frames);
+    await checkSelection(page, made);
+    await checkFilters(page, made);
+    await checkLines(page, made);
+    await checkNumbers(page, made);
+    await checkMarks(page);
+    await checkLink(page, path);
+    await checkSchemes(page);
+    same('no console error', page.errors, []);
+    await page.close();
+    await checkFile(made);
+    await checkLarge('1,000 frames of 10,000 vertices', longScene(), 4, { size: 60, open: 2000, seek: 50, seeks: 15 });
+    await checkLarge('2 × 100,000 vertices', largeScene(), 1, { size: 60, seeks: 4 });
+  }
+} catch (error) {
+  check('runs to its end', false, error.stack);
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+}
+console.log(failures === 0 ? 'all checks passed' : `${failures} checks failed`);
+process.exit(failures === 0 ? 0 : 1);

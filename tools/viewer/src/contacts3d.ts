@@ -1,0 +1,100 @@
+// How are contacts drawn: points, normals, kinds and sides, and where diagnostics happened?
+
+import { PointBatch, SegmentBatch, SHAPE, type Vec3 } from './batches3d';
+import type { ObjectState } from './motion';
+import { KIND_COLOURS, palette } from './palette';
+import type { Layer, Stage } from './scene3d';
+
+/** What a point's shape says: 0 no side, 1 in front of both, 2 behind one, 3 the two sides disagree. */
+export function sideClass(a: number, b: number): 0 | 1 | 2 | 3 {
+  if (a === 0 && b === 0) return 0;
+  if (a + b === 3 && a * b === 2) return 3;
+  return a === 2 || b === 2 ? 2 : 1;
+}
+
+export const CLASS_SHAPES = [SHAPE.small, SHAPE.disc, SHAPE.ring, SHAPE.diamond];
+export const CLASS_NAMES = ['no side', 'in front', 'behind', 'disagree'];
+
+/** Where an object's diagnostic is shown: beside its vertices that are not finite, else in its middle. */
+export function diagnosticPlace(object: ObjectState): [number, number, number] {
+  const bad = new Set(object.notFinite);
+  if (bad.size === 0) return object.centre();
+  const sum: [number, number, number] = [0, 0, 0];
+  let count = 0;
+  const { edges } = object.mesh;
+  for (let i = 0; i < edges.length; ++i) {
+    const other = edges[i ^ 1]!;
+    if (!bad.has(edges[i]!) || bad.has(other)) continue;
+    object.vertex(other).forEach((x, k) => (sum[k]! += x));
+    ++count;
+  }
+  return count ? (sum.map((x) => x / count) as [number, number, number]) : object.centre();
+}
+
+export class ContactsLayer implements Layer {
+  /** The contacts that are drawn, as rows of the report, in the order of `places`. */
+  shown: [contact: number, pair: number][] = [];
+  places: Vec3[] = [];
+  private readonly points = new PointBatch(40);
+  private readonly warnings = new PointBatch(60);
+  private readonly normals = new SegmentBatch(30, 1.8);
+  readonly objects = [this.normals.object, this.points.object, this.warnings.object];
+
+  get normalCount(): number { return this.normals.count; }
+  get warningCount(): number { return this.warnings.count; }
+
+  update(stage: Stage): void {
+    for (const batch of [this.points, this.warnings, this.normals]) batch.clear();
+    this.shown = [];
+    this.places = [];
+    const { display } = stage.viewer;
+    if (display.contacts) this.addContacts(stage);
+    if (display.diagnostics) this.addDiagnostics(stage);
+    const { outline } = palette();
+    this.points.finish(stage.ratio, outline);
+    this.warnings.finish(stage.ratio, outline);
+    this.normals.finish();
+  }
+
+  resize(width: number, height: number, ratio: number, near: number): void {
+    this.normals.resize(width, height, ratio, near);
+  }
+
+  private addContacts(stage: Stage): void {
+    const { viewer } = stage;
+    const { report, display } = viewer;
+    if (!report) return;
+    const { block } = report;
+    const length = 0.05 * stage.radius * display.normalLength;
+    for (const [contact, pair] of report.contacts()) {
+      if (!stage.isDrawn(block.pairA[pair]!) && !stage.isDrawn(block.pairB[pair]!)) continue;
+      if (!viewer.passes(contact, pair)) continue;
+      const a = stage.local(block.points, 6 * contact);
+      const b = stage.local(block.points, 6 * contact + 3);
+      const middle = a.map((x, k) => (x + b[k]!) / 2) as unknown as Vec3;
+      const colour = KIND_COLOURS[block.kind[contact]!] ?? '#999999';
+      const group = sideClass(report.sideA(contact), report.sideB(contact));
+      const size = group === 0 ? 0.7 * display.pointSize : display.pointSize;
+      this.points.add(a, colour, CLASS_SHAPES[group]!, size);
+      if (block.distance[contact]! > 0) {
+        this.points.add(b, colour, CLASS_SHAPES[group]!, 0.62 * size);
+        this.normals.add(a, b, colour, 150);
+      }
+      if (display.normals) {
+        const n = block.normal.subarray(3 * contact, 3 * contact + 3);
+        this.normals.add(middle, [middle[0] + length * n[0]!, middle[1] + length * n[1]!, middle[2] + length * n[2]!], colour);
+      }
+      this.shown.push([contact, pair]);
+      this.places.push(middle);
+    }
+  }
+
+  private addDiagnostics(stage: Stage): void {
+    const { page, report } = stage.viewer;
+    for (const diagnostic of report?.diagnostics ?? []) {
+      const object = diagnostic.object === null ? undefined : page!.objects[diagnostic.object];
+      if (!object?.isThere) continue;
+      this.warnings.add(stage.local(diagnosticPlace(object)), palette().warning, SHAPE.warning, 30);
+    }
+  }
+}

@@ -1,0 +1,51 @@
+// What does the head of a page say?
+
+export interface ObjectHead {
+  serial: number;
+  name: string;
+  motion: 'deformable' | 'rigid' | 'fixed';
+  mesh: number;
+  first: number;
+  last: number;
+  user_data: string;
+  position_error: number;
+}
+
+export interface MeshHead {
+  chunk: string;
+  vertices: number;
+  edges: number;
+  triangles: number;
+  quads: number;
+  levels: number;
+}
+
+export const STAGES = ['read_ms', 'pairs_ms', 'refit_ms', 'jobs_ms', 'publish_ms'] as const;
+export const COUNTS = [
+  'contacts', 'near', 'in_contact', 'began', 'ended', 'incomplete', 'stale', 'contacts_cut', 'diagnostics',
+] as const;
+export type Stage = (typeof STAGES)[number];
+export type Count = (typeof COUNTS)[number];
+
+export interface Head {
+  version: number;
+  graze: string;
+  title: string;
+  source: string;
+  settings: Record<string, unknown>;
+  frames: number;
+  frame_numbers: number[];
+  every: number;
+  source_frames: number;
+  block: number;
+  objects: ObjectHead[];
+  meshes: MeshHead[];
+  series: Partial<Record<Stage | Count | 'step_ms', number[]>>;
+  diverged?: number[];
+}
+
+export function checkHead(value: unknown): Head {
+  const head = value as Head;
+  if (head.version !== 1) throw new Error(`This data has version ${head.version}; this viewer reads version 1.`);
+  return head;
+}

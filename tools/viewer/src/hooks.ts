@@ -1,0 +1,68 @@
+// What may tests and the console ask of the page?
+
+import type { Facts } from './facts';
+import { frameFacts, selectionFacts } from './facts';
+import { selectionKey, type Lists } from './lists';
+import { parseSelection, selectionText, type Link } from './link';
+import { Screen } from './picking';
+import type { Player } from './player';
+import type { Stage } from './scene3d';
+import type { Selection, Viewer } from './viewer';
+
+export interface Hooks {
+  ready: Promise<void>;
+  error: string | null;
+  readonly frame: number;
+  readonly selection: Selection | null;
+  goTo(frame: number): Promise<void>;
+  /** A selection, or its text as it is in a link. */
+  select(selection: Selection | string | null): void;
+  inspect(): { frame: Facts; selection: Facts | null };
+  /** What is in the scene now. */
+  drawn(): Record<string, unknown>;
+  /** Where a contact that is shown stands on the screen, in pixels of the canvas. */
+  contactAt(index: number): { x: number; y: number; key: string } | null;
+  pixels(): { width: number; height: number; data: Uint8Array };
+  link(): string;
+  stats(): Record<string, number>;
+}
+
+const median = (values: number[]): number => [...values].sort((p, q) => p - q)[values.length >> 1] ?? 0;
+
+export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: Lists, link: Link, ready: Promise<void>): Hooks {
+  return {
+    ready,
+    error: null,
+    get frame() { return viewer.frame; },
+    get selection() { return viewer.selection; },
+    async goTo(frame) {
+      await viewer.goTo(frame);
+      stage.draw();
+    },
+    select: (s) => viewer.select(typeof s === 'string' ? parseSelection(viewer, s) : s),
+    inspect: () => ({ frame: frameFacts(viewer), selection: selectionFacts(viewer) }),
+    drawn() {
+      stage.draw();
+      return {
+        contacts: stage.contacts.shown.length, normals: stage.contacts.normalCount, warnings: stage.contacts.warningCount,
+        lines: stage.lines.counts(), bounds: stage.lines.boundCount, highlights: stage.highlight.count,
+        surfaces: stage.surfaces.filter((s) => s.object.visible).length, rows: lists.rows.length,
+        isPlaying: player.isPlaying, selection: viewer.selection && selectionText(viewer, viewer.selection),
+      };
+    },
+    contactAt(index) {
+      const place = stage.contacts.places[index];
+      const p = place && new Screen(stage).at(place);
+      if (!p) return null;
+      const [contact, pair] = stage.contacts.shown[index]!;
+      return { x: p[0], y: p[1], key: selectionKey(viewer.contactSelection(contact, pair)) };
+    },
+    pixels: () => stage.pixels(),
+    link: () => link.text(),
+    stats: () => ({
+      frameMs: median(stage.renderMs), seekMs: median(viewer.seekMs),
+      decodeMs: median([...(viewer.page?.motions.decodeMs ?? [])]), decodeReportMs: median([...(viewer.page?.reports.decodeMs ?? [])]),
+      openMs: Number(document.documentElement.dataset.openMs ?? 0),
+    }),
+  };
+}

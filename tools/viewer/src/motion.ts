@@ -1,0 +1,151 @@
+// Where is every vertex in a frame?
+
+import type { Table } from './chunks';
+import type { Head } from './head';
+import type { Mesh } from './mesh';
+
+const NOT_FINITE = -2147483648;
+
+interface TrackHead {
+  object: number;
+  frames: number[];
+  array: string;
+  kind: 'positions' | 'pose';
+  origin: [number, number, number];
+  step: number;
+}
+
+/** The motion of one object in a block. Coded differences are summed only as far as a frame needs them. */
+class Track {
+  private readonly sums: Int32Array | null;
+  private at = -1;
+
+  constructor(readonly head: TrackHead, private readonly bytes: Uint8Array, private readonly poses: Float64Array) {
+    this.sums = head.kind === 'positions' ? new Int32Array(bytes.length / 4 / head.frames.length) : null;
+  }
+
+  /** Which of the track's frames a page frame shows. */
+  slot(frame: number): number {
+    let slot = 0;
+    while (slot + 1 < this.head.frames.length && this.head.frames[slot + 1]! <= frame) ++slot;
+    return slot;
+  }
+
+  write(slot: number, rest: Float64Array, out: Float64Array): void {
+    if (this.sums) this.writePositions(slot, this.sums, out);
+    else this.writePosed(slot, rest, out);
+  }
+
+  private writePositions(slot: number, sums: Int32Array, out: Float64Array): void {
+    if (slot < this.at) this.at = -1;
+    while (this.at < slot) this.add(++this.at, sums);
+    const n = out.length / 3;
+    const [x, y, z] = this.head.origin;
+    const { step } = this.head;
+    for (let v = 0, o = 0; v < n; ++v, o += 3) {
+      const isFinite = sums[v] !== NOT_FINITE;
+      out[o] = isFinite ? x + step * sums[v]! : NaN;
+      out[o + 1] = isFinite ? y + step * sums[n + v]! : NaN;
+      out[o + 2] = isFinite ? z + step * sums[2 * n + v]! : NaN;
+    }
+  }
+
+  private add(slot: number, sums: Int32Array): void {
+    const n = sums.length;
+    const plane0 = this.bytes.subarray(4 * n * slot, 4 * n * slot + n);
+    const plane1 = this.bytes.subarray(4 * n * slot + n, 4 * n * slot + 2 * n);
+    const plane2 = this.bytes.subarray(4 * n * slot + 2 * n, 4 * n * slot + 3 * n);
+    const plane3 = this.bytes.subarray(4 * n * slot + 3 * n, 4 * n * slot + 4 * n);
+    if (slot === 0) sums.fill(0);
+    for (let i = 0; i < n; ++i) {
+      const u = plane0[i]! | (plane1[i]! << 8) | (plane2[i]! << 16) | (plane3[i]! << 24);
+      sums[i] = (sums[i]! + ((u >>> 1) ^ -(u & 1))) | 0;
+    }
+  }
+
+  /** The same order of operations as in graze, so that a posed vertex is the same double. */
+  private writePosed(slot: number, rest: Float64Array, out: Float64Array): void {
+    const m = this.poses.subarray(12 * slot, 12 * slot + 12);
+    for (let v = 0; v < out.length; v += 3) {
+      const [x, y, z] = [rest[v]!, rest[v + 1]!, rest[v + 2]!];
+      for (let k = 0; k < 3; ++k) out[v + k] = m[3 * k]! * x + m[3 * k + 1]! * y + m[3 * k + 2]! * z + m[9 + k]!;
+    }
+  }
+}
+
+/** The motion of all objects in a block of frames. */
+export class MotionBlock {
+  readonly byteLength: number;
+  private readonly tracks = new Map<number, Track>();
+
+  constructor(table: Table) {
+    this.byteLength = table.byteLength;
+    for (const head of table.header.tracks as TrackHead[]) {
+      const isPose = head.kind === 'pose';
+      const none = new Uint8Array(0);
+      const track = new Track(head, isPose ? none : table.u8(head.array), isPose ? table.f64(head.array) : new Float64Array(0));
+      this.tracks.set(head.object, track);
+    }
+  }
+
+  track(object: number): Track | undefined {
+    return this.tracks.get(object);
+  }
+}
+
+/** An object as it is in the frame that is shown. */
+export class ObjectState {
+  readonly world: Float64Array;
+  isThere = false;
+  /** Goes up whenever `world` is written. */
+  version = 0;
+  notFinite: number[] = [];
+  low = [0, 0, 0];
+  high = [0, 0, 0];
+  private shown = '';
+
+  constructor(readonly index: number, readonly mesh: Mesh) {
+    this.world = new Float64Array(mesh.rest);
+  }
+
+  show(block: MotionBlock, blockIndex: number, frame: number, head: Head): void {
+    const { first, last } = head.objects[this.index]!;
+    this.isThere = first <= frame && frame <= last;
+    if (!this.isThere) return;
+    const track = block.track(this.index);
+    const slot = track ? track.slot(frame) : 0;
+    const key = `${blockIndex}/${slot}`;
+    if (key === this.shown) return;
+    this.shown = key;
+    if (track) track.write(slot, this.mesh.rest, this.world);
+    else this.world.set(this.mesh.rest);
+    ++this.version;
+    this.measure();
+  }
+
+  private measure(): void {
+    const { world, low, high } = this;
+    this.notFinite = [];
+    low.fill(Infinity);
+    high.fill(-Infinity);
+    for (let v = 0; v < world.length; v += 3) {
+      if (!Number.isFinite(world[v])) {
+        this.notFinite.push(v / 3);
+        continue;
+      }
+      for (let k = 0; k < 3; ++k) {
+        const x = world[v + k]!;
+        if (x < low[k]!) low[k] = x;
+        if (x > high[k]!) high[k] = x;
+      }
+    }
+  }
+
+  vertex(v: number): [number, number, number] {
+    return [this.world[3 * v]!, this.world[3 * v + 1]!, this.world[3 * v + 2]!];
+  }
+
+  centre(): [number, number, number] {
+    return [0, 1, 2].map((k) => (this.low[k]! + this.high[k]!) / 2) as [number, number, number];
+  }
+}

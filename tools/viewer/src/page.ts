@@ -1,0 +1,50 @@
+// What is in the opened page, and what is in memory of it?
+
+import { BlockCache, readJson, readTable, type ChunkSource } from './chunks';
+import { checkHead, type Head } from './head';
+import { Mesh } from './mesh';
+import { MotionBlock, ObjectState } from './motion';
+import { FrameReport, ReportBlock } from './report';
+
+const CACHE_BYTES = 192 * 1024 * 1024;
+
+export class Page {
+  readonly motions: BlockCache<MotionBlock>;
+  readonly reports: BlockCache<ReportBlock>;
+  readonly objects: ObjectState[];
+
+  private constructor(readonly source: ChunkSource, readonly head: Head, meshes: Mesh[]) {
+    this.motions = new BlockCache(CACHE_BYTES, async (name) => new MotionBlock(await readTable(source, name)));
+    this.reports = new BlockCache(CACHE_BYTES, async (name) => new ReportBlock(await readTable(source, name)));
+    this.objects = head.objects.map((object, i) => new ObjectState(i, meshes[object.mesh]!));
+  }
+
+  static async open(source: ChunkSource): Promise<Page> {
+    const head = checkHead(await readJson(source, 'head'));
+    const meshes = await Promise.all(head.meshes.map(async (m) => new Mesh(await readTable(source, m.chunk))));
+    return new Page(source, head, meshes);
+  }
+
+  blockOf(frame: number): number {
+    return Math.floor(frame / this.head.block);
+  }
+
+  get blockCount(): number {
+    return Math.ceil(this.head.frames / this.head.block);
+  }
+
+  /** Decodes what a frame needs, moves the objects there and gives its report. */
+  async load(frame: number, isWanted: () => boolean): Promise<FrameReport | null> {
+    const k = this.blockOf(frame);
+    const [motion, report] = await Promise.all([this.motions.get(`motion/${k}`), this.reports.get(`report/${k}`)]);
+    if (!isWanted()) return null;
+    for (const object of this.objects) object.show(motion, k, frame, this.head);
+    return new FrameReport(report, frame - k * this.head.block, frame, this.head.frame_numbers[frame] ?? frame);
+  }
+
+  prefetch(block: number): void {
+    if (block < 0 || block >= this.blockCount) return;
+    void this.motions.get(`motion/${block}`).catch(() => {});
+    void this.reports.get(`report/${block}`).catch(() => {});
+  }
+}

@@ -1,0 +1,120 @@
+// What does the report of a frame say?
+
+import type { Table } from './chunks';
+
+export const PHASES = ['near', 'began', 'touching', 'ended'] as const;
+export const KINDS = ['VV', 'VE', 'VF', 'EE', 'EF', 'FF'] as const;
+export const SIDES = ['none', 'front', 'back'] as const;
+export const FEATURE_KINDS = ['vertex', 'edge', 'face'] as const;
+
+export interface Diagnostic { frame: number; object: number | null; kind: string; message: string }
+export interface FrameInfo { frame: number; tag: string; complete: boolean; statistics: Record<string, unknown> }
+
+/** The reports of a block of frames: columns, with one entry for each pair, contact and region distance. */
+export class ReportBlock {
+  readonly byteLength: number;
+  readonly diagnostics: Diagnostic[];
+  readonly infos: FrameInfo[];
+  readonly begin: Uint32Array;
+  readonly end: Uint32Array;
+  readonly pairA: Uint32Array;
+  readonly pairB: Uint32Array;
+  readonly phase: Uint8Array;
+  readonly flags: Uint8Array;
+  readonly lower: Float64Array;
+  readonly upper: Float64Array;
+  readonly witnessFeatures: Uint32Array;
+  readonly witnessPoints: Float64Array;
+  readonly contactBegin: Uint32Array;
+  readonly contactEnd: Uint32Array;
+  readonly regionBegin: Uint32Array;
+  readonly regionEnd: Uint32Array;
+  readonly kind: Uint8Array;
+  readonly sides: Uint8Array;
+  readonly features: Uint32Array;
+  readonly points: Float64Array;
+  readonly normal: Float64Array;
+  readonly distance: Float64Array;
+  readonly since: Uint32Array;
+  readonly regionLevels: Uint32Array;
+  readonly regionIds: Uint32Array;
+  readonly regionPoints: Float64Array;
+  readonly regionDistance: Float64Array;
+
+  constructor(table: Table) {
+    this.byteLength = table.byteLength;
+    this.diagnostics = (table.header.diagnostics ?? []) as Diagnostic[];
+    this.infos = (table.header.frames_info ?? []) as FrameInfo[];
+    this.begin = table.u32('frame_pair_begin');
+    this.end = table.u32('frame_pair_end');
+    this.pairA = table.u32('pair_a');
+    this.pairB = table.u32('pair_b');
+    this.phase = table.u8('pair_phase');
+    this.flags = table.u8('pair_flags');
+    this.lower = table.f64('pair_lower');
+    this.upper = table.f64('pair_upper');
+    this.witnessFeatures = table.u32('witness_features');
+    this.witnessPoints = table.f64('witness_points');
+    this.contactBegin = table.u32('pair_contact_begin');
+    this.contactEnd = table.u32('pair_contact_end');
+    this.regionBegin = table.u32('pair_region_begin');
+    this.regionEnd = table.u32('pair_region_end');
+    this.kind = table.u8('contact_kind');
+    this.sides = table.u8('contact_sides');
+    this.features = table.u32('contact_features');
+    this.points = table.f64('contact_points');
+    this.normal = table.f64('contact_normal');
+    this.distance = table.f64('contact_distance');
+    this.since = table.u32('contact_since');
+    this.regionLevels = table.u32('region_levels');
+    this.regionIds = table.u32('region_ids');
+    this.regionPoints = table.f64('region_points');
+    this.regionDistance = table.f64('region_distance');
+  }
+
+  /** The row of a pair in the i-th frame of the block, or -1. */
+  rowOf(i: number, a: number, b: number): number {
+    for (let row = this.begin[i]!; row < this.end[i]!; ++row)
+      if (this.pairA[row] === a && this.pairB[row] === b) return row;
+    return -1;
+  }
+}
+
+/** One frame's part of a block. Pairs and contacts are named by their rows in the block. */
+export class FrameReport {
+  readonly info: FrameInfo;
+  readonly diagnostics: Diagnostic[];
+
+  constructor(readonly block: ReportBlock, readonly inBlock: number, readonly frame: number, frameNumber: number) {
+    this.info = block.infos[inBlock] ?? { frame: frameNumber, tag: '', complete: true, statistics: {} };
+    this.diagnostics = block.diagnostics.filter((d) => d.frame === frame);
+  }
+
+  get pairBegin(): number { return this.block.begin[this.inBlock] ?? 0; }
+  get pairEnd(): number { return this.block.end[this.inBlock] ?? 0; }
+
+  *pairs(): Generator<number> {
+    for (let row = this.pairBegin; row < this.pairEnd; ++row) yield row;
+  }
+
+  *contacts(): Generator<[contact: number, pair: number]> {
+    for (const pair of this.pairs())
+      for (let c = this.block.contactBegin[pair]!; c < this.block.contactEnd[pair]!; ++c) yield [c, pair];
+  }
+
+  rowOf(a: number, b: number): number {
+    return this.block.rowOf(this.inBlock, a, b);
+  }
+
+  /** The contact of a pair with these features, or -1. */
+  contactOf(pair: number, kind: number, features: readonly number[]): number {
+    const { block } = this;
+    for (let c = block.contactBegin[pair]!; c < block.contactEnd[pair]!; ++c)
+      if (block.kind[c] === kind && features.every((value, k) => block.features[4 * c + k] === value)) return c;
+    return -1;
+  }
+
+  sideA(contact: number): number { return this.block.sides[contact]! & 3; }
+  sideB(contact: number): number { return (this.block.sides[contact]! >> 2) & 3; }
+  age(contact: number): number { return this.info.frame - this.block.since[contact]!; }
+}

@@ -1,0 +1,195 @@
+// What is shown now: the page, the frame, the selection and the settings of the view. Panels listen to its changes.
+
+import type { ChunkSource } from './chunks';
+import { Page } from './page';
+import type { FrameReport } from './report';
+
+export type Selection =
+  | { type: 'object'; object: number }
+  | { type: 'pair'; a: number; b: number }
+  | { type: 'contact'; a: number; b: number; kind: number; features: number[] }
+  | { type: 'feature'; object: number; kind: number; index: number };
+
+export type BoundsShape = 'off' | 'circles' | 'spheres';
+export type PickMode = 'auto' | 'object' | 'pair' | 'contact' | 'feature';
+
+export interface Display {
+  surfaces: boolean;
+  edges: boolean;
+  opacity: number;
+  clip: boolean;
+  clipAxis: 'x' | 'y' | 'z' | 'view';
+  /** Where the plane is, from 0 to 1 through the scene. */
+  clipAt: number;
+  clipFlipped: boolean;
+  lines: boolean;
+  hiddenLevels: Set<number>;
+  witnesses: boolean;
+  bounds: BoundsShape;
+  boundsLevel: number;
+  boundsOfAll: boolean;
+  contacts: boolean;
+  normals: boolean;
+  normalLength: number;
+  pointSize: number;
+  diagnostics: boolean;
+  names: boolean;
+  hiddenObjects: Set<number>;
+  up: 'y' | 'z';
+  pick: PickMode;
+}
+
+/** Which contacts are shown. An empty bound is null. */
+export interface Filter {
+  kinds: boolean[];
+  /** For side a and side b: index 3·a + b. */
+  sides: boolean[];
+  distanceFrom: number | null;
+  distanceTo: number | null;
+  ageFrom: number | null;
+  ageTo: number | null;
+  onlySelected: boolean;
+}
+
+export type ViewerEvent = 'page' | 'frame' | 'selection' | 'display' | 'theme' | 'play' | 'camera';
+
+export function newFilter(): Filter {
+  return {
+    kinds: Array(6).fill(true), sides: Array(9).fill(true),
+    distanceFrom: null, distanceTo: null, ageFrom: null, ageTo: null, onlySelected: false,
+  };
+}
+
+function newDisplay(): Display {
+  return {
+    surfaces: true, edges: true, opacity: 1, clip: false, clipAxis: 'x', clipAt: 0.5, clipFlipped: false,
+    lines: true, hiddenLevels: new Set(), witnesses: true, bounds: 'off', boundsLevel: 1, boundsOfAll: false,
+    contacts: true, normals: true, normalLength: 1, pointSize: 9, diagnostics: true, names: false,
+    hiddenObjects: new Set(), up: 'z', pick: 'auto',
+  };
+}
+
+export class Viewer {
+  page: Page | null = null;
+  frame = -1;
+  report: FrameReport | null = null;
+  selection: Selection | null = null;
+  readonly display = newDisplay();
+  filter = newFilter();
+  /** The camera goes to the next selection that is announced. */
+  shouldFly = false;
+  seekMs: number[] = [];
+  private wanted = -1;
+  private seeking: Promise<void> | null = null;
+  private readonly listeners = new Map<ViewerEvent, (() => void)[]>();
+
+  on(events: ViewerEvent[], listener: () => void): void {
+    for (const event of events) this.listeners.set(event, [...(this.listeners.get(event) ?? []), listener]);
+  }
+
+  emit(event: ViewerEvent): void {
+    for (const listener of this.listeners.get(event) ?? []) listener();
+  }
+
+  async open(source: ChunkSource): Promise<void> {
+    const page = await Page.open(source);
+    this.page = page;
+    this.frame = this.wanted = -1;
+    this.report = null;
+    this.selection = null;
+    this.filter = newFilter();
+    this.display.hiddenObjects.clear();
+    this.display.hiddenLevels.clear();
+    // The first frame is there before panels hear of the page, so that they find objects in place.
+    this.report = await page.load(0, () => this.page === page);
+    this.frame = this.wanted = 0;
+    this.emit('page');
+    this.emit('frame');
+    this.emit('selection');
+  }
+
+  /** Shows a frame. While one is on its way only the newest wish counts. */
+  goTo(frame: number): Promise<void> {
+    if (!this.page) return Promise.resolve();
+    this.wanted = Math.max(0, Math.min(this.page.head.frames - 1, Math.round(frame)));
+    this.seeking ??= this.seek().finally(() => (this.seeking = null));
+    return this.seeking;
+  }
+
+  get isSeeking(): boolean {
+    return this.seeking !== null;
+  }
+
+  private async seek(): Promise<void> {
+    while (this.page && this.frame !== this.wanted) {
+      const { page } = this;
+      const frame = this.wanted;
+      const began = performance.now();
+      const report = await page.load(frame, () => this.page === page);
+      if (!report) return;
+      this.frame = frame;
+      this.report = report;
+      this.emit('frame');
+      this.seekMs.push(performance.now() - began);
+      if (this.seekMs.length > 500) this.seekMs.shift();
+    }
+  }
+
+  select(selection: Selection | null, fly = false): void {
+    this.selection = selection;
+    this.shouldFly = fly;
+    this.emit('selection');
+    this.shouldFly = false;
+  }
+
+  changed(): void {
+    this.emit('display');
+  }
+
+  /** The pair that is selected, or that the selected contact belongs to. */
+  selectedPair(): { a: number; b: number } | null {
+    const s = this.selection;
+    return s && (s.type === 'pair' || s.type === 'contact') ? { a: s.a, b: s.b } : null;
+  }
+
+  /** The selected contact's row in this frame, or -1 where it is not listed. */
+  selectedContactRow(): number {
+    const s = this.selection;
+    if (s?.type !== 'contact' || !this.report) return -1;
+    const pair = this.report.rowOf(s.a, s.b);
+    return pair < 0 ? -1 : this.report.contactOf(pair, s.kind, s.features);
+  }
+
+  selectedObjects(): number[] {
+    const s = this.selection;
+    if (!s) return [];
+    return s.type === 'object' || s.type === 'feature' ? [s.object] : [s.a, s.b];
+  }
+
+  contactSelection(contact: number, pair: number): Selection {
+    const { block } = this.report!;
+    return {
+      type: 'contact', a: block.pairA[pair]!, b: block.pairB[pair]!, kind: block.kind[contact]!,
+      features: [...block.features.subarray(4 * contact, 4 * contact + 4)],
+    };
+  }
+
+  passes(contact: number, pair: number): boolean {
+    const { filter, report } = this;
+    const { block } = report!;
+    if (!filter.kinds[block.kind[contact]!]) return false;
+    if (!filter.sides[3 * report!.sideA(contact) + report!.sideB(contact)]) return false;
+    const distance = block.distance[contact]!;
+    if (filter.distanceFrom !== null && distance < filter.distanceFrom) return false;
+    if (filter.distanceTo !== null && distance > filter.distanceTo) return false;
+    const age = report!.age(contact);
+    if (filter.ageFrom !== null && age < filter.ageFrom) return false;
+    if (filter.ageTo !== null && age > filter.ageTo) return false;
+    if (!filter.onlySelected) return true;
+    const [a, b] = [block.pairA[pair]!, block.pairB[pair]!];
+    const chosen = this.selectedPair();
+    if (chosen) return chosen.a === a && chosen.b === b;
+    const objects = this.selectedObjects();
+    return objects.length === 0 || objects.includes(a) || objects.includes(b);
+  }
+}
