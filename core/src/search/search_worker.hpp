@@ -1,23 +1,21 @@
 #pragma once
 
-#include "search/pair_search.hpp"
+#include "search/search_scratch.hpp"
+#include "search/searched_pair.hpp"
 #include "walk/dmv.hpp"
 #include "walk/leaf_pairs.hpp"
 
 namespace graze {
 
-inline constexpr std::size_t least_limit =
-    16;  ///< neither fronts nor lists are kept where all have to be shorter
-
-/// One thread's view of the search.
-class PairSearch::Worker {
+/// One thread's view of a search.
+class SearchWorker {
  public:
-  Worker(const PairSearch& search, SearchScratch& given, PairCounters& counters)
+  SearchWorker(const SearchedPair& searched, SearchScratch& given, PairCounters& counters)
       : scratch(given),
-        time(search.query_.deadline, decisions_),
-        pair{*search.a_, *search.b_, decisions_, time.is_set() ? &time : nullptr},
-        meter(search.query_, counters, pair.time),
-        leaf_pairs(pair, search.query_, given.leaf_pairs, meter) {
+        time(searched.query.deadline, decisions_),
+        pair{*searched.a, *searched.b, decisions_, time.is_set() ? &time : nullptr},
+        meter(searched.query, counters, pair.time),
+        leaf_pairs(pair, searched.query, given.leaf_pairs, meter) {
     scratch.features.begin();
   }
   /// Call it before testing some of the leaf pairs found: all slices see them in one frame.
@@ -37,14 +35,14 @@ class PairSearch::Worker {
     };
     scratch.features.begin({overlap(pair.a.box(), pair.b.box()), overlap(pair.b.box(), pair.a.box())});
   }
-  ~Worker() {
+  ~SearchWorker() {
     meter.counters().discarded_in_float += decisions_.discarded_in_float;
     meter.counters().named_in_float += decisions_.named_in_float;
     meter.counters().decided_in_double += decisions_.in_double;
     meter.counters().exact_decisions += decisions_.exact;
   }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
+  SearchWorker(const SearchWorker&) = delete;
+  SearchWorker& operator=(const SearchWorker&) = delete;
 
  private:
   DecisionCount decisions_;

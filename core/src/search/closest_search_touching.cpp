@@ -1,9 +1,8 @@
-// This part of a pair's search finds a point where surfaces that touched still do.
+// This part of the search for the closest points finds a point where surfaces that touched still do.
 
 #include <algorithm>
 
-#include "search/pair_search.hpp"
-#include "search/pair_search_worker.hpp"
+#include "search/closest_search.hpp"
 #include "walk/validate_front.hpp"
 
 namespace graze {
@@ -22,61 +21,63 @@ std::uint64_t tests_in_turn(const LeafFront& front) {
 
 }  // namespace
 
-TouchingOrder PairSearch::touching_order() const {
-  return {a_->mesh().regions(), b_->mesh().regions()};
+TouchingOrder ClosestSearch::touching_order() const {
+  return {pair_.a->mesh().regions(), pair_.b->mesh().regions()};
 }
 
 /// Sorts the front by the order in which leaf pairs are tested for touching.
-void PairSearch::sort_front() {
-  std::sort(front_->leaves.begin(), front_->leaves.end(), touching_order());
+void ClosestSearch::sort_front() {
+  std::sort(pair_.front->leaves.begin(), pair_.front->leaves.end(), touching_order());
 }
 
 /// Searches for distance 0 and nothing else, in the cheapest way that there is.
-void PairSearch::find_touching(Worker& worker) {
+SearchProgress ClosestSearch::begin_touching(SearchWorker& worker) {
+  choose_source();
+  closest_.clear();
   closest_.closest.upper = 0;
   is_bounded_ = true;
-  if (from_front_) return test_front(worker);
-  front_->reached_bits < least_reached_bits ? approach(worker) : walk_touching(worker);
+  if (source_ != LeafSource::walk) return test_front(worker);
+  return pair_.front->reached_bits < least_reached_bits ? approach(worker) : walk_touching(worker);
 }
 
-/// One leaf pair of the front after the other, until one touches; nothing is to be sorted for it. Of a large
-/// pair not all by one thread, if they touch no more.
-void PairSearch::test_front(Worker& worker) {
-  ClosestRange range(worker.pair, query_, ties(), closest_);
-  validate(*front_, *a_, *b_);
-  const double motion = front_->motion_now(*a_, *b_);
-  if (!front_->leaves.empty()) worker.begin_leaves(front_->leaves.front().pair);
+/// Tests one leaf pair of the front after the other, until one touches. The front is in the order for that.
+/// One thread does not test all leaf pairs of a large pair, since its surfaces may touch no more.
+SearchProgress ClosestSearch::test_front(SearchWorker& worker) {
+  ClosestRange range(worker.pair, pair_.query, ties(), closest_);
+  validate(*pair_.front, *pair_.a, *pair_.b);
+  const double motion = pair_.front->motion_now(*pair_.a, *pair_.b);
+  if (!pair_.front->leaves.empty()) worker.begin_leaves(pair_.front->leaves.front().pair);
   std::size_t asked = 0;
-  for (const ListedLeaves& listed : front_->leaves) {
+  for (const ListedLeaves& listed : pair_.front->leaves) {
     if (range.is_decided()) break;
     LeafPair leaves{0, listed.pair};
     if (static_cast<double>(listed.lower) > motion || worker.leaf_pairs.lower_of_leaves(leaves.pair) > 0)
       continue;
-    if (sliced_ && ++asked > touching_first) {
+    if (slices_.may_cut() && ++asked > touching_first) {
       closest_.clear();  // a name at 0 might not be the first of them
       break;
     }
-    if (!test_leaves(leaves, range, worker)) return give_up();
+    if (!test_leaves(leaves, range, worker)) return SearchProgress::gave_up;
   }
-  finish_closest(worker);
+  return finish(worker);
 }
 
 /// Finds touching leaves without a front: takes one leaf of a surface after the other, each with the leaves
 /// of the other surface whose boxes overlap its own. Where the surfaces touch in many points this soon meets
 /// one, and no front is made. The order is that of a front, so it finds the same point. If it meets none, a
 /// front is worth its walk.
-void PairSearch::walk_touching(Worker& worker) {
+SearchProgress ClosestSearch::walk_touching(SearchWorker& worker) {
   const TouchingOrder order = touching_order();
-  const RegionTree& scattered = (order.scatters_a() ? a_ : b_)->mesh().regions();
-  const std::uint64_t end = worker.meter.counters().region_pairs_tested + tests_in_turn(*front_);
-  ClosestRange range(worker.pair, query_, ties(), closest_);
+  const RegionTree& scattered = (order.scatters_a() ? pair_.a : pair_.b)->mesh().regions();
+  const std::uint64_t end = worker.meter.counters().region_pairs_tested + tests_in_turn(*pair_.front);
+  ClosestRange range(worker.pair, pair_.query, ties(), closest_);
   const auto goes_on = [&] {
     return !range.is_decided() && worker.meter.counters().region_pairs_tested < end;
   };
   for (std::uint32_t slot = 0; slot < order.slot_count() && goes_on(); ++slot) {
     const std::uint32_t region = order.region_at(slot);
     if (region >= order.region_count() || !scattered.region(region).is_leaf()) continue;
-    if (!test_overlapping(order.with_all(region), order, range, worker)) return give_up();
+    if (!test_overlapping(order.with_all(region), order, range, worker)) return SearchProgress::gave_up;
   }
   if (!range.is_decided()) {
     closest_.clear();  // a name at 0 might not be the first of them
@@ -84,23 +85,22 @@ void PairSearch::walk_touching(Worker& worker) {
     return approach(worker);
   }
   set_apart();
-  stage_ = Stage::done;
-  report_closest(worker);
+  return report(worker);
 }
 
 /// Tests the pairs of leaves below `start` whose boxes overlap, in order, until one touches; false when the
 /// budget ran out.
-bool PairSearch::test_overlapping(const RegionPair& start, const TouchingOrder& order, ClosestRange& range,
-                                  Worker& worker) {
-  auto& leaves = found_.leaves;
+bool ClosestSearch::test_overlapping(const RegionPair& start, const TouchingOrder& order, ClosestRange& range,
+                                     SearchWorker& worker) {
+  auto& leaves = slices_.found().leaves;
   leaves.clear();
   const auto overlaps = [](double lower, double /*slack*/) { return lower == 0; };
   if (!worker.leaf_pairs.walk(
-          {&start, 1}, overlaps, [](const RegionPair&) {}, found_))
+          {&start, 1}, overlaps, [](const RegionPair&) {}, slices_.found()))
     return false;
   std::erase_if(leaves, [](const LeafPair& each) { return each.lower > 0; });
   std::sort(leaves.begin(), leaves.end(), order);
-  worker.begin_leaves(found_);
+  worker.begin_leaves(slices_.found());
   for (LeafPair& each : leaves) {
     if (range.is_decided()) break;
     if (!test_leaves(each, range, worker)) return false;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <tuple>
+
+#include "closest_features/closest_set.hpp"
+#include "closest_features/key_bins.hpp"
+#include "closest_features/key_order.hpp"
+#include "leaves/leaf_feature_pairs.hpp"
+#include "measure/measure_batch.hpp"
+#include "measure/nearest_keys.hpp"
+#include "measure/parallel.hpp"
+#include "paper/paper.hpp"
+#include "vertices/near_vertices.hpp"
+#include "walk/leaf_pairs.hpp"
+
+namespace graze {
+
+/// Working memory of one thread.
+struct SearchScratch {
+  LeafPairScratch leaf_pairs;
+  NearVerticesScratch vertices;
+  LeafScratch features;
+  Closest nearest_of_leaves;
+  PaperScratch paper;
+  Closest lowest;
+  ParallelScratch parallel;
+  KeyBinning binning;
+  KeyOrder order;
+  MeasureScratch measure;
+  NearestKeysScratch nearest_keys;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_leaves, self.paper,
+                    self.lowest, self.parallel, self.binning, self.order, self.measure, self.nearest_keys);
+  }
+};
+
+}  // namespace graze
