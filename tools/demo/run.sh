@@ -22,6 +22,7 @@ graze=$build/tools/graze/graze
 page=view.html
 if "$graze" run --help | tr -s '\n ' ' ' | grep -q 'built without the viewer'; then
   page=view.grazeview
+  echo "this graze was built without the viewer, which needs nodejs and npm; $out/$page has the page's data" >&2
 fi
 "$graze" run "$scene" --report "$out/report.jsonl" --picture "$out/frame.png" --html "$out/$page" \
   --region-distances 4096 "$@"
