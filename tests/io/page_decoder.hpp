@@ -46,7 +46,7 @@ class DecodedTable {
   std::string arrays_;
 };
 
-/// Where an object is in a frame: positions of a deformable one, else the rows of a pose.
+/// The place of an object in a frame: positions of a deformable one, else the rows of a pose.
 struct DecodedShape {
   std::vector<std::optional<Eigen::Vector3d>> positions;  ///< nothing for a vertex that is not drawn
   std::array<double, 12> pose{};
@@ -63,7 +63,7 @@ class DecodedPage {
   [[nodiscard]] const DecodedTable& mesh(std::size_t number) const;
   /// The report of the block that has a frame, and the frame's index in it.
   [[nodiscard]] std::pair<const DecodedTable*, std::size_t> report(std::uint64_t frame) const;
-  /// Where an object is in a frame; nothing where no track of the frame's block has it.
+  /// The place of an object in a frame; nothing where no track of the frame's block has it.
   [[nodiscard]] std::optional<DecodedShape> shape(std::size_t object, std::uint64_t frame) const;
   /// How often the track of an object in a block has a new position.
   [[nodiscard]] std::vector<std::uint64_t> track_frames(std::size_t object, std::uint64_t block) const;

@@ -14,7 +14,7 @@ class AllocationCount {
 
   /// Counts from here until `end`, from zero. One at a time.
   static void begin();
-  /// The same, but only of what the thread that calls this allocates.
+  /// Counts only what the thread that calls this allocates, until `end`.
   static void begin_of_this_thread();
   static void end();
 

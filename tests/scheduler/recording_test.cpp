@@ -1,4 +1,4 @@
-// What a recording tells again: with other numbers of threads, from the middle, cut, damaged, and with frames
+// Recordings are replayed: with other numbers of threads, from the middle, cut, damaged, and with frames
 // that were dropped. The oracle is the report of the recorded step itself, and the recorder's own hashes.
 
 #include <oneapi/tbb/global_control.h>

@@ -133,7 +133,7 @@ class PictureChoice {
   io::PictureScene scene_;
 };
 
-/// What a run writes.
+/// The files that a run writes.
 struct RunOutputs {
   std::optional<io::ReportWriter> report;
   std::optional<PictureChoice> picture;

@@ -11,7 +11,7 @@
 
 namespace graze::io {
 
-/// Where an object is: the positions of a deformable one, else the pose.
+/// The place of an object: the positions of a deformable one, else the pose.
 struct PageShape {
   SharedPositions positions;
   std::array<double, 12> pose{};
@@ -20,7 +20,7 @@ struct PageShape {
   [[nodiscard]] bool is_same(const PageShape& other) const;
 };
 
-/// Where one object is in the frames of a block.
+/// The places of one object in the frames of a block.
 struct PageTrack {
   std::size_t object = 0;
   const Mesh* mesh = nullptr;

@@ -32,7 +32,7 @@ std::map<std::size_t, std::vector<TimedMove>> moves_of(const PageBlock& block, s
   return moves;
 }
 
-/// Where an object is in the frames from `begin` up to `end`, in which it exists.
+/// The places of an object in the frames from `begin` up to `end`, in which it exists.
 PageTrack track_of(const WrittenObject& object, std::span<const TimedMove> moves, std::uint64_t begin,
                    std::uint64_t end) {
   PageTrack track;

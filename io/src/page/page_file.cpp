@@ -16,7 +16,7 @@ constexpr std::string_view chunk_begin = "<script type=\"application/x-graze-chu
 constexpr std::string_view chunk_middle = "\">";
 constexpr std::string_view chunk_end = "</script>\n";
 
-/// Where a path leads to in the end, so that a link stays a link.
+/// The file that a path leads to in the end, so that a link stays a link.
 std::filesystem::path target_of(const std::filesystem::path& path) {
   std::error_code error;
   auto target = std::filesystem::weakly_canonical(path, error);

@@ -34,7 +34,7 @@ struct RingSettings {
   std::filesystem::path on_diagnostic = {};
 };
 
-/// What a recorder has done so far.
+/// Counts what a recorder has done so far.
 struct RecorderStatistics {
   /// Frames that were written, or put into the ring.
   std::uint64_t frames = 0;

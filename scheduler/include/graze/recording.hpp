@@ -24,7 +24,7 @@ class RecordingReader;
 /// @addtogroup recording
 /// @{
 
-/// What a recording says of one frame without a replay.
+/// Describes one recorded frame, as far as that needs no replay.
 struct RecordedFrame {
   /// FrameReport::frame() of the recorded scene.
   std::uint64_t frame = 0;
@@ -106,9 +106,9 @@ struct ReplayDifference {
   /// The pair, by the names of its objects, such as `"bowl" and "letter 3"`. Empty where no pair differs, but
   /// the diagnostics do.
   std::string pair;
-  /// What the recording says, in a line.
+  /// The recorded row, in a line.
   std::string recorded;
-  /// What the replay says, in a line.
+  /// The row of the replay, in a line.
   std::string replayed;
 };
 

@@ -17,7 +17,7 @@
 
 namespace graze {
 
-/// Where the chunks of a recording go. Writing thread only.
+/// A destination of a recording's chunks. Writing thread only.
 class ChunkOutput {
  public:
   virtual ~ChunkOutput() = default;

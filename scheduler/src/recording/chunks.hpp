@@ -37,7 +37,7 @@ struct FileHead {
 
   static constexpr std::size_t size = 16;
 };
-/// What stands before a chunk's payload.
+/// The head of a chunk, before its payload.
 struct ChunkHead {
   ChunkKind kind{};
   std::uint32_t payload_checksum = 0;
@@ -58,7 +58,7 @@ struct FileEnd {
   static constexpr std::size_t size = 24;
 };
 
-/// Where a chunk begins.
+/// A chunk's place in the file.
 struct IndexEntry {
   ChunkKind kind{};
   std::uint64_t number = 0;
@@ -77,7 +77,7 @@ struct MeshChunk {
   std::vector<std::uint32_t> corners;
   std::vector<std::uint8_t> corner_counts;
 };
-/// What stands at the beginning of a step's payload. Records follow.
+/// The beginning of a step's payload. Records follow.
 struct StepHead {
   std::uint64_t hash = 0;            ///< `hash_of` the report
   std::uint64_t dropped_before = 0;  ///< frames that were dropped between this one and the one before

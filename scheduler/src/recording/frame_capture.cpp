@@ -131,7 +131,7 @@ void FrameCapture::add_object(const Object& object) {
   if (object.frozen) add_freezing_call(object);
 }
 
-/// What froze an object has been told of already, and is told again only for a replay to do it.
+/// Adds a call that freezes an object as it was frozen before the recording began.
 void FrameCapture::add_freezing_call(const Object& object) {
   if (object.is_posed())
     return add_record(RefusePose{{object.id, DiagnosticKind::bad_pose, "the pose was not taken"}});

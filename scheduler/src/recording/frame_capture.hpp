@@ -19,7 +19,7 @@
 
 namespace graze {
 
-/// What one step took up and what it answered, on its way to the thread that writes it.
+/// The calls and the report of one step, on their way to the thread that writes them.
 struct CapturedFrame {
   std::uint64_t record_count = 0;
   ByteBuffer records;

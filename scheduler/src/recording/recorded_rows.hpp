@@ -10,7 +10,7 @@
 
 namespace graze {
 
-/// What a recording keeps of one row of a report: what people ask for, and hashes of everything.
+/// One row of a report in a recording: the numbers that people ask for, and hashes of everything.
 struct RecordedRow {
   ObjectId a;
   ObjectId b;
@@ -21,15 +21,15 @@ struct RecordedRow {
   double lower = 0;
   double upper = 0;
   std::uint64_t contacts = 0;
-  /// Of bounds, witness, contacts and region distances: what follows from where the objects are now.
+  /// The hash of bounds, witness, contacts and region distances. They follow from where the objects are now.
   std::uint64_t answer_hash = 0;
-  /// Of the phase and of when each contact began: what follows from the steps before.
+  /// The hash of the phase and of the contacts' ages. They follow from the steps before.
   std::uint64_t history_hash = 0;
 
   friend bool operator==(const RecordedRow&, const RecordedRow&) = default;
 };
 
-/// What a recording keeps of a report.
+/// A report in a recording.
 struct RecordedReport {
   std::uint64_t frame = 0;
   std::uint64_t tag = 0;
@@ -54,7 +54,7 @@ auto fields(T& r) {
                   r.diagnostics, r.diagnostics_hash, r.rows);
 }
 
-/// Fills `recorded` with what a recording keeps of a report. The rows' memory is used again.
+/// Fills `recorded` from a report. The rows' memory is used again.
 void summarize(const FrameReport& report, RecordedReport& recorded);
 
 /// One hash of the whole report: of its rows, ids included, and of its diagnostics.

@@ -15,11 +15,11 @@
 
 namespace graze {
 
-// What a recording holds of the calls on a scene. This is the one list of them: the writer, the reader, the
+// The calls on a scene, as a recording holds them. This is the one list of them: the writer, the reader, the
 // model of the scene and the replay are made from it. A new kind of call does not compile until it stands
 // here.
 //
-// Where a record holds positions, they are viewed and not owned. Positions of size 0 are left out.
+// Positions of a record are viewed and not owned. Positions of size 0 are left out.
 
 struct AddRecord {
   ObjectId object;

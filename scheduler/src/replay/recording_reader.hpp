@@ -21,7 +21,7 @@ class RecordingReader {
  public:
   explicit RecordingReader(const std::filesystem::path& path);
 
-  /// Where a step stands, and the keyframe that stands right before it.
+  /// The places of a step and of the keyframe right before it.
   struct Step {
     std::uint64_t offset = 0;
     std::uint64_t keyframe_offset = 0;  ///< 0 where there is none

@@ -17,7 +17,7 @@ namespace graze {
 /// it.
 using Stepping = std::shared_ptr<std::atomic<bool>>;
 
-/// What a scene consists of.
+/// The parts of a scene.
 class Scene::State {
  public:
   explicit State(const SceneSettings& given)

@@ -12,7 +12,7 @@
 namespace graze::tools {
 namespace {
 
-/// What all frames of a recording say together.
+/// Sums over all frames of a recording.
 struct FrameSums {
   std::size_t keyframes = 0;
   std::uint64_t dropped = 0;

@@ -40,7 +40,7 @@ bool is_selected(const ReplayObject& object, const std::vector<std::string>& wor
   return false;
 }
 
-/// What the frame's report says, and where everything is. With a selection only these objects and what is
+/// Draws the frame's report and the objects. With a selection only these objects and what is
 /// between them are drawn.
 io::PictureScene scene_of(const Replay& replay, const PictureOptions& options) {
   io::PictureScene scene;

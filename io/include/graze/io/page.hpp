@@ -36,7 +36,7 @@ struct PageObject {
 struct PageOptions {
   /// The title of the page.
   std::string title = {};
-  /// Where the frames came from, such as the name of a scene file.
+  /// The source of the frames, such as the name of a scene file.
   std::string source = {};
   /// The settings of the scene.
   SceneSettings settings = {};
