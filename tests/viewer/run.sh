@@ -1,0 +1,22 @@
+#!/bin/sh
+# Drives the viewer's page in a browser: first with pages of its own, then with the page and the report of the
+# demonstration, whose numbers have to agree to the last digit. It ends with 77 where there is no viewer or no browser.
+# Usage: tests/viewer/run.sh GRAZE GRAZE_DEMO_SCENE VIEWER_FOLDER
+set -eu
+
+graze=$1
+demo_scene=$2
+GRAZE_VIEWER_FOLDER=$3
+export GRAZE_VIEWER_FOLDER
+CHROMIUM=${CHROMIUM:-$(command -v chromium || true)}
+export CHROMIUM
+if [ -z "$CHROMIUM" ] || [ ! -f "$GRAZE_VIEWER_FOLDER/dist/viewer.html" ]; then
+  echo "skipped: the viewer's page needs nodejs and npm to be built, and chromium to be looked at"
+  exit 77
+fi
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+scene=$("$demo_scene" "$folder")
+"$graze" run "$scene" --report "$folder/report.jsonl" --html "$folder/view.html" --region-distances 4096 >/dev/null
+node "$(dirname "$0")/viewer_test.mjs" "$folder/view.html" "$folder/report.jsonl"
