@@ -55,6 +55,7 @@ ORDER = {
         "scene": "scene files, players",
         "report": "reports as JSON",
         "picture": "pictures as PNG",
+        "export": "tables, ParaView, glTF",
     },
 }
 LOWER_LAYERS = {"core": [], "scheduler": ["core"], "io": ["core", "scheduler"]}
