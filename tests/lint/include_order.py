@@ -57,6 +57,7 @@ ORDER = {
         "report": "reports as JSON",
         "picture": "pictures as PNG",
         "page": "pages for a browser",
+        "export": "tables, ParaView, glTF",
     },
 }
 # The folders that may include headers of core/internal.

@@ -117,18 +117,6 @@ TEST_CASE("misspelt commands and options are told the nearest ones") {
   });
 }
 
-TEST_CASE("recordings and viewers are not offered") {
-  const SpikesOnSheet files;
-  const ProgramResult help = run_graze({"run", "--help"});
-  CHECK(help.exit_code == 0);
-  CHECK(help.out.find("--record") == std::string::npos);
-  CHECK(help.out.find("--html") == std::string::npos);
-  check_refused(
-      {{{"run", files.scene, "--record", "r.graze"},
-        "graze run has no option --record; did you mean --report?"},
-       {{"run", files.scene, "--html", "v.html"}, "graze run has no option --html; graze run --help"}});
-}
-
 TEST_CASE("files that cannot be written are refused before anything is read") {
   const SpikesOnSheet files;
   const std::string folder = files.folder.path().string();

@@ -43,6 +43,7 @@ int run_program(int argument_count, char** arguments) {
   graze::tools::add_cut_command(app);
   graze::tools::add_view_command(app);
   graze::tools::add_picture_command(app);
+  graze::tools::add_export_command(app);
 #if GRAZE_HAS_STRESS
   graze::tools::add_stress_command(app);
 #endif

@@ -16,5 +16,7 @@ void add_cut_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 /// `graze picture`: draws a frame of a recording.
 void add_picture_command(CLI::App& app);
+/// `graze export`: writes a recording as files of other programs.
+void add_export_command(CLI::App& app);
 
 }  // namespace graze::tools

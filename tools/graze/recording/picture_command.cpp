@@ -9,6 +9,7 @@
 
 #include "option_checks.hpp"
 #include "output_path.hpp"
+#include "recording/best_frame.hpp"
 #include "recording/commands.hpp"
 
 namespace graze::tools {
@@ -21,18 +22,6 @@ struct PictureOptions {
   bool lines = false;
   std::vector<std::string> select;
 };
-
-/// The frame with most contacts, the first of several.
-std::size_t best_frame(const Recording& recording) {
-  std::size_t best = 0;
-  std::uint64_t most = 0;
-  for (std::size_t index = 0; index < recording.frame_count(); ++index)
-    if (const std::uint64_t contacts = recording.frame(index).contacts; contacts > most) {
-      most = contacts;
-      best = index;
-    }
-  return best;
-}
 
 bool is_selected(const ReplayObject& object, const std::vector<std::string>& words) {
   for (const std::string& word : words)
