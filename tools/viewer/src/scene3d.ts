@@ -46,6 +46,7 @@ export class Stage {
   private readonly clip = new THREE.Vector4(0, 0, 0, 1e30);
   private readonly layers: Layer[] = [this.lines, this.contacts, this.highlight];
   private isAsked = false;
+  private isWanted = false;
   private isStale = true;
   private size = '';
 
@@ -64,11 +65,13 @@ export class Stage {
 
   /** Asks for a picture in the next animation frame. */
   ask(): void {
+    this.isWanted = true;
     if (this.isAsked) return;
     this.isAsked = true;
     requestAnimationFrame(() => {
       this.isAsked = false;
-      this.draw();
+      // Somebody may have drawn in the meantime.
+      if (this.isWanted) this.draw();
     });
   }
 
@@ -80,6 +83,7 @@ export class Stage {
   /** Brings everything up to date and draws now. */
   draw(): void {
     const began = performance.now();
+    this.isWanted = false;
     const isFlying = this.eye.fly();
     if (this.isStale) this.update();
     this.eye.setDepths(this.radius);
