@@ -118,6 +118,8 @@ class Column {
   private make(count: number): THREE.BufferAttribute {
     const grown = this.isByte ? new Uint8Array(count * this.size) : new Float32Array(count * this.size);
     grown.set(this.values);
+    // The renderer remembers how many instances the old arrays had room for, until the geometry is disposed of.
+    this.geometry.dispose();
     this.values = grown;
     const Kind = this.isInstanced ? THREE.InstancedBufferAttribute : THREE.BufferAttribute;
     const attribute = new Kind(grown, this.size, this.isByte);
@@ -275,6 +277,7 @@ export class SphereBatch {
 
   finish(areBalls: boolean): void {
     for (const column of this.columns) column.finish(this.count);
+    if (this.balls.getAttribute('ball') !== this.ballColumn.attribute) this.balls.dispose();
     this.balls.setAttribute('ball', this.ballColumn.attribute);
     this.balls.setAttribute('tint', this.tintColumn.attribute);
     this.circles.instanceCount = this.balls.instanceCount = this.count;

@@ -58,6 +58,10 @@ export class Eye {
     return controls;
   }
 
+  get up(): 'y' | 'z' {
+    return this.camera.up.y === 1 ? 'y' : 'z';
+  }
+
   setUp(up: 'y' | 'z'): void {
     this.camera.up.set(0, up === 'y' ? 1 : 0, up === 'z' ? 1 : 0);
     // The controls take the up direction of the camera only when they are made.

@@ -63,9 +63,12 @@ export class ContactsLayer implements Layer {
   private addContacts(stage: Stage): void {
     const { viewer } = stage;
     const { report, display } = viewer;
-    if (!report) return;
+    if (!report || report.pairEnd === report.pairBegin) return;
     const { block } = report;
     const length = 0.05 * stage.radius * display.normalLength;
+    const contacts = block.contactEnd[report.pairEnd - 1]! - block.contactBegin[report.pairBegin]!;
+    // Where there are many, smaller points keep their colours apart.
+    const pointSize = display.pointSize * Math.min(1, Math.max(0.5, Math.sqrt(300 / Math.max(1, contacts))));
     for (const [contact, pair] of report.contacts()) {
       if (!stage.isDrawn(block.pairA[pair]!) && !stage.isDrawn(block.pairB[pair]!)) continue;
       if (!viewer.passes(contact, pair)) continue;
@@ -74,7 +77,7 @@ export class ContactsLayer implements Layer {
       const middle = a.map((x, k) => (x + b[k]!) / 2) as unknown as Vec3;
       const colour = KIND_COLOURS[block.kind[contact]!] ?? '#999999';
       const group = sideClass(report.sideA(contact), report.sideB(contact));
-      const size = group === 0 ? 0.7 * display.pointSize : display.pointSize;
+      const size = group === 0 ? 0.7 * pointSize : pointSize;
       this.points.add(a, colour, CLASS_SHAPES[group]!, size);
       if (block.distance[contact]! > 0) {
         this.points.add(b, colour, CLASS_SHAPES[group]!, 0.62 * size);

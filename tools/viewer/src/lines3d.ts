@@ -27,7 +27,7 @@ export class LinesLayer implements Layer {
     for (const batch of [this.lines, this.witnesses, this.ends, this.bounds]) batch.clear();
     this.shown = [];
     const { display } = stage.viewer;
-    if (display.lines) this.addLines(stage);
+    if (display.lines && stage.viewer.report) this.addLines(stage);
     if (display.witnesses) this.addWitnesses(stage);
     if (display.bounds !== 'off') this.addBounds(stage);
     this.lines.finish();
@@ -48,6 +48,9 @@ export class LinesLayer implements Layer {
       if (stage.isDrawn(report.block.pairA[pair]!) && stage.isDrawn(report.block.pairB[pair]!)) yield pair;
   }
 
+  /** Very many lines are drawn thinner in colour and without their ends, so that surfaces stay in sight. */
+  private strength = 1;
+
   /** With a pair selected, lines of other pairs are faint. */
   private alpha(stage: Stage, pair: number): number {
     const chosen = stage.viewer.selectedPair();
@@ -56,21 +59,33 @@ export class LinesLayer implements Layer {
   }
 
   private addLines(stage: Stage): void {
+    this.strength = Math.min(1, Math.max(0.25, Math.sqrt(150 / Math.max(1, this.countLines(stage)))));
     const { hiddenLevels } = stage.viewer.display;
     for (const pair of this.pairs(stage)) {
       const { block } = stage.viewer.report!;
-      const alpha = this.alpha(stage, pair);
+      const alpha = this.alpha(stage, pair) * this.strength;
       for (let r = block.regionBegin[pair]!; r < block.regionEnd[pair]!; ++r) {
         const level = block.regionLevels[r]!;
         if (hiddenLevels.has(level)) continue;
         const [a, b] = [stage.local(block.regionPoints, 6 * r), stage.local(block.regionPoints, 6 * r + 3)];
         const colour = levelColour(level);
         this.lines.add(a, b, colour, alpha);
-        this.ends.add(a, colour, SHAPE.disc, 5, alpha);
-        this.ends.add(b, colour, SHAPE.disc, 5, alpha);
+        if (this.strength > 0.6) {
+          this.ends.add(a, colour, SHAPE.disc, 5, alpha);
+          this.ends.add(b, colour, SHAPE.disc, 5, alpha);
+        }
         this.shown.push({ a, b, pair, level });
       }
     }
+  }
+
+  private countLines(stage: Stage): number {
+    const { block } = stage.viewer.report!;
+    let count = 0;
+    for (const pair of this.pairs(stage))
+      for (let r = block.regionBegin[pair]!; r < block.regionEnd[pair]!; ++r)
+        if (!stage.viewer.display.hiddenLevels.has(block.regionLevels[r]!)) ++count;
+    return count;
   }
 
   private addWitnesses(stage: Stage): void {

@@ -67,7 +67,7 @@ export class Link {
     const { camera, controls } = stage.eye;
     const parts = [`f=${viewer.frame}`, `c=${places(camera.position)},${places(controls.target)}`];
     if (viewer.selection) parts.push(`s=${selectionText(viewer, viewer.selection)}`);
-    if (viewer.display.up !== 'z') parts.push(`u=${viewer.display.up}`);
+    parts.push(`u=${viewer.display.up}`);
     return `#${parts.join('&')}`;
   }
 
@@ -89,9 +89,10 @@ export class Link {
       const at = part.indexOf('=');
       return [part.slice(0, at), decodeURIComponent(part.slice(at + 1))];
     }));
-    if (parts.get('u') === 'y') {
-      viewer.display.up = 'y';
-      stage.eye.setUp('y');
+    const up = parts.get('u');
+    if (up === 'y' || up === 'z') {
+      viewer.display.up = up;
+      stage.eye.setUp(up);
       viewer.changed();
     }
     const frame = Number(parts.get('f'));

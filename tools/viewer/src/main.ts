@@ -264,11 +264,8 @@ byId('tools').append(
 setCommands([...timeCommands(), ...cameraCommands(), ...viewCommands(), ...pageCommands()]);
 listenForKeys();
 listenForClipKeys();
-let shownUp = viewer.display.up;
 viewer.on(['display'], () => {
-  if (shownUp === viewer.display.up) return;
-  shownUp = viewer.display.up;
-  stage.eye.setUp(shownUp);
+  if (stage.eye.up !== viewer.display.up) stage.eye.setUp(viewer.display.up);
 });
 viewer.on(['page'], showTitle);
 viewer.on(['frame'], showBar);

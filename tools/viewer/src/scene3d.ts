@@ -46,6 +46,7 @@ export class Stage {
   private readonly clip = new THREE.Vector4(0, 0, 0, 1e30);
   private readonly layers: Layer[] = [this.lines, this.contacts, this.highlight];
   private isAsked = false;
+  private isWanted = false;
   private isStale = true;
   private size = '';
 
@@ -64,11 +65,13 @@ export class Stage {
 
   /** Asks for a picture in the next animation frame. */
   ask(): void {
+    this.isWanted = true;
     if (this.isAsked) return;
     this.isAsked = true;
     requestAnimationFrame(() => {
       this.isAsked = false;
-      this.draw();
+      // Somebody may have drawn in the meantime.
+      if (this.isWanted) this.draw();
     });
   }
 
@@ -80,6 +83,7 @@ export class Stage {
   /** Brings everything up to date and draws now. */
   draw(): void {
     const began = performance.now();
+    this.isWanted = false;
     const isFlying = this.eye.fly();
     if (this.isStale) this.update();
     this.eye.setDepths(this.radius);
@@ -154,9 +158,26 @@ export class Stage {
     this.origin = bounds.isEmpty ? [0, 0, 0] : bounds.centre();
     this.surfaces = this.viewer.page!.objects.map((state) => new SurfaceView(state, this.origin, this.clip));
     for (const surface of this.surfaces) this.scene.add(surface.object);
+    this.viewer.display.up = this.guessUp();
     const { up } = this.viewer.display;
+    this.eye.setUp(up);
     this.fitAll(true, up === 'z' ? new THREE.Vector3(0.75, -1.25, 0.8) : new THREE.Vector3(0.75, 0.8, 1.25));
     this.refresh();
+  }
+
+  /** The axis across the largest flat object, which is likely a ground; z where there is none. */
+  private guessUp(): 'y' | 'z' {
+    let up: 'y' | 'z' = 'z';
+    let most = 0;
+    for (const object of this.viewer.page!.objects) {
+      const size = [0, 1, 2].map((k) => object.high[k]! - object.low[k]!);
+      const thin = size.indexOf(Math.min(...size));
+      const [p, q] = size.filter((_, k) => k !== thin) as [number, number];
+      if (thin === 0 || size[thin]! > 0.12 * Math.min(p, q) || p * q <= most) continue;
+      most = p * q;
+      up = thin === 1 ? 'y' : 'z';
+    }
+    return up;
   }
 
   private update(): void {
