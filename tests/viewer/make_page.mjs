@@ -413,7 +413,7 @@ function worldPositions(object, f) {
   if (object.motion === 'deformable') return object.positions(f);
   const m = object.pose(f);
   return object.mesh.points.flatMap(([x, y, z]) => [0, 1, 2].map(
-    (r) => m[3 * r] * x + m[3 * r + 1] * y + m[3 * r + 2] * z + m[9 + r]));
+    (r) => m[4 * r] * x + m[4 * r + 1] * y + m[4 * r + 2] * z + m[4 * r + 3]));
 }
 
 /// All reports of a scene. `scene.linesPerLevel` and `scene.mostContacts` keep large ones small.
@@ -490,7 +490,7 @@ const deformable = (name, mesh, positions, more = {}) => ({
   name, mesh, positions, motion: 'deformable', moves: () => true, ...more });
 const posed = (name, motion, mesh, pose, more = {}) => ({
   name, mesh, pose, motion, moves: () => motion !== 'fixed', ...more });
-const STILL = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
+const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 function finish(scene) {
   scene.objects.forEach((o, i) => {
@@ -521,7 +521,7 @@ export function smallScene() {
   };
   const turn = (f) => {
     const [c, s] = [Math.cos(0.05 * f), Math.sin(0.05 * f)];
-    return [c, -s, 0, s, c, 0, 0, 0, 1, 0.9 + 0.5 * Math.cos(0.03 * f), -1.1, 0.33];
+    return [c, -s, 0, 0.9 + 0.5 * Math.cos(0.03 * f), s, c, 0, -1.1, 0, 0, 1, 0.33];
   };
   return finish({
     title: 'synthetic drops', frames: 96, quantum: 2 ** -16, range: 0.4, contactDistance: 0.1,

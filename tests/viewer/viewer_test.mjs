@@ -260,7 +260,7 @@ async function checkNumbers(page, made) {
   const box = made.scene.objects[2];
   const m = box.pose(24);
   const [x, y, z] = box.mesh.points[3];
-  const place = [0, 1, 2].map((k) => m[3 * k] * x + m[3 * k + 1] * y + m[3 * k + 2] * z + m[9 + k]);
+  const place = [0, 1, 2].map((k) => m[4 * k] * x + m[4 * k + 1] * y + m[4 * k + 2] * z + m[4 * k + 3]);
   same('a vertex of a rigid object to the last digit', (await inspect(page)).selection.position, place);
   await page.evaluate(() => window.graze.select('feature:4:vertex.100'));
   const at = (await inspect(page)).selection;
