@@ -8,9 +8,26 @@ import type { Viewer } from './viewer';
 
 const CLASS_STYLES = ['dot', 'disc', 'ring', 'diamond'];
 
+/** So many lines in a frame hide the surfaces. */
+const CROWD = 300;
+
 export class Legend {
+  private areLevelsChosen = false;
+
   constructor(private readonly viewer: Viewer, private readonly element: HTMLElement) {
+    viewer.on(['page'], () => (this.areLevelsChosen = false));
+    viewer.on(['frame'], () => this.calm());
     viewer.on(['frame', 'page', 'display', 'selection', 'theme'], () => this.show());
+  }
+
+  /** Where lines first become very many, only those of level 1 stay on. After that the reader decides. */
+  private calm(): void {
+    const { block, pairBegin, pairEnd } = this.viewer.report!;
+    if (this.areLevelsChosen || pairEnd === pairBegin) return;
+    if (block.regionEnd[pairEnd - 1]! - block.regionBegin[pairBegin]! <= CROWD) return;
+    this.areLevelsChosen = true;
+    for (let level = 2; level < 64; ++level) this.viewer.display.hiddenLevels.add(level);
+    this.viewer.changed();
   }
 
   private show(): void {

@@ -68,7 +68,7 @@ class Track {
     const m = this.poses.subarray(12 * slot, 12 * slot + 12);
     for (let v = 0; v < out.length; v += 3) {
       const [x, y, z] = [rest[v]!, rest[v + 1]!, rest[v + 2]!];
-      for (let k = 0; k < 12; k += 4) out[v + k / 4] = m[k]! * x + m[k + 1]! * y + m[k + 2]! * z + m[k + 3]!;
+      for (let k = 0; k < 3; ++k) out[v + k] = m[4 * k]! * x + m[4 * k + 1]! * y + m[4 * k + 2]! * z + m[4 * k + 3]!;
     }
   }
 }
