@@ -1,7 +1,7 @@
 // Drives the viewer in a browser, without a network and without a graphics card.
 //   node tests/viewer/viewer_test.mjs [PAGE.html REPORT.jsonl]
 // Without arguments it makes its own pages. With a page of `graze` and its report it compares these two as well.
-// CHROMIUM names the browser. Times are asserted unless the machine is busy or TIMES=print is set.
+// CHROMIUM names the browser, and GRAZE_VIEWER_FOLDER the folder in which the viewer was built. Times are asserted unless the machine is busy or TIMES=print is set.
 
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { availableParallelism, loadavg, tmpdir } from 'node:os';
@@ -10,7 +10,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { largeScene, longScene, makePage, pageHtml, smallScene, viewFile } from './make_page.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const viewer = join(here, '../../tools/viewer');
+const viewer = process.env.GRAZE_VIEWER_FOLDER ?? join(here, '../../tools/viewer');
 const { chromium } = await import(join(viewer, 'node_modules/playwright-core/index.mjs'));
 const template = readFileSync(join(viewer, 'dist/viewer.html'), 'utf8');
 const folder = mkdtempSync(join(tmpdir(), 'graze-viewer-'));
