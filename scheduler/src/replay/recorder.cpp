@@ -71,11 +71,13 @@ class Recorder::State {
   }
   void write_frames() noexcept;
   void write_frame(const CapturedFrame& frame) noexcept;
+  void tell_of_diagnostic(const CapturedFrame& frame) noexcept;
 
   std::unique_ptr<FileOutput> file_;  ///< either this or `ring_`
   std::unique_ptr<RingOutput> ring_;
   std::filesystem::path on_diagnostic_;  ///< empty once it is written
   FrameEncoder encoder_;
+  bool is_broken_ = false;      ///< a frame could not be written
   std::exception_ptr problem_;  ///< of the writing thread; read after it has ended
   std::atomic<std::uint64_t> frames_{0};
   std::shared_ptr<Link> link_;
@@ -92,17 +94,28 @@ void Recorder::State::write_frames() noexcept {
   }
 }
 
-/// After a problem nothing more is written: frames would be missing.
+/// After a frame that could not be written nothing more is: frames would be missing.
 void Recorder::State::write_frame(const CapturedFrame& frame) noexcept {
-  if (problem_ != nullptr) return;
+  if (is_broken_) return;
   try {
     encoder_.write_frame(frame);
     frames_.fetch_add(1, std::memory_order_relaxed);
-    if (!on_diagnostic_.empty() && !frame.report->diagnostics().empty())
-      ring_->write(std::exchange(on_diagnostic_, {}));
   } catch (...) {
     problem_ = std::current_exception();
+    is_broken_ = true;
     link_->capture.close();
+    return;
+  }
+  tell_of_diagnostic(frame);
+}
+
+/// Writes the ring once, with the first frame that has a diagnostic.
+void Recorder::State::tell_of_diagnostic(const CapturedFrame& frame) noexcept {
+  if (on_diagnostic_.empty() || frame.report->diagnostics().empty()) return;
+  try {
+    ring_->write(std::exchange(on_diagnostic_, {}));
+  } catch (...) {
+    problem_ = std::current_exception();
   }
 }
 
