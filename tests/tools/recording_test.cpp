@@ -30,7 +30,7 @@ struct Recorded {
       {"name": "spike", "mesh": "spike.ply", "poses": [
         {"frame": 0, "translate": [0.4375, 0.5625, 1]}, {"frame": 20, "translate": [0.4375, 0.5625, 0]},
         {"frame": 39, "translate": [0.4375, 0.5625, 0.0625]}]},
-      {"name": "far", "mesh": "sheet.obj", "translate": [0, 0, 1.5]}]})")
+      {"name": "far", "mesh": "sheet.obj", "transform": {"translate": [0, 0, 1.5]}}]})")
                                   .string();
     const ProgramResult result = run_graze({"run", scene, "--record", file});
     REQUIRE(result.exit_code == 0);
