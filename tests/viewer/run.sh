@@ -19,4 +19,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 scene=$("$demo_scene" "$folder")
 "$graze" run "$scene" --report "$folder/report.jsonl" --html "$folder/view.html" --region-distances 4096 >/dev/null
+# How long things take is printed here: a machine that builds and tests beside this says nothing of it. By hand, without
+# TIMES, the limits are asserted.
+TIMES=print node "$(dirname "$0")/viewer_test.mjs"
 node "$(dirname "$0")/viewer_test.mjs" "$folder/view.html" "$folder/report.jsonl"
