@@ -297,7 +297,7 @@ TEST_CASE("recording: scenes are answered again, by any number of threads and in
 }
 
 TEST_CASE("recording: random calls, many of them wrong, are answered again with all diagnostics") {
-  for (unsigned seed = 0; seed < 24; ++seed) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
     INFO("seed " << seed);
     const TemporaryFile file;
     const std::vector<std::string> texts = record_random_calls(seed, 40, 0, file.path());
@@ -319,7 +319,7 @@ TEST_CASE("recording: random calls, many of them wrong, are answered again with 
 }
 
 TEST_CASE("recording: a replay begins at any frame, and a recording in the middle of a run") {
-  for (unsigned seed = 0; seed < 12; ++seed) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
     INFO("seed " << seed);
     const TemporaryFile whole;
     (void)record_random_calls(seed, 30, 0, whole.path());
@@ -333,7 +333,7 @@ TEST_CASE("recording: a replay begins at any frame, and a recording in the middl
 }
 
 TEST_CASE("recording: a part has the same answers, of all objects or of two") {
-  for (unsigned seed = 0; seed < 12; ++seed) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
     INFO("seed " << seed);
     const TemporaryFile whole;
     const TemporaryFile part;

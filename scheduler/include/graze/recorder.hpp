@@ -19,7 +19,7 @@ struct RecorderSettings {
   /// Reading can begin at such a frame. At least 1.
   std::uint32_t keyframe_interval = 64;
   /// How many frames may wait to be written, at least 1. A frame for which there is no room is dropped.
-  std::uint32_t waiting_frames = 4;
+  std::uint32_t waiting_frames = 32;
 };
 
 /// Settings of a recorder that keeps the last frames in memory.

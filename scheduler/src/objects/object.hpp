@@ -153,6 +153,8 @@ struct Object {
   /// and its pairs are not tested.
   bool frozen = false;
   bool moved = false;  ///< the last read found it moved, or it was bound since
+  /// The bound memory may differ from what the store's observer saw last, in a way that reads can tell.
+  bool is_unobserved = true;
   NearlyStatic nearly_static;
   Box box;  ///< contains the object: `seen.box`, grown by the motion promised since
   Seen seen;

@@ -155,10 +155,12 @@ ReadOutcome accept_survey(Object& object, const Surface::PartSeen& all) {
   object.frozen = all.bad_vertex != Surface::ReadResult::no_vertex;
   if (object.frozen) {
     object.state = ReadState::read;
+    object.is_unobserved = true;
     outcome.changed = true;
     outcome.problem = bad_vertex(object, all.bad_vertex, all.bad_position, stands_still);
   } else {
     outcome.changed = !is_same(object.box, all.box);
+    object.is_unobserved |= outcome.changed;
     object.moved = outcome.changed;
     object.nearly_static.set(object.plan == ReadPlan::survey_and_view &&
                              seems_nearly_static(object, all.box));
@@ -235,6 +237,7 @@ ReadOutcome accept_scan(Object& object, const Surface::PartSeen& all) {
   const bool seems_at_rest = was_behind && is_same(object.box, all.box);
   const bool is_copy = object.positions != nullptr;
   const Surface::ReadResult result = accept_positions(object, all);
+  object.is_unobserved |= was_behind || !object.seen.is_in_surface || result.changed || !result.taken();
   if (!was_behind) check_nearly_static(object, result.displacement, all.box);
   ReadOutcome outcome{result.changed && !is_copy, result.changed, std::nullopt};
   // After a view, only the next step can tell whether the object moves.
@@ -268,6 +271,7 @@ void view_memory(Object& object) {
   assert(can_be_viewed(object) && !object.frozen);
   Surface& surface = object.surface_to_write();
   surface.view(positions_of(object), object.box);
+  object.is_unobserved = true;
   // A copy stays valid; the caller's memory may go after the step.
   object.state = object.positions ? ReadState::read : ReadState::viewed;
   object.standing_positions = std::move(object.positions);

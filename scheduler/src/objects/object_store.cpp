@@ -47,7 +47,7 @@ constexpr std::size_t least_batches = 64;
 
 }  // namespace
 
-Object* ObjectStore::find(ObjectId id) {
+Object* ObjectStore::find(ObjectId id) const {
   if (id.index >= by_index_.size() || by_index_[id.index] == nullptr) return nullptr;
   Object* const object = by_index_[id.index];
   return object->id == id ? object : nullptr;
@@ -132,16 +132,22 @@ void ObjectStore::apply(const BindPositions& call) {
   expect_input(*object);
   object->positions.reset();
   object->bound = BoundMemory{call.view, call.policy};
+  object->is_unobserved = true;
   object->moved = true;  // it may be anywhere
   object->promises.next = Promises::any_distance;
   object->promises.are_made = false;
 }
 
+bool ObjectStore::wants(const UnbindPositions& call) const {
+  const Object* const object = find(call.object);
+  // Positions that were only surveyed have not been read yet.
+  return call.is_due || (object != nullptr && object->bound && object->is_surveyed());
+}
+
 void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics) {
   Object* const object = find(call.object);
   const bool is_bound = object != nullptr && object->bound;
-  // Positions that were only surveyed have not been read yet.
-  const bool is_wanted = call.is_due || (is_bound && object->is_surveyed());
+  const bool is_wanted = wants(call);
   if (is_bound && is_wanted && call.positions) expect_input(*object);
   if (is_wanted && call.problem) diagnostics.push_back(std::move(*call.problem));
   if (!is_bound) return;
@@ -246,6 +252,7 @@ void ObjectStore::drop_removed() {
 
 void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
                                  MemoryObserver* observer) {
+  observer_ = observer;
   report_problems(diagnostics);  // those of a step that came to no end
   changed_ = std::exchange(will_have_changed_, false);
   ++steps_;
@@ -258,11 +265,14 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   std::erase_if(with_input_, [&](Object* object) {
     object->may_have_input = has_input(*object);
     if (!object->may_have_input) return true;
-    if (observer != nullptr && object->bound && !stays_unread(*object)) observer->see_memory(*object);
     plan_read(*object);
     return false;
   });
   read_listed(tasks, diagnostics);
+  if (observer_ != nullptr) {
+    for (Object* const object : to_read_) show_memory(*object);
+    for (const LargeObject& large : large_) show_memory(*large.object);
+  }
   mark_new_seen();
   validate(objects_);
 }
@@ -317,6 +327,8 @@ void ObjectStore::read_unread(std::vector<Object*>& wanted, TaskPool& tasks,
     plan_late_read(*object);
   }
   read_listed(tasks, diagnostics);
+  if (observer_ != nullptr)
+    for (Object* const object : wanted) show_memory(*object);
   validate(objects_);
   // The next step has to look for the pairs that this read has brought near.
   will_have_changed_ = true;
@@ -332,6 +344,11 @@ void ObjectStore::plan_late_read(Object& object) {
   const bool makes_blocks = with_blocks_ && !object.goes_by_lists;
   object.plan = views ? ReadPlan::view : makes_blocks ? ReadPlan::read_with_blocks : ReadPlan::read;
   list_to_read(object);
+}
+
+/// Shows the observer the memory of an object that was read, where it may be new.
+void ObjectStore::show_memory(Object& object) {
+  if (object.bound && std::exchange(object.is_unobserved, false)) observer_->see_memory(object);
 }
 
 void ObjectStore::clear_read_list() {

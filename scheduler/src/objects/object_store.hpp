@@ -21,7 +21,7 @@ struct DepartedObject {
   std::uint64_t serial = 0;  ///< Object::serial
 };
 
-/// Sees the memory that a step is going to read, before it is read.
+/// Sees bound memory that a step has read, surveyed or viewed, where it may be new.
 class MemoryObserver {
  public:
   virtual void see_memory(const Object& object) noexcept = 0;
@@ -57,7 +57,8 @@ class ObjectStore {
   /// promises keep far from everything stays unread. An object that no pair of the last step tested, or that
   /// can be viewed, is surveyed: only its box is computed. A survey copies no bound memory, and reads no
   /// vertex of copies and poses. Objects are processed in parallel. Appends diagnostics in the order of the
-  /// objects. `observer`, if there is one, sees each object whose bound memory may be read.
+  /// objects. `observer`, if there is one, stays until the
+  /// next call. It sees each object whose bound memory was found new, here and in `read_unread`.
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics, MemoryObserver* observer);
   /// Reads the objects in `wanted`, which are unread, listed once each and planned to be read.
   void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
@@ -74,7 +75,10 @@ class ObjectStore {
   [[nodiscard]] bool changed() const { return changed_; }
   /// The objects that exist after `read_positions`, ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
-  [[nodiscard]] Object* find(ObjectId id);
+  [[nodiscard]] Object* find(ObjectId id) const;
+  /// Whether the positions of the call are wanted, or why they are bad. Otherwise the object stays where it
+  /// is.
+  [[nodiscard]] bool wants(const UnbindPositions& call) const;
   /// The serial of the next object that is added.
   [[nodiscard]] std::uint64_t next_serial() const { return next_serial_; }
   /// The object of a serial, or null.
@@ -115,6 +119,7 @@ class ObjectStore {
   void leave_unread(Object& object);
   void plan_late_read(Object& object);
   void mark_new_seen();
+  void show_memory(Object& object);
   void clear_read_list();
   void list_to_read(Object& object);
   void read_small(std::size_t index);
@@ -124,6 +129,7 @@ class ObjectStore {
   void report_problems(std::vector<Diagnostic>& diagnostics);
 
   bool with_blocks_;
+  MemoryObserver* observer_ = nullptr;  ///< of the current step
   std::vector<std::unique_ptr<Object>>
       objects_;                         ///< null in the slot of a removed object until the next read
   std::vector<std::uint64_t> serials_;  ///< of `objects_`, in one array for binary search

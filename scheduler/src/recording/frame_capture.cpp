@@ -5,7 +5,7 @@ namespace graze {
 void CapturedFrame::clear() {
   record_count = 0;
   records.clear();
-  is_fresh = false;
+  is_fresh = is_snapshot = false;
   dropped_before = 0;
   new_meshes.clear();
   report = ReportHandle();
@@ -55,19 +55,34 @@ void FrameQueue::wait_until_empty() {
 
 // ---- The capture
 
-void FrameCapture::begin_step(const ObjectStore& store) noexcept {
+namespace {
+
+/// About how many bytes the records of all objects take: so many at once are cheaper than growing.
+std::size_t content_size(const ObjectStore& store) {
+  constexpr std::size_t bytes_of_others = 512;
+  std::size_t size = 0;
+  for (const auto& object : store.objects())
+    if (object != nullptr) size += bytes_of_others + 3 * sizeof(double) * object->mesh->vertex_count();
+  return size;
+}
+
+}  // namespace
+
+void FrameCapture::begin_step(const ObjectStore& store, const PairFilter& filter) noexcept {
   store_ = &store;
   if (frame_ != nullptr) return;
   frame_ = queue_.free_frame();
   if (frame_ == nullptr) return drop();
   frame_->clear();
   frame_->is_fresh = !is_complete_;
+  frame_->is_snapshot = frame_->is_fresh && (store.next_serial() > 0 || filter.rules_version() > 0);
   frame_->dropped_before = dropped_before_;
 }
 
 void FrameCapture::see_content(const PairFilter& filter) noexcept {
-  if (frame_ == nullptr || !frame_->is_fresh) return;
+  if (frame_ == nullptr || !frame_->is_snapshot) return;
   keep_or_drop([&] {
+    frame_->records.reserve(content_size(*store_));
     for (const auto& object : store_->objects())
       if (object != nullptr) add_object(*object);
     filter.visit_rules([&](std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
@@ -128,7 +143,7 @@ void FrameCapture::add_object(const Object& object) {
     add_record(
         PositionsRecord{object.id, std::numeric_limits<double>::infinity(), object.surface().positions()});
   }
-  if (object.frozen) add_freezing_call(object);
+  if (object.frozen && !object.positions) add_freezing_call(object);
 }
 
 /// Adds a call that freezes an object as it was frozen before the recording began.
@@ -155,8 +170,12 @@ void FrameCapture::add(const BindPositions& call) {
 
 void FrameCapture::add(const UnbindPositions& call) {
   UnbindRecord record{.object = call.object, .is_lost = call.is_lost, .positions = {}};
-  if (call.problem) record.problem = call.problem->kind;
-  if (call.positions) record.positions = call.positions->view();
+  const Object* const object = store_->find(call.object);
+  const bool is_wanted = store_->wants(call);
+  if (is_wanted && call.problem) record.problem = call.problem->kind;
+  if (is_wanted && call.positions) record.positions = call.positions->view();
+  record.is_frozen = object != nullptr && object->bound && record.positions.size() == 0 &&
+                     (object->frozen || call.is_lost || record.problem != DiagnosticKind::stale_id);
   add_record(record);
 }
 

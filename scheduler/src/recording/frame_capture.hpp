@@ -23,7 +23,8 @@ namespace graze {
 struct CapturedFrame {
   std::uint64_t record_count = 0;
   ByteBuffer records;
-  bool is_fresh = false;  ///< the records make the scene from an empty one
+  bool is_fresh = false;     ///< the records make the scene from an empty one
+  bool is_snapshot = false;  ///< they say where its objects are, and not which calls the step took up
   std::uint64_t dropped_before = 0;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const IndexedMesh>>> new_meshes;
   ReportHandle report;
@@ -73,7 +74,7 @@ class FrameCapture final : public MemoryObserver {
   explicit FrameCapture(FrameQueue& queue) : queue_(queue) {}
 
   /// Begins a step, or goes on with the frame of a step that failed.
-  void begin_step(const ObjectStore& store) noexcept;
+  void begin_step(const ObjectStore& store, const PairFilter& filter) noexcept;
   /// Sees a call, and applies it with `apply`. If that throws, the call is not recorded: it comes again.
   template <typename OneCall, typename Apply>
   void see(const OneCall& call, const Apply& apply) {
@@ -92,7 +93,7 @@ class FrameCapture final : public MemoryObserver {
   }
   /// Sees all calls applied, before positions are read.
   void see_content(const PairFilter& filter) noexcept;
-  /// Sees bound memory that the step is going to read.
+  /// Sees bound memory that the step has found new.
   void see_memory(const Object& object) noexcept override;
   /// Ends a step with its report.
   void end_step(const ReportHandle& report) noexcept;
@@ -108,8 +109,8 @@ class FrameCapture final : public MemoryObserver {
 
   template <typename OneCall>
   void see(const OneCall& call) noexcept {
-    // A frame that begins afresh has the scene as it is after the calls, and of these only what is told.
-    if (frame_ == nullptr || (frame_->is_fresh && !is_told<OneCall>)) return;
+    // A snapshot has the scene as it is after the calls, and of these only what is told.
+    if (frame_ == nullptr || (frame_->is_snapshot && !is_told<OneCall>)) return;
     keep_or_drop([&] { add(call); });
   }
   template <typename Work>

@@ -45,6 +45,7 @@ struct MemoryRecord {
 struct UnbindRecord {
   ObjectId object;
   bool is_lost = false;
+  bool is_frozen = false;  ///< the object is frozen without a binding from now on
   /// Why the memory was refused. `stale_id` says that it was not.
   DiagnosticKind problem = DiagnosticKind::stale_id;
   PositionView positions;  ///< what the memory said last
@@ -112,7 +113,7 @@ auto fields(T& r) {
 }
 template <Is<UnbindRecord> T>
 auto fields(T& r) {
-  return std::tie(r.object, r.is_lost, r.problem, r.positions);
+  return std::tie(r.object, r.is_lost, r.is_frozen, r.problem, r.positions);
 }
 template <Is<PositionsChanged> T>
 auto fields(T& r) {

@@ -136,13 +136,14 @@ void SceneModel::take(const MemoryRecord& record) {
 void SceneModel::take(const UnbindRecord& record) {
   ModelObject* const object = find(record.object);
   if (object == nullptr) return;
-  const bool was_bound = object->binding.has_value();
   object->binding.reset();
   if (record.positions.size() > 0) object->positions.take(record.positions);
-  if (was_bound && record.problem != DiagnosticKind::stale_id) {
-    object->frozen_by = UnbindRecord{.object = record.object, .problem = record.problem, .positions = {}};
-    object->positions.clear();
-  }
+  if (!record.is_frozen) return;
+  const bool has_reason = record.problem != DiagnosticKind::stale_id;
+  object->frozen_by = UnbindRecord{.object = record.object,
+                                   .problem = has_reason ? record.problem : DiagnosticKind::not_finite,
+                                   .positions = {}};
+  object->positions.clear();
 }
 
 void SceneModel::take(const IgnorePair& record) {

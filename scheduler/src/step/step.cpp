@@ -135,7 +135,7 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* captu
                          },
                          [&](auto& other) { store_.apply(other); }};
   if (capture == nullptr) return staging_.visit_collected(apply);
-  capture->begin_step(store_);
+  capture->begin_step(store_, pairs_.filter());
   staging_.visit_collected([&](auto& call) { capture->see(call, [&] { apply(call); }); });
   capture->see_content(pairs_.filter());
 }
