@@ -84,7 +84,7 @@ class RecordingCut {
       kept_.insert(added->object);
       if (written_meshes_.insert(added->mesh).second) new_meshes_.push_back(added->mesh);
     }
-    if (!std::visit([this](const auto& one) { return tells_of_kept(one); }, record)) return;
+    if (!std::visit([&](const auto& one) { return tells_of_kept(one); }, record)) return;
     write_record(records_, record);
     ++count_;
   }
