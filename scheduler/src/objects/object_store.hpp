@@ -24,10 +24,8 @@ struct DepartedObject {
 /// Sees bound memory that a step has read, surveyed or viewed, where it may be new.
 class MemoryObserver {
  public:
+  virtual ~MemoryObserver() = default;
   virtual void see_memory(const Object& object) noexcept = 0;
-
- protected:
-  ~MemoryObserver() = default;
 };
 
 /// The objects of a scene in the order of addition. Stepping thread only.

@@ -46,7 +46,7 @@ KeptPositions KeptPositions::in_form(std::span<const Eigen::Vector3d> rest, bool
   } else {
     std::vector<Eigen::Vector3f> floats;
     floats.reserve(rest.size());
-    for (const Eigen::Vector3d& point : rest) floats.push_back(point.cast<float>());
+    for (const Eigen::Vector3d& point : rest) floats.emplace_back(point.cast<float>());
     made.take(PositionView(floats));
   }
   return made;

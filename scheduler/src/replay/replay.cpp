@@ -52,14 +52,13 @@ class Replay::State {
   State(const RecordingReader& reader, const ReplaySettings& settings);
 
   bool step();
-  void run(std::size_t index);
 
-  std::size_t index_ = 0;  ///< of the last step
-  ReportHandle report_;
-  std::optional<ReplayDifference> difference_;
-  std::size_t rows_not_compared_ = 0;
-  std::vector<ReplayObject> objects_;
-  std::unique_ptr<ReplayedScene> replayed_;
+  std::size_t index = 0;  ///< of the last step
+  ReportHandle report;
+  std::optional<ReplayDifference> difference;
+  std::size_t rows_not_compared = 0;
+  std::vector<ReplayObject> objects;
+  std::unique_ptr<ReplayedScene> played;
 
  private:
   void begin_scene(bool knows_history);
@@ -102,9 +101,9 @@ Replay::State::State(const RecordingReader& reader, const ReplaySettings& settin
 }
 
 void Replay::State::begin_scene(bool knows_history) {
-  replayed_.reset();
+  played.reset();
   scene_ = std::make_unique<Scene>(replayed_settings(reader_.settings().settings, settings_));
-  replayed_ = std::make_unique<ReplayedScene>(reader_, *scene_, scene_->state_->staging);
+  played = std::make_unique<ReplayedScene>(reader_, *scene_, scene_->state_->staging);
   knows_history_ = knows_history;
 }
 
@@ -113,24 +112,24 @@ void Replay::State::begin_at_keyframe(std::uint64_t offset) {
   reader_.with_chunk(ChunkKind::keyframe, offset, payload_, [&](ByteSource& source) {
     std::uint64_t count = 0;
     source(count);
-    visit_records(source, count, [&](const Record& record) { replayed_->apply(record); });
+    visit_records(source, count, [&](const Record& record) { played->apply(record); });
   });
 }
 
 bool Replay::State::step() {
   if (next_ == reader_.steps().size()) return false;
-  index_ = next_++;
-  replayed_->forget_removed();
-  reader_.with_chunk(ChunkKind::step, reader_.steps()[index_].offset, payload_, [&](ByteSource& source) {
+  index = next_++;
+  played->forget_removed();
+  reader_.with_chunk(ChunkKind::step, reader_.steps()[index].offset, payload_, [&](ByteSource& source) {
     StepHead head;
     source(head);
     // A recording that begins with a scene's first step knows all that came before: nothing.
     if (head.is_fresh) begin_scene(head.report.frame == 1 && !reader_.settings().is_cut);
-    visit_records(source, head.record_count, [&](const Record& record) { replayed_->apply(record); });
+    visit_records(source, head.record_count, [&](const Record& record) { played->apply(record); });
     take_expected(head);
   });
-  report_ = scene_->step(expected_.tag);
-  objects_ = replayed_->objects();
+  report = scene_->step(expected_.tag);
+  objects = played->objects();
   compare();
   return true;
 }
@@ -142,17 +141,17 @@ void Replay::State::take_expected(StepHead& head) {
 }
 
 void Replay::State::compare() {
-  difference_.reset();
-  rows_not_compared_ = 0;
-  summarize(*report_, found_);
+  difference.reset();
+  rows_not_compared = 0;
+  summarize(*report, found_);
   for (RecordedRow& row : found_.rows) {
-    row.a = replayed_->recorded_id(row.a);
-    row.b = replayed_->recorded_id(row.b);
+    row.a = played->recorded_id(row.a);
+    row.b = played->recorded_id(row.b);
   }
   recorded_pairs_.clear();
   for (const RecordedRow& row : expected_.rows) recorded_pairs_.insert({row.a, row.b});
   compare_rows();
-  if (!difference_) compare_diagnostics();
+  if (!difference) compare_diagnostics();
 }
 
 /// Whether the replay can know what the row says.
@@ -179,7 +178,7 @@ void Replay::State::compare_rows() {
     const bool is_there = at < found_.rows.size() && are_of_one_pair(found_.rows[at], recorded);
     const RecordedRow* const replayed = is_there ? &found_.rows[at++] : nullptr;
     if (!is_comparable(recorded))
-      ++rows_not_compared_;
+      ++rows_not_compared;
     else if (!is_there || !are_equal(recorded, *replayed))
       return tell(&recorded, replayed);
   }
@@ -190,17 +189,16 @@ void Replay::State::compare_diagnostics() {
   const bool are_same =
       expected_.diagnostics == found_.diagnostics && expected_.diagnostics_hash == found_.diagnostics_hash;
   if (are_same || !knows_history_) return;
-  difference_ = ReplayDifference{expected_.frame,
-                                 {},
-                                 std::to_string(expected_.diagnostics) + " diagnostics",
-                                 std::to_string(found_.diagnostics) + " diagnostics"};
+  difference = ReplayDifference{expected_.frame,
+                                {},
+                                std::to_string(expected_.diagnostics) + " diagnostics",
+                                std::to_string(found_.diagnostics) + " diagnostics"};
 }
 
 void Replay::State::tell(const RecordedRow* recorded, const RecordedRow* replayed) {
   const RecordedRow& row = recorded != nullptr ? *recorded : *replayed;
-  difference_ =
-      ReplayDifference{expected_.frame, replayed_->name_of(row.a) + " and " + replayed_->name_of(row.b),
-                       line_of(recorded), line_of(replayed)};
+  difference = ReplayDifference{expected_.frame, played->name_of(row.a) + " and " + played->name_of(row.b),
+                                line_of(recorded), line_of(replayed)};
 }
 
 Replay::Replay(const Recording& recording, const ReplaySettings& settings)
@@ -211,25 +209,25 @@ bool Replay::step() {
   return state_->step();
 }
 std::size_t Replay::frame_index() const {
-  return state_->index_;
+  return state_->index;
 }
 const ReportHandle& Replay::report() const {
-  return state_->report_;
+  return state_->report;
 }
 const std::optional<ReplayDifference>& Replay::difference() const {
-  return state_->difference_;
+  return state_->difference;
 }
 std::size_t Replay::rows_not_compared() const {
-  return state_->rows_not_compared_;
+  return state_->rows_not_compared;
 }
 std::span<const ReplayObject> Replay::objects() const {
-  return state_->objects_;
+  return state_->objects;
 }
 void Replay::read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const {
-  state_->replayed_->read_positions(state_->objects_[index].id, positions);
+  state_->played->read_positions(state_->objects[index].id, positions);
 }
 std::array<double, 12> Replay::pose(std::size_t index) const {
-  return state_->replayed_->pose(state_->objects_[index].id);
+  return state_->played->pose(state_->objects[index].id);
 }
 
 }  // namespace graze
