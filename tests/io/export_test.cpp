@@ -1,4 +1,4 @@
-// What exports hold, against the reports of a replay: tables, time series for ParaView, glTF.
+// Exports are compared with the reports of a replay: tables, time series for ParaView, glTF.
 
 #include <assimp/scene.h>
 

@@ -1,14 +1,11 @@
 // After one period of a periodic motion, or after `reserve`, no step and no call around it takes memory,
 // whatever the detail, the number of threads, the budgets, and who else holds reports.
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <graze/recorder.hpp>
 #include <iostream>
 #include <new>
@@ -21,6 +18,7 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
+#include "tools/temporary_folder.hpp"
 
 namespace graze::tests {
 namespace {
@@ -392,9 +390,8 @@ TEST_CASE("no allocation: a step that is recorded, while the writer follows") {
   SceneSettings settings = settings_of(0.125, 0.5);
   settings.threads = 1;
   Bobbing bobbing(settings);
-  const auto file =
-      std::filesystem::temp_directory_path() / ("graze_allocation_" + std::to_string(::getpid()));
-  Recorder recorder(bobbing.scene(), file, {.keyframe_interval = 16, .waiting_frames = 2});
+  const TemporaryFolder folder;
+  Recorder recorder(bobbing.scene(), folder / "run.graze", {.keyframe_interval = 16, .waiting_frames = 2});
   std::size_t contacts = 0;
   const auto play_recorded = [&](std::size_t begin, std::size_t end) {
     for (std::size_t frame = begin; frame < end; ++frame) {
@@ -411,7 +408,6 @@ TEST_CASE("no allocation: a step that is recorded, while the writer follows") {
   CHECK(contacts > 0);
   recorder.close();
   CHECK(recorder.statistics().dropped == 0);
-  std::filesystem::remove(file);
 }
 
 }  // namespace graze::tests

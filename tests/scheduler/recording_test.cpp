@@ -2,28 +2,26 @@
 // that were dropped. The oracle is the report of the recorded step itself, and the recorder's own hashes.
 
 #include <oneapi/tbb/global_control.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <graze/instruction_set.hpp>
 #include <graze/recorder.hpp>
 #include <graze/recording.hpp>
-#include <limits>
-#include <random>
 #include <set>
 
 #include "recording/chunks.hpp"
 #include "recording/crc32.hpp"
 #include "scenes/played_scene.hpp"
 #include "scheduler/moving_scene.hpp"
+#include "scheduler/random_calls.hpp"
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "tools/temporary_folder.hpp"
 
 namespace graze::tests {
 namespace {
@@ -31,29 +29,15 @@ namespace {
 /// A file that is gone at the end of the test.
 class TemporaryFile {
  public:
-  TemporaryFile() {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("graze_recording_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path path() const { return folder_ / "run.graze"; }
   [[nodiscard]] std::string bytes() const {
-    std::ifstream in(path_, std::ios::binary);
+    std::ifstream in(path(), std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  void write(const std::string& bytes) const {
-    std::ofstream out(path_, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  }
+  void write(const std::string& bytes) const { (void)folder_.write("run.graze", bytes); }
 
  private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
 
 /// A recorder that drops nothing, however slow the machine is.
@@ -99,101 +83,6 @@ std::string whole_text(const FrameReport& report) {
   return text;
 }
 
-/// Makes random calls on a scene, many of them wrong, and writes bound memory.
-class RandomCalls {
- public:
-  explicit RandomCalls(unsigned seed) : random_(seed) {}
-
-  void make(Scene& scene) {
-    if (objects_.size() < 3 || chance(8)) add(scene);
-    for (int call = below(6); call > 0; --call) make_one(scene);
-  }
-
- private:
-  struct Body {
-    ObjectId id;
-    std::shared_ptr<const Mesh> mesh;
-    Motion motion;
-    std::unique_ptr<Positions> memory = std::make_unique<Positions>();
-    std::unique_ptr<std::vector<Eigen::Vector3f>> floats = std::make_unique<std::vector<Eigen::Vector3f>>();
-  };
-  int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
-  bool chance(int of) { return below(of) == 0; }
-  double number() { return below(64) / 32.0 - 1; }
-  Eigen::Vector3d offset() { return {number(), number(), number()}; }
-
-  void add(Scene& scene) {
-    Body body;
-    body.mesh = chance(2) ? plate_mesh() : needle_mesh();
-    ObjectSettings settings;
-    settings.motion = body.motion = static_cast<Motion>(below(3));
-    settings.name = chance(2) ? "named " + std::to_string(objects_.size()) : "";
-    settings.kind = static_cast<std::uint32_t>(below(3));
-    settings.margin = below(4) / 16.0;
-    body.id = scene.add(body.mesh, settings);
-    objects_.push_back(std::move(body));
-  }
-  Positions placed(const Body& body) {
-    Positions positions = moved(body.mesh->rest(), offset());
-    if (chance(12)) positions[0].x() = std::numeric_limits<double>::quiet_NaN();
-    return positions;
-  }
-  void make_one(Scene& scene) {
-    Body& body = objects_[static_cast<std::size_t>(below(static_cast<int>(objects_.size())))];
-    const double promise = chance(3) ? 8 : Scene::any_displacement;
-    switch (below(12)) {
-      case 0:
-        return scene.set_positions(body.id, placed(body), promise);
-      case 1:
-      case 2:
-        return write_memory(scene, body, promise);
-      case 3:
-        return bind(scene, body);
-      case 4:
-        return scene.unbind_positions(body.id);
-      case 5:
-        return set_pose(scene, body);
-      case 6:
-        return set_pose(scene, body);
-      case 7:
-        return scene.ignore(body.id, objects_[0].id);
-      case 8:
-        return scene.watch(body.id, objects_[0].id);
-      case 9:
-        return scene.set_rule(static_cast<std::uint32_t>(below(3)),
-                              static_cast<std::uint32_t>(below(4) == 0 ? 999 : 1), {below(4) / 8.0, 1});
-      case 10:
-        return chance(3) ? scene.remove(body.id) : scene.positions_changed(body.id, promise);
-      default:
-        return bind(scene, body);
-    }
-  }
-  void bind(Scene& scene, Body& body) {
-    *body.memory = placed(body);
-    const BindPolicy policy = chance(2) ? BindPolicy::when_told : BindPolicy::every_step;
-    if (chance(2)) return scene.bind_positions(body.id, *body.memory, policy);
-    body.floats->clear();
-    for (const Eigen::Vector3d& point : *body.memory) body.floats->push_back(point.cast<float>());
-    scene.bind_positions(body.id, *body.floats, policy);
-  }
-  /// Memory of the other precision may be bound, so both say the same.
-  void write_memory(Scene& scene, Body& body, double promise) {
-    const Positions positions = placed(body);
-    std::copy_n(positions.begin(), std::min(positions.size(), body.memory->size()), body.memory->begin());
-    for (std::size_t i = 0; i < body.floats->size(); ++i) (*body.floats)[i] = positions[i].cast<float>();
-    scene.positions_changed(body.id, promise);
-  }
-  void set_pose(Scene& scene, Body& body) {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() = offset();
-    if (chance(8)) pose.linear() *= 2;
-    scene.set_pose(body.id, pose);
-  }
-
-  std::mt19937 random_;
-  std::vector<Body> objects_;
-};
-
 SceneSettings random_settings(unsigned seed) {
   SceneSettings settings = settings_of(0.25, 1, static_cast<ContactDetail>(seed % 5));
   settings.threads = 1;
@@ -222,6 +111,16 @@ std::vector<std::string> record_random_calls(unsigned seed, std::size_t frames, 
   CHECK(recorder.statistics().frames == frames);
   CHECK(recorder.statistics().dropped == 0);
   return texts;
+}
+
+/// The bytes of a recording of three frames, with two keyframes.
+std::string three_frames() {
+  const TemporaryFile file;
+  NeedleOverPlate stage(settings_of(0.5, 100));
+  Recorder recorder(stage.scene, file.path(), patient(2));
+  for (const double height : {0.75, 0.25, 0.125}) stage.step_at(height);
+  recorder.close();
+  return file.bytes();
 }
 
 /// The recording without an index, and with another upper bound and hash in the row of its second frame.
@@ -351,14 +250,7 @@ TEST_CASE("recording: a part has the same answers, of all objects or of two") {
 }
 
 TEST_CASE("recording: any flipped bit is found, and the place is named") {
-  const TemporaryFile file;
-  {
-    NeedleOverPlate stage(settings_of(0.5, 100));
-    Recorder recorder(stage.scene, file.path(), patient(2));
-    for (const double height : {0.75, 0.25, 0.125}) stage.step_at(height);
-    recorder.close();
-  }
-  const std::string good = file.bytes();
+  const std::string good = three_frames();
   const TemporaryFile damaged;
   std::size_t unnamed = 0;
   for (std::size_t byte = 0; byte < good.size(); ++byte) {
@@ -375,13 +267,7 @@ TEST_CASE("recording: any flipped bit is found, and the place is named") {
 
 TEST_CASE("recording: a file that was not finished is read up to its last whole frame") {
   const TemporaryFile file;
-  {
-    NeedleOverPlate stage(settings_of(0.5, 100));
-    Recorder recorder(stage.scene, file.path(), patient(2));
-    for (const double height : {0.75, 0.25, 0.125}) stage.step_at(height);
-    recorder.close();
-  }
-  const std::string good = file.bytes();
+  const std::string good = three_frames();
   std::set<std::size_t> counts;
   for (std::size_t size = 0; size < good.size(); size += 3) {
     file.write(good.substr(0, size));

@@ -7,17 +7,17 @@
 namespace graze::io {
 namespace {
 
-/// What a frame is written as: one file for each.
+/// The parts of a frame. Each is a file of its own.
 constexpr std::array<std::string_view, 3> vtp_parts{"surfaces", "contacts", "lines"};
 
-/// Such as `surfaces_000012.vtp`. The digits keep the files of a folder in order.
+/// The name of a part's file, such as `surfaces_000012.vtp`. The digits keep the files of a folder in order.
 std::string vtp_name(std::string_view part, std::uint64_t frame) {
   const std::string digits = std::to_string(frame);
   constexpr std::size_t width = 6;
   return joined(part, "_", std::string(width - std::min(width, digits.size()), '0'), digits, ".vtp");
 }
 
-/// What stands for the characters that have a meaning in XML.
+/// A text in which characters that mean something in XML are spelled out.
 std::string xml_text(std::string_view text) {
   std::string escaped;
   for (const char letter : text) {

@@ -5,7 +5,7 @@
 
 namespace graze::io {
 
-// What a frame of a time series is made of, each as a file of VTK's PolyData.
+// The parts of a frame of a time series. Each is a file of VTK's PolyData.
 
 /// All faces, quads as quads. Throws InputError where the frame is too large.
 void write_vtp_surfaces(const std::filesystem::path& path, const SceneSnapshot& snapshot);

@@ -55,6 +55,11 @@ inline constexpr auto last_of<PairPhase> = underlying(PairPhase::ended);
 /// The bytes of positions start at a multiple of this in their chunk, so that they can be viewed in place.
 inline constexpr std::size_t position_alignment = 8;
 
+/// The bytes from a place to the next one where positions may begin.
+constexpr std::size_t padding_at(std::size_t place) {
+  return (position_alignment - place % position_alignment) % position_alignment;
+}
+
 /// Turns the bytes of each number round where the machine is big-endian.
 inline void to_little_endian(std::span<std::byte> bytes, std::size_t number_size) {
   if constexpr (std::endian::native == std::endian::big)
@@ -65,8 +70,7 @@ inline void to_little_endian(std::span<std::byte> bytes, std::size_t number_size
 
 /// Pads a buffer with zeros up to a place where positions may begin.
 inline void align(ByteBuffer& buffer) {
-  const std::size_t padding = (position_alignment - buffer.size() % position_alignment) % position_alignment;
-  for (std::byte& byte : buffer.grow(padding)) byte = std::byte{0};
+  for (std::byte& byte : buffer.grow(padding_at(buffer.size()))) byte = std::byte{0};
 }
 
 /// Writes fields at the end of a buffer.
@@ -78,7 +82,6 @@ class ByteSink {
   void operator()(const Fields&... fields) {
     (write(fields), ...);
   }
-  void write_bytes(std::span<const std::byte> bytes) { buffer_.append(bytes); }
 
  private:
   template <PlainValue Value>
@@ -118,6 +121,7 @@ class ByteSink {
   ByteBuffer& buffer_;
 };
 
+/// Writes values at the end of a buffer.
 template <typename... Fields>
 void write_fields(ByteBuffer& buffer, const Fields&... values) {
   ByteSink sink(buffer);
@@ -134,10 +138,9 @@ class ByteSource {
   void operator()(Fields&... fields) {
     (read(fields), ...);
   }
-  [[nodiscard]] bool is_at_end() const { return at_ == bytes_.size(); }
   [[nodiscard]] std::size_t at() const { return at_; }
   /// Goes on to a place where positions may begin.
-  void align() { (void)take((position_alignment - at_ % position_alignment) % position_alignment); }
+  void align() { (void)take(padding_at(at_)); }
   [[nodiscard]] std::span<const std::byte> take(std::size_t count) {
     if (count > bytes_.size() - at_) throw Error("the data end too early");
     at_ += count;

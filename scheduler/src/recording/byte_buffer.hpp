@@ -12,7 +12,6 @@ namespace graze {
 class ByteBuffer {
  public:
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] std::size_t capacity() const { return capacity_; }
   [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.get(), size_}; }
   [[nodiscard]] std::span<std::byte> bytes() { return {bytes_.get(), size_}; }
 

@@ -9,7 +9,7 @@ namespace graze {
 
 // ---- A file
 
-RecordingFileWriter::RecordingFileWriter(const std::filesystem::path& path)
+FileOutput::FileOutput(const std::filesystem::path& path)
     : name_(path.string()), file_(std::fopen(name_.c_str(), "wb")) {
   if (file_ == nullptr) fail("cannot be opened");
   std::setvbuf(file_.get(), nullptr, _IONBF,
@@ -19,15 +19,15 @@ RecordingFileWriter::RecordingFileWriter(const std::filesystem::path& path)
   write(head.bytes());
 }
 
-void RecordingFileWriter::put(ChunkKind kind, std::uint64_t number, std::span<const std::byte> chunk) {
+void FileOutput::put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) {
   index_.push_back({kind, number, offset_});
-  write(chunk);
+  write(chunk.bytes());
 }
 
-void RecordingFileWriter::finish() {
+void FileOutput::finish() {
   const std::uint64_t index_offset = offset_;
   ByteBuffer chunk;
-  chunk.grow(ChunkHead::size);
+  begin_chunk(chunk);
   write_fields(chunk, index_);
   seal_chunk(chunk, ChunkKind::index, 0);
   write_checked(chunk, FileEnd{index_offset});
@@ -35,12 +35,12 @@ void RecordingFileWriter::finish() {
   if (std::fclose(file_.release()) != 0) fail("cannot be closed");
 }
 
-void RecordingFileWriter::write(std::span<const std::byte> bytes) {
+void FileOutput::write(std::span<const std::byte> bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail("cannot be written");
   offset_ += bytes.size();
 }
 
-void RecordingFileWriter::fail(const char* what) const {
+void FileOutput::fail(const char* what) const {
   throw Error(name_ + ": " + what + ": " + std::strerror(errno));
 }
 
@@ -101,8 +101,8 @@ void RingOutput::write(const std::filesystem::path& path) const {
     for (const Segment& segment : segments_)
       chunks.insert(chunks.end(), segment.chunks.begin(), segment.chunks.end());
   }
-  RecordingFileWriter file(path);
-  for (const auto& chunk : chunks) file.put(chunk->kind, chunk->number, std::as_const(chunk->bytes).bytes());
+  FileOutput file(path);
+  for (const auto& chunk : chunks) file.put(chunk->kind, chunk->number, chunk->bytes);
   file.finish();
 }
 

@@ -23,16 +23,17 @@ class ChunkOutput {
   virtual ~ChunkOutput() = default;
   /// Takes a sealed chunk. Throws Error where it cannot be written.
   virtual void put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) = 0;
-  /// Says that the last keyframe or step adds an object of this mesh.
+  /// Says that the last keyframe, or a step after it, adds an object of this mesh.
   virtual void use_mesh(std::uint32_t number) = 0;
 };
 
 /// A file of chunks, from the first byte to the last. Each chunk is handed to the system as a whole.
-class RecordingFileWriter {
+class FileOutput final : public ChunkOutput {
  public:
   /// Opens the file and writes its head. Throws Error.
-  explicit RecordingFileWriter(const std::filesystem::path& path);
-  void put(ChunkKind kind, std::uint64_t number, std::span<const std::byte> chunk);
+  explicit FileOutput(const std::filesystem::path& path);
+  void put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) override;
+  void use_mesh(std::uint32_t) override {}
   /// Writes the index and closes the file. Throws Error.
   void finish();
   /// Any thread.
@@ -47,26 +48,11 @@ class RecordingFileWriter {
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::atomic<std::uint64_t> offset_{0};  ///< others only read it
+  std::atomic<std::uint64_t> offset_{0};  ///< the writing thread alone changes it
   std::vector<IndexEntry> index_;
 };
 
-class FileOutput final : public ChunkOutput {
- public:
-  explicit FileOutput(const std::filesystem::path& path) : file_(path) {}
-  void put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) override {
-    file_.put(kind, number, chunk.bytes());
-  }
-  void use_mesh(std::uint32_t) override {}
-  void finish() { file_.finish(); }
-  /// Any thread.
-  [[nodiscard]] std::uint64_t byte_count() const { return file_.byte_count(); }
-
- private:
-  RecordingFileWriter file_;
-};
-
-/// The last frames in memory, within a budget. What is dropped goes from one keyframe to the next.
+/// The last frames in memory, within a budget. Frames are dropped from one keyframe to the next.
 class RingOutput final : public ChunkOutput {
  public:
   RingOutput(std::size_t byte_budget, std::uint64_t frame_limit)

@@ -66,6 +66,11 @@ template bool read_checked(std::span<const std::byte> bytes, FileHead& head);
 template bool read_checked(std::span<const std::byte> bytes, ChunkHead& head);
 template bool read_checked(std::span<const std::byte> bytes, FileEnd& head);
 
+void begin_chunk(ByteBuffer& chunk) {
+  chunk.clear();
+  chunk.grow(ChunkHead::size);
+}
+
 void seal_chunk(ByteBuffer& chunk, ChunkKind kind, std::uint64_t number) {
   align(chunk);
   const std::span<const std::byte> payload = std::as_const(chunk).bytes().subspan(ChunkHead::size);
@@ -93,7 +98,7 @@ void write_mesh(ByteBuffer& chunk, const IndexedMesh& mesh, std::uint64_t number
     written.corners.insert(written.corners.end(), corners.begin(), corners.end());
     written.corner_counts.push_back(static_cast<std::uint8_t>(corners.size()));
   }
-  chunk.grow(ChunkHead::size);
+  begin_chunk(chunk);
   write_fields(chunk, written);
   seal_chunk(chunk, ChunkKind::mesh, number);
 }

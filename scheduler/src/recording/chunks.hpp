@@ -123,8 +123,9 @@ void write_checked(ByteBuffer& buffer, Head head);
 template <typename Head>
 [[nodiscard]] bool read_checked(std::span<const std::byte> bytes, Head& head);
 
-/// Pads a payload and puts its head before it: `chunk` is head and payload then. `chunk` holds the payload
-/// behind `ChunkHead::size` bytes that are written here.
+/// Empties a buffer, and leaves room for the head of a chunk. The payload is to follow.
+void begin_chunk(ByteBuffer& chunk);
+/// Pads the payload and writes the head before it.
 void seal_chunk(ByteBuffer& chunk, ChunkKind kind, std::uint64_t number);
 
 /// The number of a kind of record in a recording.

@@ -6,11 +6,9 @@
 namespace graze {
 
 void FrameEncoder::write_settings(const SceneSettings& settings, bool is_cut) {
-  chunk_.clear();
-  chunk_.grow(ChunkHead::size);
+  begin_chunk(chunk_);
   write_fields(chunk_, SettingsChunk{GRAZE_VERSION, settings, is_cut});
-  seal_chunk(chunk_, ChunkKind::settings, 0);
-  output_.put(ChunkKind::settings, 0, chunk_);
+  put_chunk(ChunkKind::settings, 0);
 }
 
 void FrameEncoder::write_frame(const CapturedFrame& frame) {
@@ -25,7 +23,6 @@ void FrameEncoder::write_frame(const CapturedFrame& frame) {
 }
 
 void FrameEncoder::write_mesh(const IndexedMesh& mesh, std::uint32_t number) {
-  chunk_.clear();
   graze::write_mesh(chunk_, mesh, number);
   output_.put(ChunkKind::mesh, number, chunk_);
 }
@@ -36,35 +33,36 @@ void FrameEncoder::write_keyframe(std::uint64_t frame, bool is_fresh) {
   has_keyframe_ = true;
   steps_since_keyframe_ = 0;
   has_last_rows_ = false;  // whoever begins here does not know them
-  kept_records_.clear();
-  kept_count_ = 0;
-  std::vector<std::uint32_t> meshes;
-  model_.rebuild([&](const Record& record) {
-    keep_record(record);
-    if (const auto* const added = std::get_if<AddRecord>(&record)) meshes.push_back(added->mesh);
-  });
-  chunk_.clear();
-  chunk_.grow(ChunkHead::size);
+  clear_kept();
+  model_.rebuild([&](const Record& record) { keep_record(record); });
+  begin_chunk(chunk_);
   write_fields(chunk_, kept_count_);
   append_records(chunk_, kept_records_.bytes());
-  seal_chunk(chunk_, ChunkKind::keyframe, frame);
-  output_.put(ChunkKind::keyframe, frame, chunk_);
-  for (const std::uint32_t mesh : meshes) output_.use_mesh(mesh);
+  put_chunk(ChunkKind::keyframe, frame);
+  name_meshes();
 }
 
 void FrameEncoder::write_step(StepHead head, std::span<const std::byte> records, std::uint64_t record_count) {
-  kept_records_.clear();
-  kept_count_ = 0;
+  clear_kept();
   ByteSource source(records);
   visit_records(source, record_count, [&](const Record& record) {
     const auto* const memory = std::get_if<MemoryRecord>(&record);
     if (memory != nullptr && model_.holds(*memory)) return;
     model_.apply(record);
     keep_record(record);
-    if (const auto* const added = std::get_if<AddRecord>(&record)) output_.use_mesh(added->mesh);
   });
   head.record_count = kept_count_;
   head.hash = hash_of(head.report);
+  leave_out_rows_of_last(head);
+  begin_chunk(chunk_);
+  write_fields(chunk_, head);
+  append_records(chunk_, kept_records_.bytes());
+  name_meshes();  // before the step comes, which may drop what no segment uses
+  put_chunk(ChunkKind::step, head.report.frame);
+  std::swap(report_, head.report);
+}
+
+void FrameEncoder::leave_out_rows_of_last(StepHead& head) {
   head.has_rows_of_last = has_last_rows_ && head.report.rows == last_rows_;
   has_last_rows_ = true;
   std::swap(last_rows_, head.report.rows);
@@ -72,18 +70,28 @@ void FrameEncoder::write_step(StepHead head, std::span<const std::byte> records,
     head.report.rows.clear();
   else
     head.report.rows = last_rows_;
-  chunk_.clear();
-  chunk_.grow(ChunkHead::size);
-  write_fields(chunk_, head);
-  append_records(chunk_, kept_records_.bytes());
-  seal_chunk(chunk_, ChunkKind::step, head.report.frame);
-  output_.put(ChunkKind::step, head.report.frame, chunk_);
-  std::swap(report_, head.report);
+}
+
+void FrameEncoder::put_chunk(ChunkKind kind, std::uint64_t number) {
+  seal_chunk(chunk_, kind, number);
+  output_.put(kind, number, chunk_);
+}
+
+void FrameEncoder::clear_kept() {
+  kept_records_.clear();
+  kept_count_ = 0;
+  kept_meshes_.clear();
 }
 
 void FrameEncoder::keep_record(const Record& record) {
   write_record(kept_records_, record);
   ++kept_count_;
+  if (const auto* const added = std::get_if<AddRecord>(&record)) kept_meshes_.push_back(added->mesh);
+}
+
+/// Tells the output which meshes its last segment uses.
+void FrameEncoder::name_meshes() {
+  for (const std::uint32_t mesh : kept_meshes_) output_.use_mesh(mesh);
 }
 
 }  // namespace graze

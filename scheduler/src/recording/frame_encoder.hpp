@@ -31,7 +31,11 @@ class FrameEncoder {
   void write_step(StepHead head, std::span<const std::byte> records, std::uint64_t record_count);
 
  private:
+  void leave_out_rows_of_last(StepHead& head);
+  void put_chunk(ChunkKind kind, std::uint64_t number);
+  void clear_kept();
   void keep_record(const Record& record);
+  void name_meshes();
 
   ChunkOutput& output_;
   std::uint32_t keyframe_interval_;
@@ -42,8 +46,10 @@ class FrameEncoder {
   std::vector<RecordedRow> last_rows_;
   bool has_last_rows_ = false;
   ByteBuffer chunk_;
+  // The records of the keyframe or step that is being written, and the meshes of the objects they add.
   ByteBuffer kept_records_;
   std::uint64_t kept_count_ = 0;
+  std::vector<std::uint32_t> kept_meshes_;
 };
 
 }  // namespace graze

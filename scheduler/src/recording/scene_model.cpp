@@ -68,13 +68,6 @@ const ModelObject* SceneModel::find(ObjectId id) const {
   return found == objects_.end() ? nullptr : &found->second;
 }
 
-std::vector<ObjectId> SceneModel::ids() const {
-  std::vector<ObjectId> all;
-  all.reserve(by_serial_.size());
-  for (const auto& [serial, id] : by_serial_) all.push_back(id);
-  return all;
-}
-
 void SceneModel::apply(const Record& record) {
   std::visit([this](const auto& one) { take(one); }, record);
 }

@@ -68,8 +68,6 @@ class SceneModel {
   }
 
   [[nodiscard]] const ModelObject* find(ObjectId id) const;
-  /// The ids of all objects, in the order of addition.
-  [[nodiscard]] std::vector<ObjectId> ids() const;
   void clear() { *this = SceneModel(); }
 
  private:

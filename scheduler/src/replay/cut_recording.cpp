@@ -25,10 +25,8 @@ class RecordingCut {
   void run() {
     const std::size_t count = reader_.steps().size();
     const std::size_t last = std::min(part_.last_frame, count - 1);
-    std::size_t index = part_.first_frame;
-    while (index > 0 && reader_.steps()[index].keyframe_offset == 0) --index;
-    if (const std::uint64_t keyframe = reader_.steps()[index].keyframe_offset; keyframe != 0)
-      read_keyframe(keyframe);
+    std::size_t index = reader_.step_to_begin_at(part_.first_frame);
+    reader_.visit_keyframe(index, payload_, [&](const Record& record) { model_.apply(record); });
     const bool is_whole = part_.first_frame == 0 && serials_.empty();
     encoder_.write_settings(reader_.settings().settings, reader_.settings().is_cut || !is_whole);
     for (; index <= last; ++index) read_step(index);
@@ -36,14 +34,6 @@ class RecordingCut {
   }
 
  private:
-  void read_keyframe(std::uint64_t offset) {
-    reader_.with_chunk(ChunkKind::keyframe, offset, payload_, [&](ByteSource& source) {
-      std::uint64_t count = 0;
-      source(count);
-      visit_records(source, count, [&](const Record& record) { model_.apply(record); });
-    });
-  }
-
   void read_step(std::size_t index) {
     reader_.with_chunk(ChunkKind::step, reader_.steps()[index].offset, payload_, [&](ByteSource& source) {
       StepHead head;

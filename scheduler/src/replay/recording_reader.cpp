@@ -107,6 +107,13 @@ void RecordingReader::load(ChunkKind kind, std::uint64_t offset, ByteBuffer& pay
                      " is damaged: its checksum is another");
 }
 
+std::size_t RecordingReader::step_to_begin_at(std::size_t step) const {
+  while (step > 0 && steps_[step].keyframe_offset == 0) --step;
+  if (steps_[step].keyframe_offset == 0)
+    fail(steps_[step].offset, "the recording does not begin with a keyframe");
+  return step;
+}
+
 std::shared_ptr<const Mesh> RecordingReader::mesh(std::uint32_t number) const {
   if (auto read = read_meshes_[number].lock()) return read;
   const auto found = meshes_.find(number);
@@ -123,8 +130,7 @@ void RecordingReader::load_mesh(std::uint32_t number, ByteBuffer& chunk) const {
   if (found == meshes_.end()) throw Error("mesh " + std::to_string(number) + " is not in the recording");
   ByteBuffer payload;
   load(ChunkKind::mesh, found->second, payload);
-  chunk.clear();
-  chunk.grow(ChunkHead::size);
+  begin_chunk(chunk);
   chunk.append(payload.bytes());
   seal_chunk(chunk, ChunkKind::mesh, number);
 }

@@ -44,6 +44,17 @@ class RecordingReader {
       throw Error(place_of(kind, offset) + error.what());
     }
   }
+  /// The last step up to `step` that has a keyframe. Throws Error where there is none.
+  [[nodiscard]] std::size_t step_to_begin_at(std::size_t step) const;
+  /// Calls `visit(record)` with the records of the keyframe of a step.
+  template <typename Visit>
+  void visit_keyframe(std::size_t step, ByteBuffer& payload, const Visit& visit) const {
+    with_chunk(ChunkKind::keyframe, steps_[step].keyframe_offset, payload, [&](ByteSource& source) {
+      std::uint64_t count = 0;
+      source(count);
+      visit_records(source, count, visit);
+    });
+  }
   /// The mesh of a number. It stays in memory as long as somebody uses it.
   [[nodiscard]] std::shared_ptr<const Mesh> mesh(std::uint32_t number) const;
   /// Reads the chunk of a mesh as it stands.

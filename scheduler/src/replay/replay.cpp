@@ -62,7 +62,6 @@ class Replay::State {
 
  private:
   void begin_scene(bool knows_history);
-  void begin_at_keyframe(std::uint64_t offset);
   void take_expected(StepHead& head);
   void compare();
   [[nodiscard]] bool is_comparable(const RecordedRow& row) const;
@@ -93,10 +92,9 @@ Replay::State::State(const RecordingReader& reader, const ReplaySettings& settin
   if (settings.first_frame >= count)
     throw Error("the recording has " + std::to_string(count) + " frames, so there is no frame of index " +
                 std::to_string(settings.first_frame));
-  next_ = settings.first_frame;
-  while (next_ > 0 && reader.steps()[next_].keyframe_offset == 0) --next_;
-  if (reader.steps()[next_].keyframe_offset == 0) throw Error("the recording does not begin with a keyframe");
-  begin_at_keyframe(reader.steps()[next_].keyframe_offset);
+  next_ = reader.step_to_begin_at(settings.first_frame);
+  begin_scene(false);
+  reader.visit_keyframe(next_, payload_, [&](const Record& record) { played->apply(record); });
   while (next_ < settings.first_frame) (void)step();
 }
 
@@ -105,15 +103,6 @@ void Replay::State::begin_scene(bool knows_history) {
   scene_ = std::make_unique<Scene>(replayed_settings(reader_.settings().settings, settings_));
   played = std::make_unique<ReplayedScene>(reader_, *scene_, scene_->state_->staging);
   knows_history_ = knows_history;
-}
-
-void Replay::State::begin_at_keyframe(std::uint64_t offset) {
-  begin_scene(false);
-  reader_.with_chunk(ChunkKind::keyframe, offset, payload_, [&](ByteSource& source) {
-    std::uint64_t count = 0;
-    source(count);
-    visit_records(source, count, [&](const Record& record) { played->apply(record); });
-  });
 }
 
 bool Replay::State::step() {

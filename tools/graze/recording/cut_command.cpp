@@ -12,6 +12,7 @@
 #include "output_path.hpp"
 #include "recording/commands.hpp"
 #include "recording/frame_range.hpp"
+#include "recording/named_object.hpp"
 
 namespace graze::tools {
 namespace {
@@ -26,9 +27,8 @@ struct CutOptions {
 /// The serial of the object that a word names: by its name, or by its serial.
 std::uint64_t find_object(const std::string& word, std::span<const ReplayObject> objects) {
   std::optional<std::uint64_t> found;
-  std::string known;
   for (const ReplayObject& object : objects) {
-    if (word != object.settings.name && word != std::to_string(object.serial)) continue;
+    if (!is_named(object, word)) continue;
     if (found && *found != object.serial)
       throw io::InputError("--pair: several objects are called \"" + word +
                            "\"; name one by its number, which graze info lists");
@@ -41,10 +41,7 @@ std::uint64_t find_object(const std::string& word, std::span<const ReplayObject>
 }
 
 RecordingPart part_of(const Recording& recording, const CutOptions& options) {
-  const FrameRange frames = parse_frame_range("--frames", options.frames);
-  if (frames.first >= recording.frame_count())
-    throw io::InputError("--frames: the recording has " + std::to_string(recording.frame_count()) +
-                         " frames, 0 to " + std::to_string(recording.frame_count() - 1));
+  const FrameRange frames = parse_frame_range("--frames", options.frames, recording.frame_count());
   RecordingPart part{.first_frame = frames.first, .last_frame = frames.last};
   if (options.pair.empty()) return part;
   Replay replay(recording, {.threads = 1, .first_frame = frames.first});

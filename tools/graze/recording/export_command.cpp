@@ -76,15 +76,6 @@ void check_export_outputs(const ExportOptions& options) {
   check_output_file("--paraview", folder / "surfaces_000000.vtp");
 }
 
-FrameRange wanted_frames(const Recording& recording, const std::string& text) {
-  FrameRange range = parse_frame_range("--frames", text);
-  if (range.first >= recording.frame_count())
-    throw io::InputError("--frames: the recording has " + std::to_string(recording.frame_count()) +
-                         " frames, counted from 0");
-  range.last = std::min(range.last, recording.frame_count() - 1);
-  return range;
-}
-
 /// The frame that becomes glTF.
 std::size_t gltf_frame(const Recording& recording, const ExportOptions& options, const FrameRange& frames) {
   if (!options.frame) return best_frame(recording, frames);
@@ -98,7 +89,7 @@ std::size_t gltf_frame(const Recording& recording, const ExportOptions& options,
 class Exports {
  public:
   Exports(const ExportOptions& options, const Recording& recording)
-      : options_(options), frames_(wanted_frames(recording, options.frames)) {
+      : options_(options), frames_(parse_frame_range("--frames", options.frames, recording.frame_count())) {
     if (options.gltf) gltf_frame_ = gltf_frame(recording, options, frames_);
     if (options.contacts) contacts_.emplace(*options.contacts);
     if (options.distances) distances_.emplace(*options.distances);

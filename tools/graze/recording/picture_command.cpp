@@ -11,6 +11,7 @@
 #include "output_path.hpp"
 #include "recording/best_frame.hpp"
 #include "recording/commands.hpp"
+#include "recording/named_object.hpp"
 
 namespace graze::tools {
 namespace {
@@ -25,7 +26,7 @@ struct PictureOptions {
 
 bool is_selected(const ReplayObject& object, const std::vector<std::string>& words) {
   for (const std::string& word : words)
-    if (word == object.settings.name || word == std::to_string(object.serial)) return true;
+    if (is_named(object, word)) return true;
   return false;
 }
 
