@@ -35,9 +35,7 @@ const DARK: Palette = {
 };
 
 export function isDark(): boolean {
-  const chosen = document.documentElement.dataset.theme;
-  if (chosen === 'dark' || chosen === 'light') return chosen === 'dark';
-  return matchMedia('(prefers-color-scheme: dark)').matches;
+  return document.documentElement.dataset.theme === 'dark';
 }
 
 export function palette(): Palette {

@@ -15,16 +15,24 @@ function stored(value?: string): string | null {
   }
 }
 
+const systemIsDark = matchMedia('(prefers-color-scheme: dark)');
+let choice: string = stored() ?? 'system';
+
+/** The page has the theme that is shown, so that styles and the picture ask one thing. */
+function show(viewer: Viewer): void {
+  const isDark = choice === 'dark' || (choice !== 'light' && systemIsDark.matches);
+  document.documentElement.dataset.theme = isDark ? 'dark' : 'light';
+  viewer.emit('theme');
+}
+
 export function startTheme(viewer: Viewer): void {
-  document.documentElement.dataset.theme = stored() ?? 'system';
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => viewer.emit('theme'));
+  show(viewer);
+  systemIsDark.addEventListener('change', () => show(viewer));
 }
 
 export function nextTheme(viewer: Viewer): string {
-  const root = document.documentElement;
-  const theme = THEMES[(THEMES.indexOf(root.dataset.theme as 'light') + 1) % THEMES.length]!;
-  root.dataset.theme = theme;
-  stored(theme);
-  viewer.emit('theme');
-  return theme;
+  choice = THEMES[(THEMES.indexOf(choice as 'light') + 1) % THEMES.length]!;
+  stored(choice);
+  show(viewer);
+  return choice;
 }
