@@ -203,11 +203,11 @@ TEST_CASE("exact: ratios compare as rationals do") {
     const int truth = cmp(mpq_class(mpq_class(p) / mpq_class(q)), mpq_class(mpq_class(r) / mpq_class(s)));
     const int expected = truth > 0 ? 1 : (truth < 0 ? -1 : 0);
     bool unsure = false;
-    CHECK(compare<Exact>({p, q}, {r, s}, unsure) == expected);
+    CHECK(graze::compare<Exact>({p, q}, {r, s}, unsure) == expected);
     CHECK_FALSE(unsure);
     DecisionCount count;
     CHECK(decide(count, [&]<typename Number>(bool& is_unsure) {
-            return compare<Number>({Number(p), Number(q)}, {Number(r), Number(s)}, is_unsure);
+            return graze::compare<Number>({Number(p), Number(q)}, {Number(r), Number(s)}, is_unsure);
           }) == expected);
     equal += expected == 0 ? 1 : 0;
   }

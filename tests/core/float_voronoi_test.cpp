@@ -116,7 +116,7 @@ double size_in(const FilterFrame& frame, const Corner<Corners>& corners) {
 }
 
 /// How many pairs were left and nearer than asked for, and how many of these float was certain of.
-struct Tally {
+struct VoronoiTally {
   std::size_t near = 0;
   std::size_t certain = 0;
   std::array<std::size_t, 11> places{};
@@ -127,7 +127,7 @@ struct Tally {
     ++certain;
     ++places[static_cast<std::size_t>(voronoi)];
   }
-  void add(const Tally& other) {
+  void add(const VoronoiTally& other) {
     near += other.near;
     certain += other.certain;
     for (std::size_t voronoi = 0; voronoi < places.size(); ++voronoi)
@@ -146,7 +146,7 @@ void check_voronoi(std::int32_t voronoi, const Truth& truth, float below) {
 
 /// Asks for the places of all pairs nearer than some distances.
 template <typename AnyPairs>
-void check_voronois(const AnyPairs& pairs, Tally& tally) {
+void check_voronois(const AnyPairs& pairs, VoronoiTally& tally) {
   const FilterFrame frame = pairs.frame();
   const std::vector<Truth> truths = truths_of(pairs, frame);
   for (const float below : {everything, 1.0F, 0.3F}) {
@@ -165,7 +165,7 @@ void check_voronois(const AnyPairs& pairs, Tally& tally) {
 /// Asks for the place of each pair that is certain at just its distance and a little nearer and further;
 /// `late` further float is certain again.
 template <typename AnyPairs>
-void check_distances(const AnyPairs& pairs, Tally& tally) {
+void check_distances(const AnyPairs& pairs, VoronoiTally& tally) {
   const FilterFrame frame = pairs.frame();
   const std::vector<Truth> truths = truths_of(pairs, frame);
   const auto known = known_of(pairs, frame, {infinity, everything});
@@ -219,7 +219,7 @@ void check_passing(const SegmentsAndTriangles& pairs, PassingTally& tally) {
 }
 
 /// None is missing among those that float was certain of.
-void check_all_voronois(const std::array<Tally, 2>& of_points_and_segments) {
+void check_all_voronois(const std::array<VoronoiTally, 2>& of_points_and_segments) {
   for (std::size_t voronoi = 0; voronoi <= static_cast<std::size_t>(VoronoiRegion::inside); ++voronoi)
     CHECK(of_points_and_segments[0].places[voronoi] > 60);
   for (const Along a : {Along::first, Along::second, Along::inside})
@@ -352,9 +352,9 @@ TEST_CASE(
 }
 
 TEST_CASE("float Voronoi regions: of points and triangles, and of segments, of any shape") {
-  std::array<Tally, 2> all;
+  std::array<VoronoiTally, 2> all;
   for (std::size_t family = 0; family < family_count; ++family) {
-    std::array<Tally, 2> tallies;
+    std::array<VoronoiTally, 2> tallies;
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
       INFO("family " << family << ", seed " << seed);
       const auto [a, b] = leaves_of(family, seed, 100);
@@ -392,7 +392,7 @@ TEST_CASE("float Voronoi regions: whether segments pass triangles of any shape")
 }
 
 TEST_CASE("float Voronoi regions: where one region ends and another begins") {
-  std::array<Tally, 2> all;
+  std::array<VoronoiTally, 2> all;
   PassingTally passing;
   for (const bool is_on_grid : {false, true})
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -402,7 +402,7 @@ TEST_CASE("float Voronoi regions: where one region ends and another begins") {
       check_voronois(borders.segments(100), all[1]);
       check_passing(borders.segments_and_triangles(100), passing);
     }
-  for (const Tally& tally : all) {
+  for (const VoronoiTally& tally : all) {
     CHECK(tally.certain > 1000);
     CHECK(tally.certain < tally.near / 2);
   }
@@ -415,7 +415,7 @@ TEST_CASE("float Voronoi regions: where one region ends and another begins") {
 }
 
 TEST_CASE("float Voronoi regions: nearer than a distance is said not too early, nor much too late") {
-  std::array<Tally, 2> all;
+  std::array<VoronoiTally, 2> all;
   for (std::size_t family = 0; family < family_count; ++family)
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       INFO("family " << family << ", seed " << seed);
@@ -423,7 +423,7 @@ TEST_CASE("float Voronoi regions: nearer than a distance is said not too early, 
       check_distances(PointsAndTriangles{a.points, b.triangles}, all[0]);
       check_distances(TwoSegments{a.segments, b.segments}, all[1]);
     }
-  for (const Tally& tally : all) {
+  for (const VoronoiTally& tally : all) {
     CHECK(tally.certain > 500);
     CHECK(tally.certain < tally.near);
   }

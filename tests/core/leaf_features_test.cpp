@@ -23,13 +23,13 @@ using Eigen::Vector3d;
 
 /// Features of a block in the order in which they are expected.
 template <typename Block>
-class Expected {
+class ExpectedBlock {
  public:
-  Expected(const Block& block, const Surface& surface, const FilterFrame& frame)
+  ExpectedBlock(const Block& block, const Surface& surface, const FilterFrame& frame)
       : block_(block), surface_(surface), frame_(frame) {}
-  Expected(const Expected&) = delete;
-  Expected& operator=(const Expected&) = delete;
-  ~Expected() { CHECK(block_.count() == next_); }
+  ExpectedBlock(const ExpectedBlock&) = delete;
+  ExpectedBlock& operator=(const ExpectedBlock&) = delete;
+  ~ExpectedBlock() { CHECK(block_.count() == next_); }
 
   void next(std::uint32_t owner, const std::vector<std::uint32_t>& corners) {
     REQUIRE(next_ < block_.count());
@@ -85,13 +85,13 @@ void check_leaf(const Surface& surface, const Region& leaf, const FilterFrame& f
   const RegionTree& tree = mesh.regions();
   LeafFeatures all;
   all.collect(surface, leaf, frame, corners);
-  Expected vertices(all.vertices, surface, frame);
+  ExpectedBlock vertices(all.vertices, surface, frame);
   for (const std::uint32_t vertex : tree.vertices(leaf)) vertices.next(vertex, {vertex});
-  Expected edges(all.edges, surface, frame);
+  ExpectedBlock edges(all.edges, surface, frame);
   for (const std::uint32_t edge : tree.edges(leaf))
     edges.next(edge, {mesh.edge(edge)[0], mesh.edge(edge)[1]});
-  Expected triangles(all.triangles, surface, frame);
-  Expected folds(all.folds, surface, frame);
+  ExpectedBlock triangles(all.triangles, surface, frame);
+  ExpectedBlock folds(all.folds, surface, frame);
   for (const std::uint32_t face : tree.faces(leaf)) {
     const auto c = mesh.face(face);
     triangles.next(face, {c[0], c[1], c[2]});
@@ -120,8 +120,8 @@ TEST_CASE("leaf features: each corner is what it is by itself in the frame, what
       check_leaf(surface, region, FilterFrame(box, box), corners);
     }
   }
-  const std::size_t fitting = Expected<TriangleBlock>::fitting + Expected<SegmentBlock>::fitting;
-  const std::size_t unfit = Expected<TriangleBlock>::unfit + Expected<SegmentBlock>::unfit;
+  const std::size_t fitting = ExpectedBlock<TriangleBlock>::fitting + ExpectedBlock<SegmentBlock>::fitting;
+  const std::size_t unfit = ExpectedBlock<TriangleBlock>::unfit + ExpectedBlock<SegmentBlock>::unfit;
   CHECK(fitting > 10'000);
   CHECK(unfit > 20);
   std::cout << "compared " << fitting + unfit << " triangles and segments, " << unfit

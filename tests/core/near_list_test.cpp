@@ -21,7 +21,7 @@ namespace {
 
 using oracle::Shape;
 
-struct Tally {
+struct ListTally {
   std::size_t answers = 0;
   std::size_t by_list = 0;
   std::size_t contacts = 0;
@@ -67,7 +67,7 @@ class Asking {
   PairAnswer answer_;
 };
 
-void play(const DriftingPair& rest, const PairQuery& query, double tremor, bool sliced, Tally& tally) {
+void play(const DriftingPair& rest, const PairQuery& query, double tremor, bool sliced, ListTally& tally) {
   Surface a = surface_of(rest.a);
   Surface b = surface_of(rest.b);
   Asking asking(sliced);
@@ -115,7 +115,7 @@ std::vector<DriftingPair> rests() {
 TEST_CASE("near list: what is listed spares searches, and shows in no answer") {
   const FloatingPointScope scope;
   for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices}) {
-    Tally tally;
+    ListTally tally;
     for (const DriftingPair& rest : rests())
       for (const double threshold : {0.0, 0.02, 0.25})
         for (const double tremor : {0.0, 1e-6, 3e-4}) {
@@ -142,7 +142,7 @@ TEST_CASE("near list: large pairs' slices list what one search does") {
       DriftingPair{"through each other", ball, turned(ball, 3), 1.97, 1e-5},
       DriftingPair{"about each other", ball, mapped(turned(ball, 4), 0.99, {0, 0, 0}), 0, 1e-5}};
   for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices}) {
-    Tally tally;
+    ListTally tally;
     for (const DriftingPair& rest : all) {
       PairQuery query = query_of(detail, 0.02);
       query.slack = 0.01;

@@ -70,7 +70,7 @@ std::size_t count_cut_short(ContactDetail detail, const Shape& rest, const Detec
     const PairAnswer answer = detect_with(a, b, query, front);
     CHECK((answer.complete || query.deadline != PairQuery::no_deadline));
     if (answer.complete) {
-      check_same(answer, whole);
+      tests::check_same(answer, whole);
     } else {
       check_cut_short(answer, whole);
       ++cut;

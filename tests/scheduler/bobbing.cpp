@@ -6,12 +6,11 @@
 namespace graze::tests {
 namespace {
 
-constexpr std::size_t period = Bobbing::period;
 constexpr double furthest_move = 0.1;  ///< between two frames
 
 Eigen::Isometry3d pose_of(std::size_t drop, std::size_t frame) {
-  const double angle =
-      2 * std::numbers::pi * static_cast<double>((drop + frame) % period) / static_cast<double>(period);
+  const double angle = 2 * std::numbers::pi * static_cast<double>((drop + frame) % Bobbing::period) /
+                       static_cast<double>(Bobbing::period);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(0.5 * static_cast<double>(drop % 5) - 1,
                                        0.5 * static_cast<double>(drop / 5) - 1, 0.3 + 0.3 * std::sin(angle));
@@ -19,7 +18,7 @@ Eigen::Isometry3d pose_of(std::size_t drop, std::size_t frame) {
 }
 
 template <typename Batch, typename Thing>
-std::span<const Thing> first(const std::array<Thing, period>& things, const Batch& batch) {
+std::span<const Thing> first(const std::array<Thing, Bobbing::period>& things, const Batch& batch) {
   return std::span<const Thing>(things).first(batch.size);
 }
 
@@ -33,11 +32,11 @@ std::shared_ptr<const Mesh> drop_mesh() {
 
 Bobbing::Bobbing(const SceneSettings& settings) : scene_(settings), mesh_(drop_mesh()) {
   plate_ = scene_.add(mesh_of(models::sheet(16, 16, 4, 4)), motion_of(Motion::fixed));
-  for (std::size_t drop = 0; drop < period; ++drop) {
+  for (std::size_t drop = 0; drop < Bobbing::period; ++drop) {
     const Given given = given_of(drop);
     ids_[drop] = scene_.add(mesh_, motion_of(given == Given::posed ? Motion::rigid : Motion::deformable));
     of_[static_cast<std::size_t>(given)].push_back(drop);
-    for (std::size_t frame = 0; frame < period; ++frame) {
+    for (std::size_t frame = 0; frame < Bobbing::period; ++frame) {
       poses_[frame].push_back(pose_of(drop, frame));
       positions_[frame].push_back(moved(mesh_->rest(), poses_[frame][drop].translation()));
     }
@@ -47,12 +46,12 @@ Bobbing::Bobbing(const SceneSettings& settings) : scene_(settings), mesh_(drop_m
 }
 
 void Bobbing::tell(std::size_t frame) {
-  copy(frame % period);
-  bind(frame % period);
-  write(frame % period);
-  place(frame % period);
-  scene_.watch(plate_, ids_[frame % period]);
-  scene_.ignore(ids_[(frame + 1) % period], plate_);
+  copy(frame % Bobbing::period);
+  bind(frame % Bobbing::period);
+  write(frame % Bobbing::period);
+  place(frame % Bobbing::period);
+  scene_.watch(plate_, ids_[frame % Bobbing::period]);
+  scene_.ignore(ids_[(frame + 1) % Bobbing::period], plate_);
 }
 
 Bobbing::Batch Bobbing::batch_of(Given given, std::size_t frame) const {

@@ -12,24 +12,24 @@
 namespace graze::tests {
 namespace {
 
-using Key = std::tuple<std::uint32_t, std::uint32_t, ContactKind, Feature, Feature>;
+using AgedKey = std::tuple<std::uint32_t, std::uint32_t, ContactKind, Feature, Feature>;
 
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("age: the steps for which two features have been in contact, detail", "",
                        ((int number), number), 1, 2, 3, 4) {
   const MovingScene moving;
-  std::map<Key, std::uint32_t> ages;
+  std::map<AgedKey, std::uint32_t> ages;
   std::uint32_t oldest = 0;
   std::size_t begun_again = 0;
-  std::map<Key, std::size_t> times_begun;
+  std::map<AgedKey, std::size_t> times_begun;
   moving.play(
       settings_of(0.05, 0.25, static_cast<ContactDetail>(number)), 40,
       [&](std::size_t, const ReportHandle& report, const std::vector<ObjectId>&) {
-        std::map<Key, std::uint32_t> now;
+        std::map<AgedKey, std::uint32_t> now;
         for (const PairReport& pair : report->pairs())
           for (const Contact& contact : report->contacts(pair)) {
-            const Key key{pair.a.index, pair.b.index, contact.kind, contact.feature_a, contact.feature_b};
+            const AgedKey key{pair.a.index, pair.b.index, contact.kind, contact.feature_a, contact.feature_b};
             const auto before = ages.find(key);
             now[key] = before == ages.end() ? 0 : before->second + 1;
             CHECK(report->age(contact) == now[key]);

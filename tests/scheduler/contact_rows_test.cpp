@@ -13,14 +13,14 @@
 namespace graze::tests {
 namespace {
 
-using Key = std::tuple<ContactKind, Feature, Feature>;
+using RowKey = std::tuple<ContactKind, Feature, Feature>;
 using Contacts = std::vector<Contact>;
 
-Key key_of(const Contact& contact) {
+RowKey key_of(const Contact& contact) {
   return {contact.kind, contact.feature_a, contact.feature_b};
 }
 
-Key any_key(scenes::Random& random, std::size_t features) {
+RowKey any_key(scenes::Random& random, std::size_t features) {
   const auto any_feature = [&] {
     return Feature{static_cast<FeatureKind>(random.below(3)),
                    static_cast<std::uint32_t>(random.below(features))};
@@ -30,7 +30,7 @@ Key any_key(scenes::Random& random, std::size_t features) {
 
 /// Contacts of `count` pairs of features, about half of which `last` has too.
 Contacts contacts_like(scenes::Random& random, const Contacts& last, std::size_t count) {
-  std::set<Key> keys;
+  std::set<RowKey> keys;
   for (const Contact& contact : last)
     if (keys.size() < count / 2 && random.chance(0.5)) keys.insert(key_of(contact));
   while (keys.size() < count) keys.insert(any_key(random, count + 1));
@@ -63,7 +63,7 @@ PairContacts any_pair(scenes::Random& random, std::size_t most) {
 
 /// Checks rows that must be a pair's contacts, and says how many of those are old.
 std::size_t check_rows(std::span<const Contact> rows, const PairContacts& pair, std::uint64_t frame) {
-  std::map<Key, std::uint64_t> since;
+  std::map<RowKey, std::uint64_t> since;
   for (const Contact& contact : pair.last) since[key_of(contact)] = contact.since;
   std::size_t wrong = 0;
   std::size_t old = 0;

@@ -98,9 +98,9 @@ struct Played {
 };
 
 /// Everything a program does with a scene, all of it in `mode`.
-Played play(const Prepared& prepared, unsigned threads, const Mode& mode) {
+Played play_in_mode(const Prepared& prepared, unsigned threads, const Mode& mode) {
   std::vector<ReportHandle> reports;
-  SceneSettings settings = settings_of(0.05, 0.25);
+  SceneSettings settings = tests::settings_of(0.05, 0.25);
   settings.threads = threads;
   std::vector<Mode> seen;
   {
@@ -129,7 +129,7 @@ Played play(const Prepared& prepared, unsigned threads, const Mode& mode) {
 
 /// The distance of a contact whose positions are of the size of the smallest denormals; -1 for none.
 double denormal_distance(const Positions& positions) {
-  NeedleOverPlate pair(settings_of(0x1p-1060, 1));
+  NeedleOverPlate pair(tests::settings_of(0x1p-1060, 1));
   pair.scene.set_positions(pair.needle, positions);
   const ReportHandle report = pair.scene.step();
   return report->contacts().empty() ? -1 : report->contacts()[0].distance;
@@ -140,12 +140,12 @@ double denormal_distance(const Positions& positions) {
 TEST_CASE("flush-to-zero, denormals-are-zero, each rounding mode: the same bits, and left as it was") {
   const Prepared prepared;
   for (const unsigned threads : {1U, 3U}) {
-    const auto expected = play(prepared, threads, Mode{}).reports;
+    const auto expected = play_in_mode(prepared, threads, Mode{}).reports;
     std::size_t contacts = 0;
     for (const ReportHandle& report : expected) contacts += report->contacts().size();
     CHECK(contacts > 100);
     for (const Mode& mode : modes()) {
-      const Played played = play(prepared, threads, mode);
+      const Played played = play_in_mode(prepared, threads, mode);
       INFO(threads << " threads, rounding " << mode.rounding << (mode.flush ? ", flushing" : ""));
       CHECK(played.mode_was_kept);
       for (std::size_t frame = 0; frame < frame_count; ++frame)
@@ -157,13 +157,13 @@ TEST_CASE("flush-to-zero, denormals-are-zero, each rounding mode: the same bits,
 
 TEST_CASE("flush-to-zero and each rounding mode at once in foreign threads") {
   const Prepared prepared;
-  const auto expected = play(prepared, 1, Mode{}).reports;
+  const auto expected = play_in_mode(prepared, 1, Mode{}).reports;
   const auto all = modes();
   for (const unsigned threads : {1U, 3U}) {
     std::vector<Played> played(all.size());
     std::vector<std::thread> foreign;
     for (std::size_t i = 0; i < all.size(); ++i)
-      foreign.emplace_back([&, i] { played[i] = play(prepared, threads, all[i]); });
+      foreign.emplace_back([&, i] { played[i] = play_in_mode(prepared, threads, all[i]); });
     for (std::thread& thread : foreign) thread.join();
     for (std::size_t i = 0; i < all.size(); ++i) {
       INFO(threads << " threads, rounding " << all[i].rounding << (all[i].flush ? ", flushing" : ""));

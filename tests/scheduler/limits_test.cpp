@@ -15,7 +15,7 @@ namespace {
 
 using Limit = std::optional<std::size_t>;
 
-constexpr std::array details{ContactDetail::regions, ContactDetail::vertices, ContactDetail::features};
+constexpr std::array listed_details{ContactDetail::regions, ContactDetail::vertices, ContactDetail::features};
 
 auto features_of(const Contact& contact) {
   return std::tuple(contact.kind, contact.feature_a, contact.feature_b);
@@ -94,7 +94,7 @@ std::size_t compare(const FrameReport& report, const FrameReport& whole, Limit o
 TEST_CASE("limits: the nearest contacts of each pair and of all are kept, step by step, by any threads") {
   const MovingScene moving;
   constexpr std::size_t frames = 10;
-  for (const ContactDetail detail : details) {
+  for (const ContactDetail detail : listed_details) {
     SceneSettings settings = settings_of(0.3, 0.4, detail);
     std::size_t cut = 0;
     const auto whole = moving.play(settings, frames);
@@ -120,7 +120,7 @@ TEST_CASE("limits: the nearest contacts of each pair and of all are kept, step b
 TEST_CASE("limits: of contacts that are as near, names say which are kept") {
   // Flat grids on each other and a little apart: all distances are the same.
   const auto sheet = mesh_of(models::sheet(40, 40, 1, 1));
-  for (const ContactDetail detail : details)
+  for (const ContactDetail detail : listed_details)
     for (const double gap : {0.0, 0.0625}) {
       SceneSettings settings = settings_of(0.125, 0.125, detail);
       const auto step = [&] {
@@ -144,7 +144,7 @@ TEST_CASE("limits: of contacts that are as near, names say which are kept") {
 
 TEST_CASE("limits: of large pairs, that are cut into slices") {
   const auto ball = mesh_of(models::sphere(80, 56));
-  for (const ContactDetail detail : details) {
+  for (const ContactDetail detail : listed_details) {
     SceneSettings settings = settings_of(0.1, 0.2, detail);
     const auto step = [&] {
       Scene scene(settings);

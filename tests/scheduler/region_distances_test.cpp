@@ -17,7 +17,8 @@
 namespace graze::tests {
 namespace {
 
-using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  ///< level, region of a, region of b
+using RegionKey =
+    std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  ///< level, region of a, region of b
 
 Box box_of(const Mesh& mesh, const Positions& positions, const Region& region, bool about_vertices) {
   Box box;
@@ -49,7 +50,7 @@ struct PlainWalk {
   Positions a;
   Positions b;
   SceneSettings settings;
-  std::set<Key> alive;
+  std::set<RegionKey> alive;
 
   [[nodiscard]] bool passes(const Region& region_a, const Region& region_b, std::uint32_t level) const {
     const bool about_vertices = settings.detail == ContactDetail::vertices;
@@ -82,8 +83,8 @@ struct PlainWalk {
   }
 };
 
-std::set<Key> keys_of(std::span<const RegionDistance> distances) {
-  std::set<Key> keys;
+std::set<RegionKey> keys_of(std::span<const RegionDistance> distances) {
+  std::set<RegionKey> keys;
   for (const RegionDistance& distance : distances)
     keys.insert({distance.level, distance.region_a, distance.region_b});
   return keys;

@@ -12,7 +12,7 @@
 namespace graze::tests {
 namespace {
 
-using Key = std::pair<ObjectId, ObjectId>;
+using RowKey = std::pair<ObjectId, ObjectId>;
 
 ObjectSettings with_data(std::uint64_t data, Motion motion = Motion::rigid) {
   ObjectSettings settings = motion_of(motion);
@@ -44,10 +44,10 @@ class OpenContacts {
  public:
   /// Follows one more report, and holds it against what was open before.
   void take(const FrameReport& report, const std::map<ObjectId, std::uint64_t>& serials) {
-    std::set<Key> listed;
+    std::set<RowKey> listed;
     std::pair<std::uint64_t, std::uint64_t> last{};
     for (const PairReport& row : report.pairs()) {
-      const Key key{row.a, row.b};
+      const RowKey key{row.a, row.b};
       const std::pair order{serials.at(row.a), serials.at(row.b)};
       REQUIRE((listed.empty() || last < order));
       last = order;
@@ -64,13 +64,13 @@ class OpenContacts {
       }
       if (row.phase == PairPhase::near) REQUIRE(row.contact_count == 0);
     }
-    for (const Key& key : open_) REQUIRE(listed.count(key) == 1);
+    for (const RowKey& key : open_) REQUIRE(listed.count(key) == 1);
   }
-  [[nodiscard]] const std::set<Key>& open() const { return open_; }
+  [[nodiscard]] const std::set<RowKey>& open() const { return open_; }
   [[nodiscard]] std::size_t ended() const { return ended_; }
 
  private:
-  std::set<Key> open_;
+  std::set<RowKey> open_;
   std::size_t ended_ = 0;
 };
 

@@ -18,18 +18,28 @@ else()
   target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2)
 endif()
 
+# What a batch of files needs after graze_options; see there.
+add_library(graze_batch_options INTERFACE)
+target_compile_options(graze_batch_options INTERFACE -Wno-shadow)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(graze_batch_options INTERFACE -Wno-subobject-linkage)
+endif()
+
 # The headers and compiler options of all test programs, in one place since headers are precompiled once for all.
 add_library(graze_test_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
 target_compile_options(graze_test_headers PRIVATE ${GRAZE_TEST_OPTIONS})
-target_link_libraries(graze_test_headers PRIVATE graze_options Catch2::Catch2)
+target_link_libraries(graze_test_headers PRIVATE graze_options graze_batch_options Catch2::Catch2)
 graze_precompile_headers(graze_test_headers ${CMAKE_CURRENT_LIST_DIR}/catch.hpp)
 
+# Four files of a test program are compiled as one: to read Catch2, Eigen and graze's headers takes longer than the
+# tests themselves. So no two files of a program give different things the same name.
 function(graze_add_test_program name)
   add_executable(${name} ${ARGN})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 4)
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
   target_compile_definitions(${name} PRIVATE GRAZE_SHARED_DATA="${GRAZE_SHARED_DATA}")
   target_compile_options(${name} PRIVATE $<TARGET_PROPERTY:graze_test_headers,COMPILE_OPTIONS>)
   target_precompile_headers(${name} REUSE_FROM graze_test_headers)
-  target_link_libraries(${name} PRIVATE graze_options ${GRAZE_CATCH_MAIN} Eigen3::Eigen)
+  target_link_libraries(${name} PRIVATE graze_options graze_batch_options ${GRAZE_CATCH_MAIN} Eigen3::Eigen)
   catch_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
 endfunction()
