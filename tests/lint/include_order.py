@@ -32,6 +32,7 @@ ORDER = {
         "vertices": "near vertices, by blocks",
         "paper": "paper mode, region distances",
         "search": "one query, in stages",
+        "response": "contacts at other positions",
     },
     "scheduler": {
         "base": "task pool, access rights",

@@ -1,4 +1,4 @@
-# graze_add_test_program(<name> <source>...): a Catch2 program, v2 or v3, with one ctest test for each test case.
+# graze_add_test_program(<name> [BATCH] <source>... [BATCH <source>...]...): a Catch2 program, v2 or v3, with one ctest test for each test case.
 # A test that prints a line "skipped: <why>" counts as skipped.
 
 find_package(Catch2 REQUIRED)
@@ -31,11 +31,21 @@ target_compile_options(graze_test_headers PRIVATE ${GRAZE_TEST_OPTIONS})
 target_link_libraries(graze_test_headers PRIVATE graze_options graze_batch_options Catch2::Catch2)
 graze_precompile_headers(graze_test_headers ${CMAKE_CURRENT_LIST_DIR}/catch.hpp)
 
-# Four files of a test program are compiled as one: to read Catch2, Eigen and graze's headers takes longer than the
-# tests themselves. So no two files of a program give different things the same name.
+# The files between one BATCH and the next are compiled as one: to read Catch2, Eigen and graze's headers takes longer
+# than the tests themselves. So within a batch no two files give different things the same name.
 function(graze_add_test_program name)
-  add_executable(${name} ${ARGN})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 4)
+  set(batch 0)
+  set(sources)
+  foreach(argument ${ARGN})
+    if(argument STREQUAL "BATCH")
+      math(EXPR batch "${batch} + 1")
+    else()
+      list(APPEND sources ${argument})
+      set_source_files_properties(${argument} PROPERTIES UNITY_GROUP batch_${batch})
+    endif()
+  endforeach()
+  add_executable(${name} ${sources})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
   target_compile_definitions(${name} PRIVATE GRAZE_SHARED_DATA="${GRAZE_SHARED_DATA}")
   target_compile_options(${name} PRIVATE $<TARGET_PROPERTY:graze_test_headers,COMPILE_OPTIONS>)

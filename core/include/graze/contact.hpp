@@ -100,6 +100,27 @@ struct Contact {
   /// FrameReport::frame() of the first report that lists the two features in contact, without a break up to
   /// this one. It is 0 outside the reports of a scene.
   std::uint64_t since = 0;
+
+  /// Returns the #distance with a sign: negative if the contact's vertex lies behind the surface of the other
+  /// object, that is, if its side there is Side::back. Without a vertex it is negative if both sides are
+  /// `back`, and of two vertices if either side is. An edge that pierces a face has separation 0.
+  [[nodiscard]] double separation() const { return is_behind() ? -distance : distance; }
+  /// Returns the direction, of length 1, along which b is moved relative to a to make separation() grow. It
+  /// is #normal, or its opposite if the separation is negative. Where an edge pierces a face it is the normal
+  /// of the face by its winding if the face is a's, and its opposite if the face is b's.
+  [[nodiscard]] Eigen::Vector3d push() const { return is_behind() ? Eigen::Vector3d(-normal) : normal; }
+
+ private:
+  /// At distance 0 nothing is behind, so that no separation is -0.
+  [[nodiscard]] bool is_behind() const {
+    const bool back_of_a = side_a == Side::back;
+    const bool back_of_b = side_b == Side::back;
+    const bool has_vertex_a = feature_a.kind == FeatureKind::vertex;
+    const bool has_vertex_b = feature_b.kind == FeatureKind::vertex;
+    if (distance == 0) return false;
+    if (!has_vertex_a && !has_vertex_b) return back_of_a && back_of_b;
+    return (has_vertex_b && back_of_a) || (has_vertex_a && back_of_b);
+  }
 };
 
 /// Bounds of a distance: #lower ≤ true distance ≤ #upper. With Accuracy::exact() they are the true distance,

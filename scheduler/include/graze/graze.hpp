@@ -6,6 +6,7 @@
 
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
+#include <graze/contact_geometry.hpp>
 #include <graze/error.hpp>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <graze/contact.hpp>
+#include <graze/position_view.hpp>
+
+#include "core/mesh/indexed_mesh.hpp"
+
+namespace graze {
+
+/// A mesh at positions of the caller's.
+struct PlacedMesh {
+  const IndexedMesh& mesh;
+  const PositionView& positions;
+
+  [[nodiscard]] Eigen::Vector3d point(std::uint32_t vertex) const { return positions[vertex]; }
+};
+
+/// The corners of one triangle of a face, by their places in the face: a quad is split from its first corner.
+constexpr std::array<std::array<std::uint8_t, 3>, 2> triangle_corners{{{0, 1, 2}, {0, 2, 3}}};
+
+using TrianglePoints = std::array<Eigen::Vector3d, 3>;
+
+/// Triangle 0 of a face, or triangle 1 of a quad.
+inline TrianglePoints triangle_of(const PlacedMesh& placed, std::uint32_t face, std::size_t triangle) {
+  const auto corners = placed.mesh.face(face);
+  const auto& [i, j, k] = triangle_corners[triangle];
+  return {placed.point(corners[i]), placed.point(corners[j]), placed.point(corners[k])};
+}
+
+[[noreturn]] void refuse_feature(const PlacedMesh& placed, const Feature& feature, const char* function);
+
+/// Throws Error, with the name of the caller's function, unless the mesh has the feature and as many vertices
+/// as there are positions.
+inline void check_feature(const PlacedMesh& placed, const Feature& feature, const char* function) {
+  const std::array counts{placed.mesh.vertex_count(), placed.mesh.edge_count(), placed.mesh.face_count()};
+  const auto kind = static_cast<std::size_t>(feature.kind);
+  if (placed.positions.size() != counts[0] || kind >= counts.size() || feature.index >= counts[kind])
+    refuse_feature(placed, feature, function);
+}
+
+}  // namespace graze
