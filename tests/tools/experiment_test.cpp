@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "check_failed.hpp"
-#include "experiment/report/report_csv.hpp"
-#include "experiment/report/report_html.hpp"
 #include "experiment/report/run_studies.hpp"
 #include "experiment/speed/pareto.hpp"
-#include "gnuplot.hpp"
+#include "output/figure_plot.hpp"
+#include "output/html_page.hpp"
+#include "output/result_table.hpp"
 #include "support/catch.hpp"
 #include "support/random_scenes.hpp"
 #include "tools/program.hpp"

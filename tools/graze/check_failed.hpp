@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <stdexcept>
+#include <string>
 
 namespace graze::tools {
 
@@ -10,5 +12,11 @@ class CheckFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws where there is a violation: the first, and how many there are.
+inline void throw_violations(std::span<const std::string> violations) {
+  if (!violations.empty())
+    throw CheckFailed(violations.front() + " (" + std::to_string(violations.size()) + " violations in all)");
+}
 
 }  // namespace graze::tools

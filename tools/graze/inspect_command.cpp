@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mesh_summary.hpp"
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
@@ -28,8 +28,7 @@ std::string frame_line(const io::FileFrame& frame) {
 
 void inspect_scene(const std::filesystem::path& path) {
   const io::Player player(io::read_scene_file(path));
-  std::printf("%s: %zu %s\n", path.string().c_str(), player.objects().size(),
-              player.objects().size() == 1 ? "object" : "objects");
+  std::printf("%s: %s\n", path.string().c_str(), counted(player.objects().size(), "object").c_str());
   for (const std::string& warning : player.warnings()) std::printf("  note       %s\n", warning.c_str());
   for (std::size_t i = 0; i < player.objects().size(); ++i) {
     const io::SceneObject& object = player.objects()[i];
@@ -43,8 +42,7 @@ void inspect_scene(const std::filesystem::path& path) {
 
 void inspect_mesh(const std::filesystem::path& path) {
   const io::MeshFile file = io::MeshFile::read(path);
-  std::printf("%s: %zu %s\n", path.string().c_str(), file.objects().size(),
-              file.objects().size() == 1 ? "object" : "objects");
+  std::printf("%s: %s\n", path.string().c_str(), counted(file.objects().size(), "object").c_str());
   for (const std::string& warning : file.warnings()) std::printf("  note       %s\n", warning.c_str());
   std::printf("  frame      %s\n", frame_line(file.frame()).c_str());
   for (std::size_t i = 0; i < file.animations().size(); ++i)

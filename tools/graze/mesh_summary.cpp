@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/mesh/indexed_mesh.hpp"
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {

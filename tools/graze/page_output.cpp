@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <graze/io/error.hpp>
 
+#include "output/text.hpp"
 #include "output_path.hpp"
 #include "viewer/viewer_page.hpp"
 
@@ -13,10 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string megabytes(std::uint64_t bytes) {
-  std::string text(32, '\0');
-  text.resize(static_cast<std::size_t>(
-      std::snprintf(text.data(), text.size(), "%.1f MB", static_cast<double>(bytes) / 1e6)));
-  return text;
+  return fixed(static_cast<double>(bytes) / 1e6, 1) + " MB";
 }
 
 std::string ordinal(std::uint32_t number) {

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "output/text.hpp"
+
 namespace graze::tools {
 
 Progress::Progress(std::string what, std::uint64_t count)
@@ -18,8 +20,7 @@ void Progress::at(std::uint64_t index) {
   const auto now = std::chrono::steady_clock::now();
   if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
-  std::fprintf(stderr, "\r\033[K%s %llu of %llu", what_.c_str(), static_cast<unsigned long long>(index + 1),
-               static_cast<unsigned long long>(count_));
+  std::fprintf(stderr, "\r\033[K%s %llu of %llu", what_.c_str(), number(index + 1), number(count_));
   std::fflush(stderr);
 }
 

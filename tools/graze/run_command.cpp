@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "option_checks.hpp"
+#include "output/text.hpp"
 #include "output_path.hpp"
 #include "page_output.hpp"
 #include "progress.hpp"
@@ -193,25 +194,16 @@ void warn_of_threads(unsigned threads) {
 constexpr std::uint32_t waiting_frames = 64;
 
 void print_recording(const std::string& file, const RecorderStatistics& statistics) {
-  std::printf("recording %s, %llu frames, %llu bytes", file.c_str(),
-              static_cast<unsigned long long>(statistics.frames),
-              static_cast<unsigned long long>(statistics.bytes));
-  if (statistics.dropped > 0)
-    std::printf(", %llu frames dropped", static_cast<unsigned long long>(statistics.dropped));
+  std::printf("recording %s, %llu frames, %llu bytes", file.c_str(), number(statistics.frames),
+              number(statistics.bytes));
+  if (statistics.dropped > 0) std::printf(", %llu frames dropped", number(statistics.dropped));
   std::printf("\n");
 }
 
 std::string page_title(const RunOptions& options) {
-  std::string title;
-  for (const std::string& file : options.files)
-    title += (title.empty() ? "" : ", ") + std::filesystem::path(file).stem().string();
-  return title;
-}
-
-std::string page_source(const RunOptions& options) {
-  std::string source;
-  for (const std::string& file : options.files) source += (source.empty() ? "" : ", ") + file;
-  return source;
+  std::vector<std::string> names;
+  for (const std::string& file : options.files) names.push_back(std::filesystem::path(file).stem().string());
+  return joined(names);
 }
 
 void open_outputs(RunOutputs& outputs, const RunOptions& options, io::Player& player,
@@ -225,7 +217,7 @@ void open_outputs(RunOutputs& outputs, const RunOptions& options, io::Player& pl
                              RecorderSettings{.waiting_frames = waiting_frames});
   if (options.html)
     outputs.page.emplace(*options.html, player, settings,
-                         PageOutput::Options{"--html", page_title(options), page_source(options),
+                         PageOutput::Options{"--html", page_title(options), joined(options.files),
                                              options.html_every, !options.no_times});
 }
 

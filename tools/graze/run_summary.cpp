@@ -1,30 +1,19 @@
 #include "run_summary.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+
+#include "distribution.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
 
 std::string milliseconds(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g ms", value);
-  return text;
-}
-
-/// The smallest value that at least `part` of the values do not exceed. `sorted` is not empty.
-double quantile(const std::vector<double>& sorted, double part) {
-  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
-  return sorted[std::max<std::size_t>(rank, 1) - 1];
+  return rounded(value, 3) + " ms";
 }
 
 bool is_in_contact(const PairReport& pair) {
   return pair.phase == PairPhase::began || pair.phase == PairPhase::touching;
-}
-
-std::string plural(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -76,43 +65,41 @@ std::string RunSummary::touches_text() const {
   std::string text;
   for (const auto& [pair, touch] : touches_) {
     const Eigen::Vector3d& place = touch.first_place;
-    char where[100];
-    std::snprintf(where, sizeof where, "(%.4g, %.4g, %.4g)", place.x(), place.y(), place.z());
+    const std::string where = format("(%.4g, %.4g, %.4g)", place.x(), place.y(), place.z());
     text += "touching  " + objects_[pair.first].name + " and " + objects_[pair.second].name +
             ": first in frame " + std::to_string(touch.first_frame) + " at " + where + ", last in frame " +
-            std::to_string(touch.last_frame) + "; " + plural(touch.frames, "frame") + " in " +
-            plural(touch.spells, "spell") + ", at most " + plural(touch.most_contacts, "contact") + "\n";
+            std::to_string(touch.last_frame) + "; " + counted(touch.frames, "frame") + " in " +
+            counted(touch.spells, "spell") + ", at most " + counted(touch.most_contacts, "contact") + "\n";
   }
   return text;
 }
 
 std::string RunSummary::diagnostics_text() const {
   if (diagnostics_ == 0) return "";
-  return "input     " + plural(diagnostics_, "diagnostic") + ", the first: " + first_diagnostic_ + "\n";
+  return "input     " + counted(diagnostics_, "diagnostic") + ", the first: " + first_diagnostic_ + "\n";
 }
 
 std::string RunSummary::limits_text() const {
   if (frames_cut_ == 0) return "";
-  return "limits    left out at least " + plural(contacts_left_out_, "contact") + ", in " +
-         plural(frames_cut_, "frame") + "\n";
+  return "limits    left out at least " + counted(contacts_left_out_, "contact") + ", in " +
+         counted(frames_cut_, "frame") + "\n";
 }
 
 std::string RunSummary::times_text() const {
   if (step_ms_.empty()) return "";
-  std::vector<double> sorted = step_ms_;
-  std::ranges::sort(sorted);
-  return "step      median " + milliseconds(quantile(sorted, 0.5)) + ", 99th percentile " +
-         milliseconds(quantile(sorted, 0.99)) + ", worst " + milliseconds(sorted.back()) + "\n";
+  const Distribution times(step_ms_);
+  return "step      median " + milliseconds(times.median()) + ", 99th percentile " +
+         milliseconds(times.quantile(0.99)) + ", worst " + milliseconds(times.quantile(1)) + "\n";
 }
 
 std::string RunSummary::text() const {
   std::string contacts = "contacts  " + std::to_string(contacts_) + " in all, in contact in " +
-                         std::to_string(frames_touching_) + " of " + plural(step_ms_.size(), "frame");
+                         std::to_string(frames_touching_) + " of " + counted(step_ms_.size(), "frame");
   if (most_contacts_ > 0)
     contacts +=
         "; at most " + std::to_string(most_contacts_) + ", in frame " + std::to_string(busiest_frame_);
-  return "scene     " + plural(step_ms_.size(), "frame") + ", " + plural(objects_.size(), "object") + ", " +
-         plural(pairs_, "pair") + "\n" + contacts + "\n" + limits_text() + touches_text() +
+  return "scene     " + counted(step_ms_.size(), "frame") + ", " + counted(objects_.size(), "object") + ", " +
+         counted(pairs_, "pair") + "\n" + contacts + "\n" + limits_text() + touches_text() +
          diagnostics_text() + times_text();
 }
 

@@ -1,16 +1,11 @@
 #include <string_view>
 
 #include "accuracy/results.hpp"
-#include "text_format.hpp"
+#include "accuracy/scenes.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
-
-constexpr std::array<const char*, 3> input_names = {"random", "nearly degenerate", "degenerate"};
-
-unsigned long long number(std::uint64_t value) {
-  return value;
-}
 
 void check_kernels(const KernelStudy& study, const char* input, std::vector<std::string>& violations) {
   for (std::size_t i = 0; i < kernel_count; ++i) {

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <graze/io/error.hpp>
 #include <memory>
 #include <string>
@@ -11,11 +10,11 @@
 #include "accuracy/page.hpp"
 #include "accuracy/plot.hpp"
 #include "check_failed.hpp"
-#include "gnuplot.hpp"
 #include "option_checks.hpp"
+#include "output/figure_plot.hpp"
+#include "output/text_file.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
@@ -101,9 +100,7 @@ void write_page(const AccuracyOptions& options, const AccuracyResults& results) 
     figure.replace_extension(".png");
     plot_time_against_error(figure, results.modes);
   }
-  std::ofstream stream(options.out, std::ios::binary);
-  stream << page_of(results, figure.filename().string());
-  if (!stream.flush()) throw io::InputError(options.out.string() + ": could not be written to its end");
+  write_text_file(options.out, page_of(results, figure.filename().string()));
 }
 
 void run(const AccuracyOptions& options) {
@@ -114,9 +111,7 @@ void run(const AccuracyOptions& options) {
   measure_kernels(options, extent, results);
   measure_modes(options, extent, results);
   write_page(options, results);
-  const std::vector<std::string> violations = violations_of(results);
-  if (!violations.empty())
-    throw CheckFailed(violations.front() + format(" (%zu violations in all)", violations.size()));
+  throw_violations(violations_of(results));
   std::printf("accuracy  nothing violated; %s\n", options.out.string().c_str());
 }
 

@@ -1,14 +1,10 @@
 #include "accuracy/page.hpp"
 
 #include "accuracy/tables.hpp"
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
-
-unsigned long long number(std::uint64_t value) {
-  return value;
-}
 
 const char* introduction =
     R"(# Accuracy

@@ -12,6 +12,7 @@ enum class InputKind : std::uint8_t { random, nearly_degenerate, degenerate };
 
 inline constexpr std::array<InputKind, 3> all_input_kinds = {InputKind::random, InputKind::nearly_degenerate,
                                                              InputKind::degenerate};
+inline constexpr std::array<const char*, 3> input_names = {"random", "nearly degenerate", "degenerate"};
 
 /// Two small surfaces about 1 in size, and the distance below which their contacts count.
 struct KernelScene {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
@@ -31,6 +31,25 @@ ModeSetting paper_setting(const MovingScene& models, ContactDetail detail, doubl
 }
 
 }  // namespace
+
+std::string title_of(ModeFamily family) {
+  switch (family) {
+    case ModeFamily::exact:
+      return "exact";
+    case ModeFamily::within:
+      return "within(t)";
+    case ModeFamily::work_budget:
+      return "work budget";
+    case ModeFamily::time_budget:
+      return "time budget";
+    case ModeFamily::paper_formula:
+      return "paper, eq. 3 and 6";
+    case ModeFamily::paper_numbers:
+      return "paper, numbers";
+    default:
+      return "paper, last number too large";
+  }
+}
 
 SceneSettings exact_settings(ContactDetail detail, double contact_distance) {
   SceneSettings settings;

@@ -20,6 +20,8 @@ enum class ModeFamily : std::uint8_t {
   paper_loose  ///< numbers whose last is above the contact distance
 };
 
+std::string title_of(ModeFamily family);
+
 struct ModeSetting {
   std::string name;
   ModeFamily family = ModeFamily::exact;

@@ -12,9 +12,6 @@ std::string kernel_point_table(const KernelStudy& study);
 std::string decision_table(const AccuracyResults& results);
 std::string mode_table(const std::vector<ModeResult>& results, std::uint32_t frames);
 /// How long a step takes, and how that compares with exact mode.
-std::string time_table(const ModeTable& table);
-
-/// 0, or three digits.
-std::string number_text(double value);
+std::string time_table(const ModeTable& modes);
 
 }  // namespace graze::tools

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "text_format.hpp"
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 
 namespace graze::bench {
 namespace {
@@ -13,8 +14,7 @@ using tools::format;
 
 std::string where(const Run& run) {
   const std::string slow = run.slow == 1 ? "" : format(", %zu times slower", run.slow);
-  return format("%s, %u thread%s%s%s", run.scene.c_str(), run.threads, run.threads == 1 ? "" : "s",
-                run.evict ? ", evicted" : "", slow.c_str());
+  return run.scene + ", " + tools::counted(run.threads, "thread") + (run.evict ? ", evicted" : "") + slow;
 }
 
 bool is_one_of(const std::string& scene, std::initializer_list<std::string_view> names) {
@@ -150,14 +150,20 @@ std::vector<Aim> aims_of(const std::vector<Run>& runs) {
 }
 
 std::string table_of(const std::vector<Aim>& aims) {
+  const tools::TextTable table({{"aim", 26, tools::Align::left},
+                                {"where", 14, tools::Align::left},
+                                {"measured", 9},
+                                {"wanted", 8},
+                                {"", 11, tools::Align::left},
+                                {"", 0, tools::Align::left}});
   std::string text =
       "\nAims: what graze's developers want of it (docs/performance.md). Each row compares a figure that was "
-      "measured\nabove with the least or most that is wanted. An aim that is not reached is no error.\n"
-      "\n| aim | where | measured | wanted | | |\n| --- | --- | --- | --- | --- | --- |\n";
+      "measured\nabove with the least or most that is wanted. An aim that is not reached is no error.\n\n" +
+      table.head();
   for (const Aim& aim : aims)
-    text += format("| %-26s | %-14s | %9.4g | %s %6.4g | %-11s | %s |\n", aim.what.c_str(), aim.where.c_str(),
-                   aim.measured, aim.is_at_least ? "≥" : "≤", aim.wanted,
-                   aim.is_reached() ? "reached" : "not reached", aim.note.c_str());
+    text += table.row({aim.what, aim.where, tools::rounded(aim.measured, 4),
+                       format("%s %6.4g", aim.is_at_least ? "≥" : "≤", aim.wanted),
+                       aim.is_reached() ? "reached" : "not reached", aim.note});
   return text;
 }
 

@@ -2,9 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <graze/instruction_set.hpp>
 #include <graze/io/error.hpp>
 #include <memory>
@@ -19,6 +17,8 @@
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
 #include "option_checks.hpp"
+#include "output/text.hpp"
+#include "output/text_file.hpp"
 #include "output_path.hpp"
 
 namespace graze::tools {
@@ -90,18 +90,6 @@ void check_scenes(const std::vector<std::string>& wanted) {
                            "\"; there are S1 to S10, and G100 to G10000 and V1000 to V100000");
 }
 
-void write(const std::optional<std::filesystem::path>& file, const std::string& text) {
-  if (!file) return;
-  std::ofstream stream(*file, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw io::InputError(file->string() + ": could not be written to its end");
-}
-
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
 std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
                                 const bench::PeerModule& module) {
   std::vector<bench::Run> runs;
@@ -149,12 +137,12 @@ void run(const BenchOptions& options) {
   const std::vector<bench::Run> runs = run_all(options, sets, module);
   const std::vector<bench::Aim> aims = bench::aims_of(runs);
   if (options.aims) print(bench::table_of(aims));
-  write(options.csv, bench::csv_of(runs));
+  if (options.csv) write_text_file(*options.csv, bench::csv_of(runs));
   nlohmann::ordered_json figures = bench::figures_of(surroundings);
   figures["runs"] = nlohmann::ordered_json::array();
   for (const bench::Run& run : runs) figures["runs"].push_back(bench::figures_of(run));
   figures["aims"] = bench::figures_of(aims);
-  write(options.json, figures.dump(2) + "\n");
+  if (options.json) write_text_file(*options.json, figures.dump(2) + "\n");
   if (!options.figures.empty()) bench::draw_growth(options.figures, runs);
   check_answers(runs);
 }

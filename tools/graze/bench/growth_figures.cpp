@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "figure_plot.hpp"
+#include "output/figure_plot.hpp"
 
 namespace graze::bench {
 namespace {
@@ -25,9 +25,7 @@ tools::Series& series_of(tools::Figure& figure, const std::string& name) {
   const auto found = std::find_if(figure.series.begin(), figure.series.end(),
                                   [&](const tools::Series& series) { return series.name == name; });
   if (found != figure.series.end()) return *found;
-  figure.series.push_back({});
-  figure.series.back().name = name;
-  return figure.series.back();
+  return figure.series.emplace_back(tools::Series{name});
 }
 
 tools::Figure figure_of(const Growth& growth, Task task, const std::vector<Run>& runs) {
@@ -43,9 +41,7 @@ tools::Figure figure_of(const Growth& growth, Task task, const std::vector<Run>&
       continue;
     for (const Timing& timing : run.timings) {
       if (std::isnan(run.median(timing.name))) continue;
-      tools::Series& series = series_of(figure, timing.name);
-      series.x.push_back(static_cast<double>(run.*growth.count));
-      series.y.push_back(timing.median);
+      series_of(figure, timing.name).add(static_cast<double>(run.*growth.count), timing.median);
     }
   }
   return figure;
@@ -62,7 +58,8 @@ void draw_growth(const std::filesystem::path& folder, const std::vector<Run>& ru
     }
   std::vector<tools::Drawing> drawings;
   drawings.reserve(figures.size());
-  for (const tools::Figure& figure : figures) drawings.push_back({&figure, folder / (figure.name + ".png")});
+  for (const tools::Figure& figure : figures)
+    drawings.push_back({{&figure, 1}, folder / (figure.name + ".png")});
   tools::draw(drawings);
 }
 

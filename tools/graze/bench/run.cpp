@@ -16,11 +16,11 @@
 #include "bench/near_pairs.hpp"
 #include "bench/verification.hpp"
 #include "check_failed.hpp"
+#include "distribution.hpp"
+#include "output/text.hpp"
 #include "progress.hpp"
 #include "scenes/random.hpp"
 #include "stress/clocks.hpp"
-#include "stress/distribution.hpp"
-#include "text_format.hpp"
 
 namespace graze::bench {
 namespace {

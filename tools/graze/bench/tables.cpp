@@ -1,14 +1,16 @@
 #include "bench/tables.hpp"
 
-#include <cinttypes>
 #include <fstream>
+#include <utility>
 
-#include "text_format.hpp"
+#include "output/result_table.hpp"
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 
 namespace graze::bench {
 namespace {
 
-using tools::format;
+using namespace tools;  // NOLINT: how texts and tables are written
 
 std::string processor_name() {
   std::ifstream stream("/proc/cpuinfo");
@@ -18,24 +20,24 @@ std::string processor_name() {
   return "unknown processor";
 }
 
-const char* plural(std::size_t count) {
-  return count == 1 ? "" : "s";
-}
-
-std::string row_of(const Timing& timing, double read, double box) {
-  if (!timing.complaint.empty())
-    return format("| %-21s | wrong: %s |\n", timing.name.c_str(), timing.complaint.c_str());
-  return format("| %-21s | %10.4f | %10.4f | %10.4f | %10.3f | %8.2f | %8.2f | %8zu |\n", timing.name.c_str(),
-                timing.median, timing.p99, timing.worst, timing.first, timing.median / read,
-                timing.median / box, timing.found);
+std::vector<std::string> cells_of(const Timing& timing, double read, double box) {
+  if (!timing.complaint.empty()) return {timing.name, "wrong: " + timing.complaint};
+  return {timing.name,
+          fixed(timing.median, 4),
+          fixed(timing.p99, 4),
+          fixed(timing.worst, 4),
+          fixed(timing.first, 3),
+          fixed(timing.median / read, 2),
+          fixed(timing.median / box, 2),
+          std::to_string(timing.found)};
 }
 
 }  // namespace
 
 Surroundings surroundings(const PeerModule& module, std::span<const InstructionSet> sets) {
-  std::string names;
-  for (const InstructionSet set : sets) names += (names.empty() ? "" : ", ") + std::string(to_string(set));
-  return {processor_name(), GRAZE_BENCH_COMPILER, GRAZE_BENCH_FLAGS, module.compiled_for(), names};
+  std::vector<std::string> names;
+  for (const InstructionSet set : sets) names.emplace_back(to_string(set));
+  return {processor_name(), GRAZE_BENCH_COMPILER, GRAZE_BENCH_FLAGS, module.compiled_for(), joined(names)};
 }
 
 std::string heading(const Surroundings& s) {
@@ -47,18 +49,18 @@ std::string heading(const Surroundings& s) {
 }
 
 std::string table_of(const Run& run) {
-  std::string text = format("\n%s, task %c, %u thread%s: %s%s\n", run.scene.c_str(),
-                            static_cast<char>(run.task), run.threads, plural(run.threads), run.what.c_str(),
+  std::string text = format("\n%s, task %c, %s: %s%s\n", run.scene.c_str(), static_cast<char>(run.task),
+                            counted(run.threads, "thread").c_str(), run.what.c_str(),
                             run.evict ? "; caches evicted before each turn" : "");
-  text += format(
-      "%zu objects, %zu vertices, distance %g, %zu frames timed, %zu verified; graze's reports %016" PRIx64
-      "\n\n",
-      run.objects, run.vertices, run.distance, run.frames, run.frames_verified, run.graze.hash);
-  text += format("| %-21s | %10s | %10s | %10s | %10s | %8s | %8s | %8s |\n", "", "median", "p99", "worst",
-                 "first", "/ read", "/ box", "found");
-  text += "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  text +=
+      format("%zu objects, %zu vertices, distance %g, %zu frames timed, %zu verified; graze's reports %s\n\n",
+             run.objects, run.vertices, run.distance, run.frames, run.frames_verified,
+             hash_text(run.graze.hash).c_str());
+  const TextTable table =
+      TextTable::of_numbers({"", "median", "p99", "worst", "first", "/ read", "/ box", "found"}, 21, 10);
+  text += table.head();
   for (const Timing& timing : run.timings)
-    text += row_of(timing, run.median(read_limit), run.median(box_limit));
+    text += table.row(cells_of(timing, run.median(read_limit), run.median(box_limit)));
   return text;
 }
 
@@ -83,7 +85,7 @@ nlohmann::ordered_json figures_of(const Run& run) {
                                     {"vertices", run.vertices},
                                     {"distance", run.distance},
                                     {"near_pairs", run.near_pairs},
-                                    {"hash", format("%016" PRIx64, run.graze.hash)},
+                                    {"hash", hash_text(run.graze.hash)},
                                     {"contacts_per_frame", run.graze.contacts_per_frame},
                                     {"object_bytes", run.graze.object_bytes},
                                     {"contenders", nlohmann::ordered_json::array()}};
@@ -103,17 +105,25 @@ nlohmann::ordered_json figures_of(const Run& run) {
 }
 
 std::string csv_of(const std::vector<Run>& runs) {
-  std::string text =
-      "scene,task,threads,evict,slow,contender,median_ms,p99_ms,worst_ms,first_ms,found,is_right\n";
+  ResultTable table{"runs", "Runs",
+                    columns_of({"scene", "task", "threads", "evict", "slow", "contender", "median_ms",
+                                "p99_ms", "worst_ms", "first_ms", "found", "is_right"})};
   for (const Run& run : runs)
     for (const Timing& timing : run.timings) {
-      text += format("%s,%c,%u,%d,%zu,\"%s\",", run.scene.c_str(), static_cast<char>(run.task), run.threads,
-                     run.evict ? 1 : 0, run.slow, timing.name.c_str());
-      text += timing.complaint.empty() ? format("%.6g,%.6g,%.6g,%.6g,%zu,1\n", timing.median, timing.p99,
-                                                timing.worst, timing.first, timing.found)
-                                       : ",,,,,0\n";
+      std::vector<Cell> row = {run.scene,
+                               std::string(1, static_cast<char>(run.task)),
+                               std::uint64_t{run.threads},
+                               std::uint64_t{run.evict},
+                               run.slow,
+                               timing.name};
+      if (timing.complaint.empty())
+        row.insert(row.end(), {timing.median, timing.p99, timing.worst, timing.first, timing.found});
+      else
+        row.insert(row.end(), 5, std::string());
+      row.emplace_back(std::uint64_t{timing.complaint.empty()});
+      table.rows.push_back(std::move(row));
     }
-  return text;
+  return csv_of(table);
 }
 
 }  // namespace graze::bench

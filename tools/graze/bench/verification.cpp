@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::bench {
 namespace {

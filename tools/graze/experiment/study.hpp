@@ -1,31 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "figure.hpp"
+#include "output/figure.hpp"
+#include "output/result_table.hpp"
 
 namespace graze::tools {
-
-struct Column {
-  std::string name;  ///< as in the CSV: lower case, words joined by _
-  std::string title;
-};
-
-/// Text, a number, or a count.
-using Cell = std::variant<std::string, double, std::uint64_t>;
-
-/// Written as a CSV file of its name, and as a table of the page and the document where it is `shown`.
-struct ResultTable {
-  std::string name;  ///< as in a file's name
-  std::string title;
-  std::vector<Column> columns;
-  std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
-  bool timed = false;                   ///< holds times: not the same in a second run
-  bool shown = true;                    ///< false: too long to read, data of a figure
-};
 
 /// A statement of the paper, the measurement beside it, and whether it holds.
 struct Claim {

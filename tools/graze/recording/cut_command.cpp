@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "option_checks.hpp"
+#include "output/text.hpp"
 #include "output_path.hpp"
 #include "recording/commands.hpp"
 #include "recording/frame_range.hpp"
@@ -57,8 +58,8 @@ void print_answer(const std::string& file) {
   while (replay.step())
     if (const auto& difference = replay.difference()) {
       std::printf("a replay differs in frame %llu: %s\n  recorded  %s\n  replayed  %s\n",
-                  static_cast<unsigned long long>(difference->frame), difference->pair.c_str(),
-                  difference->recorded.c_str(), difference->replayed.c_str());
+                  number(difference->frame), difference->pair.c_str(), difference->recorded.c_str(),
+                  difference->replayed.c_str());
       return;
     }
   std::printf("a replay answers as it was recorded\n");
@@ -71,8 +72,7 @@ void cut(const CutOptions& options) {
   cut_recording(recording, part_of(recording, options), options.output);
   const Recording part(options.output);
   std::printf("%s: %zu of %zu frames, %llu of %llu bytes\n", options.output.c_str(), part.frame_count(),
-              recording.frame_count(), static_cast<unsigned long long>(part.byte_count()),
-              static_cast<unsigned long long>(recording.byte_count()));
+              recording.frame_count(), number(part.byte_count()), number(recording.byte_count()));
   print_answer(options.output);
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "option_checks.hpp"
+#include "output/text.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "recording/best_frame.hpp"
@@ -41,9 +42,7 @@ void check_ending(const std::string& option, const std::string& file,
                   const std::vector<std::string>& endings) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
-  std::string known;
-  for (const std::string& word : endings) known += (known.empty() ? "" : " or ") + word;
-  throw io::InputError(option + ": " + file + " cannot be written: end it in " + known);
+  throw io::InputError(option + ": " + file + " cannot be written: end it in " + joined(endings, " or "));
 }
 
 /// Refuses what cannot be written before anything is read.
@@ -117,7 +116,6 @@ class Exports {
   /// Ends the files and says what they hold.
   void close() {
     const std::size_t count = frames_.last - frames_.first + 1;
-    const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
     if (contacts_) {
       contacts_->close();
       std::printf("%s: %llu contacts of %zu frames\n", options_.contacts->c_str(),

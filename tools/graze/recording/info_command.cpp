@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "output/text.hpp"
 #include "recording/commands.hpp"
 
 namespace graze::tools {
@@ -45,7 +46,6 @@ void print_frames(const Recording& recording) {
   for (std::size_t index = 0; index < recording.frame_count(); ++index) sums.add(recording.frame(index));
   if (sums.step_ms.empty()) return;
   std::sort(sums.step_ms.begin(), sums.step_ms.end());
-  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   std::printf("  frames     %llu to %llu, %zu keyframes, %llu dropped\n", number(recording.frame(0).frame),
               number(recording.frame(recording.frame_count() - 1).frame), sums.keyframes,
               number(sums.dropped));
@@ -64,8 +64,8 @@ void print_objects(const Recording& recording) {
               recording.mesh_count());
   constexpr std::size_t most_listed = 40;
   for (const ReplayObject& object : replay.objects().first(std::min(most_listed, replay.objects().size())))
-    std::printf("    %llu \"%s\", %u vertices\n", static_cast<unsigned long long>(object.serial),
-                object.settings.name.c_str(), object.mesh->vertex_count());
+    std::printf("    %llu \"%s\", %u vertices\n", number(object.serial), object.settings.name.c_str(),
+                object.mesh->vertex_count());
   if (replay.objects().size() > most_listed)
     std::printf("    and %zu more\n", replay.objects().size() - most_listed);
 }
@@ -74,7 +74,7 @@ void inform(const std::string& file) {
   const Recording recording(file);
   recording.check();
   std::printf("%s: %zu frames, %llu bytes, recorded by graze %s%s%s\n", file.c_str(), recording.frame_count(),
-              static_cast<unsigned long long>(recording.byte_count()), recording.made_by().c_str(),
+              number(recording.byte_count()), recording.made_by().c_str(),
               recording.is_finished() ? "" : ", not finished",
               recording.is_cut() ? ", begins amid a run" : "");
   print_settings(recording.settings());

@@ -10,9 +10,9 @@
 
 #include "check_failed.hpp"
 #include "option_checks.hpp"
+#include "output/text.hpp"
 #include "progress.hpp"
 #include "recording/commands.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
@@ -71,11 +71,11 @@ void replay(const ReplayOptions& options) {
     return;
   }
   std::printf("DIVERGED in %zu of %zu frames, first in frame %llu: %s\n  recorded  %s\n  replayed  %s\n",
-              differing, compared, static_cast<unsigned long long>(first->frame),
+              differing, compared, number(first->frame),
               first->pair.empty() ? "diagnostics" : first->pair.c_str(), first->recorded.c_str(),
               first->replayed.c_str());
-  throw CheckFailed(format("%s: the replay differs from frame %llu on", options.file.c_str(),
-                           static_cast<unsigned long long>(first->frame)));
+  throw CheckFailed(
+      format("%s: the replay differs from frame %llu on", options.file.c_str(), number(first->frame)));
 }
 
 }  // namespace

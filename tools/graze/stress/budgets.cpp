@@ -12,13 +12,15 @@
 #include <string_view>
 #include <vector>
 
+#include "distribution.hpp"
 #include "mean_edge_length.hpp"
 #include "models/models.hpp"
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 #include "progress.hpp"
 #include "scenes/random.hpp"
 #include "stress/clocks.hpp"
 #include "stress/details.hpp"
-#include "stress/distribution.hpp"
 
 namespace graze::tools {
 namespace {
@@ -106,8 +108,10 @@ StressResult run_budgets_study(const BudgetsOptions& options) {
   StressResult result;
   result.figures = {{"frames", options.frames}, {"threads", options.threads}, {"unit", "milliseconds"}};
   std::printf("%u threads, %zu steps each; ms\n", options.threads, options.frames);
-  std::printf("%-9s %8s %9s %7s | %8s %8s %8s | %8s %8s %8s | %10s\n", "detail", "vertices", "threshold",
-              "budget", "p50", "p99", "worst", "cpu p50", "cpu p99", "worst", "pairs done");
+  const TextTable table = TextTable::of_numbers({"detail", "vertices", "threshold", "budget", "p50", "p99",
+                                                 "worst", "cpu p50", "cpu p99", "cpu worst", "pairs done"},
+                                                9, 8);
+  print(table.head());
   const std::array meshes{sphere_of(42, 19), sphere_of(95, 41)};
   Progress progress("scene", timed_details.size() * thresholds.size() * meshes.size() * budgets_ms.size());
   std::uint64_t done = 0;
@@ -126,10 +130,10 @@ StressResult run_budgets_study(const BudgetsOptions& options) {
           const Distribution wall(measured.wall_ms), cpu(measured.cpu_ms);
           const double complete =
               static_cast<double>(measured.complete_pairs) / static_cast<double>(measured.pairs);
-          std::printf("%-9s %8u %9.1f %7d | %8.2f %8.2f %8.2f | %8.2f %8.2f %8.2f | %8.0f %%\n", detail.name,
-                      mesh->vertex_count(), threshold, budget, wall.median(), wall.quantile(0.99),
-                      wall.quantile(1), cpu.median(), cpu.quantile(0.99), cpu.quantile(1), 100 * complete);
-          std::fflush(stdout);
+          print(table.row({detail.name, std::to_string(mesh->vertex_count()), fixed(threshold, 1),
+                           std::to_string(budget), fixed(wall.median(), 2), fixed(wall.quantile(0.99), 2),
+                           fixed(wall.quantile(1), 2), fixed(cpu.median(), 2), fixed(cpu.quantile(0.99), 2),
+                           fixed(cpu.quantile(1), 2), fixed(100 * complete, 0) + " %"}));
           const std::string name = std::string(detail.name) + " of " + std::to_string(mesh->vertex_count()) +
                                    " vertices, threshold " + std::to_string(threshold) + ", budget " +
                                    std::to_string(budget);

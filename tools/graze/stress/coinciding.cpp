@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 #include "scenes/coinciding_scenes.hpp"
 #include "stress/details.hpp"
 
@@ -55,24 +57,31 @@ Timed time_of(std::string_view name, ContactDetail detail, std::size_t frames) {
 StressResult run_coinciding_study(std::size_t frames) {
   StressResult result;
   result.figures = {{"frames", frames}};
-  std::printf("%-14s %-9s %10s %9s   %-12s %10s %9s %6s\n", "scene", "detail", "ms a step", "contacts",
-              "neighbour", "ms a step", "contacts", "ratio");
+  const TextTable table({{"scene", 14, Align::left},
+                         {"detail", 9, Align::left},
+                         {"ms a step", 10},
+                         {"contacts", 9},
+                         {"neighbour", 12, Align::left},
+                         {"ms a step", 10},
+                         {"contacts", 9},
+                         {"ratio", 6}});
+  print(table.head());
   for (const Couple& couple : couples)
     for (const NamedDetail& detail : timed_details) {
       const Timed on = time_of(couple.scene, detail.detail, frames);
-      std::printf("%-14s %-9s %10.3f %9zu", couple.scene.data(), detail.name, on.median_ms, on.contacts);
+      std::vector<std::string> cells = {std::string(couple.scene), detail.name, fixed(on.median_ms, 3),
+                                        std::to_string(on.contacts)};
       auto& figures = result.figures["scenes"].emplace_back();
       figures = {
           {"scene", couple.scene}, {"detail", detail.name}, {"ms", on.median_ms}, {"contacts", on.contacts}};
       if (!couple.neighbour.empty()) {
         const Timed off = time_of(couple.neighbour, detail.detail, frames);
-        std::printf("   %-12s %10.3f %9zu %6.2f", couple.neighbour.data(), off.median_ms, off.contacts,
-                    on.median_ms / off.median_ms);
+        cells.insert(cells.end(), {std::string(couple.neighbour), fixed(off.median_ms, 3),
+                                   std::to_string(off.contacts), fixed(on.median_ms / off.median_ms, 2)});
         figures["neighbour"] = {
             {"scene", couple.neighbour}, {"ms", off.median_ms}, {"contacts", off.contacts}};
       }
-      std::printf("\n");
-      std::fflush(stdout);
+      print(table.row(cells));
     }
   return result;
 }

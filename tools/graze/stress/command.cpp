@@ -1,16 +1,14 @@
 #include "stress/command.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <graze/io/error.hpp>
 #include <memory>
 #include <optional>
 #include <thread>
 
 #include "check_failed.hpp"
 #include "option_checks.hpp"
+#include "output/text_file.hpp"
 #include "output_path.hpp"
 #include "stress/budgets.hpp"
 #include "stress/coinciding.hpp"
@@ -18,7 +16,6 @@
 #include "stress/objects.hpp"
 #include "stress/reader.hpp"
 #include "stress/soak.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
@@ -55,14 +52,8 @@ void run(StressOptions options) {
     result = run_objects_study(options.objects);
   }
   result.figures["cores"] = std::thread::hardware_concurrency();
-  if (options.out) {
-    std::ofstream stream(*options.out, std::ios::binary);
-    stream << result.figures.dump(2) << "\n";
-    if (!stream.flush()) throw io::InputError(options.out->string() + ": could not be written to its end");
-  }
-  if (!result.violations.empty())
-    throw CheckFailed(result.violations.front() +
-                      format(" (%zu violations in all)", result.violations.size()));
+  if (options.out) write_text_file(*options.out, result.figures.dump(2) + "\n");
+  throw_violations(result.violations);
 }
 
 }  // namespace

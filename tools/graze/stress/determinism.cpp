@@ -3,13 +3,12 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <array>
-#include <cinttypes>
-#include <cstdio>
 
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 #include "progress.hpp"
 #include "scenes/played_scene.hpp"
 #include "scenes/report_hash.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
@@ -50,6 +49,8 @@ StressResult run_determinism_study(const DeterminismOptions& options) {
   std::uint64_t done = 0;
   StressResult result;
   result.figures = {{"frames", options.frames}, {"repeats", options.repeats}, {"threads", thread_counts}};
+  const TextTable table = TextTable::of_numbers({"scene", "hash", "frames", "contacts", "plays"}, 8, 16);
+  print(table.head());
   for (const std::string_view name : names) {
     const Played first = play(name, options, 1);
     for (std::size_t repeat = 0; repeat < options.repeats; ++repeat)
@@ -57,17 +58,16 @@ StressResult run_determinism_study(const DeterminismOptions& options) {
         progress.at(done++);
         const Played again = play(name, options, threads);
         if (again.hash != first.hash)
-          result.violations.push_back(format("%s: repeat %zu with %u threads gave hash %016" PRIx64
-                                             ", the first run with 1 thread %016" PRIx64,
-                                             std::string(name).c_str(), repeat, threads, again.hash,
-                                             first.hash));
+          result.violations.push_back(
+              format("%s: repeat %zu with %u threads gave hash %s, the first run with 1 thread %s",
+                     std::string(name).c_str(), repeat, threads, hash_text(again.hash).c_str(),
+                     hash_text(first.hash).c_str()));
       }
-    std::printf("%-8s %016" PRIx64 "  %zu frames, %" PRIu64 " contacts, %zu plays\n",
-                std::string(name).c_str(), first.hash, options.frames, first.contacts,
-                1 + options.repeats * thread_counts.size());
-    std::fflush(stdout);
+    print(table.row({std::string(name), hash_text(first.hash), std::to_string(options.frames),
+                     std::to_string(first.contacts),
+                     std::to_string(1 + options.repeats * thread_counts.size())}));
     result.figures["scenes"].push_back(
-        {{"name", name}, {"hash", format("%016" PRIx64, first.hash)}, {"contacts", first.contacts}});
+        {{"name", name}, {"hash", hash_text(first.hash)}, {"contacts", first.contacts}});
   }
   return result;
 }

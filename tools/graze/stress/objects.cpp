@@ -1,12 +1,14 @@
 #include "stress/objects.hpp"
 
 #include <algorithm>
-#include <cinttypes>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 #include "stress/scaling.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
@@ -28,9 +30,8 @@ const char* verdict(bool is_met) {
 
 void check_hashes(const std::string& what, const ScalingRun& run, StressResult& result) {
   if (run.hash_one == run.hash_two) return;
-  result.violations.push_back(format("%s: reports of 1 thread have hash %016" PRIx64
-                                     ", those of 2 threads %016" PRIx64,
-                                     what.c_str(), run.hash_one, run.hash_two));
+  result.violations.push_back(what + ": reports of 1 thread have hash " + hash_text(run.hash_one) +
+                              ", those of 2 threads " + hash_text(run.hash_two));
 }
 
 nlohmann::ordered_json figures_of(const ScalingRun& run) {
@@ -38,7 +39,7 @@ nlohmann::ordered_json figures_of(const ScalingRun& run) {
   for (std::size_t i = 0; i < phase_names.size(); ++i)
     phases[std::string(phase_names[i])] = {run.one.phases_ms[i], run.two.phases_ms[i]};
   return {{"frames", run.frames},
-          {"hash", format("%016" PRIx64, run.hash_one)},
+          {"hash", hash_text(run.hash_one)},
           {"pairs_in_contact", run.statistics.pairs_in_contact},
           {"contacts", run.statistics.contacts},
           {"read_ms", run.read_ms},
@@ -50,14 +51,6 @@ nlohmann::ordered_json figures_of(const ScalingRun& run) {
           {"speedup", run.speedup()},
           {"serial_fraction", run.serial_fraction()},
           {"serial_fraction_by_phases", run.serial_fraction_by_phases()}};
-}
-
-void print_counted(std::size_t count, const ScalingRun& run) {
-  std::printf("%8zu %7zu %9" PRIu64 " %9.3f %10.3f %9.2f %9.2f %9.3f %8.2f\n", count, run.frames,
-              run.statistics.pairs_in_contact, run.read_ms, run.one.cpu_ms, run.one.cpu_ms / run.read_ms,
-              static_cast<double>(run.bytes()) / 1e6,
-              static_cast<double>(run.bytes()) / static_cast<double>(count) / 1e3, run.speedup());
-  std::fflush(stdout);
 }
 
 void print_growth(const std::vector<double>& counts, const std::vector<double>& times,
@@ -72,6 +65,19 @@ void print_growth(const std::vector<double>& counts, const std::vector<double>& 
   result.figures["memory_exponent"] = memory;
 }
 
+void print_phases(const ScalingRun& run) {
+  std::vector<std::string> titles = {"ms"};
+  titles.insert(titles.end(), phase_names.begin(), phase_names.end());
+  const TextTable table = TextTable::of_numbers(titles, 9, 10);
+  print("\n" + table.head());
+  for (const StepTimes* times : {&run.one, &run.two}) {
+    std::vector<std::string> cells = {times == &run.one ? "1 thread" : "2 threads"};
+    for (const double ms : times->phases_ms) cells.push_back(fixed(ms, 3));
+    print(table.row(cells));
+  }
+  print("\n");
+}
+
 void print_threads(const char* what, const ScalingRun& run) {
   std::printf("\n%s: %.3f ms with 1 thread, %.3f ms with 2: %.2f times as fast (aim %.1f: %s)\n", what,
               run.one.wall_ms, run.two.wall_ms, run.speedup(), aimed_speedup,
@@ -80,17 +86,11 @@ void print_threads(const char* what, const ScalingRun& run) {
   std::printf("  control: arithmetic that shares nothing was %.2f times as fast on 2 threads%s\n",
               run.control_speedup,
               run.is_disturbed() ? "; with so much other load the rest says little of graze" : "");
-  std::printf("  %-8s", "ms");
-  for (const std::string_view name : phase_names) std::printf(" %10s", std::string(name).c_str());
-  for (const StepTimes* times : {&run.one, &run.two}) {
-    std::printf("\n  %s", times == &run.one ? "1 thread" : "2       ");
-    for (const double ms : times->phases_ms) std::printf(" %10.3f", ms);
-  }
+  print_phases(run);
   for (const auto& [name, fraction] : {std::pair("the step", run.serial_fraction()),
                                        std::pair("its phases", run.serial_fraction_by_phases())})
-    std::printf("\n  serial fraction from %s: %.3f, which lets 16 cores be %.1f times as fast", name,
+    std::printf("  serial fraction from %s: %.3f, which lets 16 cores be %.1f times as fast\n", name,
                 fraction, predicted_speedup(fraction, 16));
-  std::printf("\n");
 }
 
 }  // namespace
@@ -102,15 +102,21 @@ StressResult run_objects_study(const ObjectsOptions& options) {
   constexpr std::size_t many = 10'000;
   ScalingRun of_many;
   std::size_t many_count = 0;
-  std::printf("%8s %7s %9s %9s %10s %9s %9s %9s %8s\n", "objects", "frames", "touching", "reading", "step, 1",
-              "/reading", "memory", "each", "speedup");
-  std::printf("%8s %7s %9s %9s %10s %9s %9s %9s %8s\n", "", "", "pairs", "cpu ms", "cpu ms", "", "MB", "kB",
-              "");
+  const TextTable table =
+      TextTable::of_numbers({"objects", "frames", "touching pairs", "reading, cpu ms", "step, cpu ms",
+                             "/ reading", "memory, MB", "each, kB", "speedup"},
+                            8, 7);
+  print(table.head());
   for (const std::size_t count : options.counts) {
     MovingWorld world = MovingWorld::lattice(count);
     const ScalingRun run = run_scaling(world, frames_of(count, options));
     check_hashes(std::to_string(count) + " objects", run, result);
-    print_counted(count, run);
+    print(table.row({std::to_string(count), std::to_string(run.frames),
+                     std::to_string(run.statistics.pairs_in_contact), fixed(run.read_ms, 3),
+                     fixed(run.one.cpu_ms, 3), fixed(run.one.cpu_ms / run.read_ms, 2),
+                     fixed(static_cast<double>(run.bytes()) / 1e6, 2),
+                     fixed(static_cast<double>(run.bytes()) / static_cast<double>(count) / 1e3, 3),
+                     fixed(run.speedup(), 2)}));
     counts.push_back(static_cast<double>(count));
     times.push_back(run.one.cpu_ms / run.read_ms);
     bytes.push_back(static_cast<double>(run.bytes()));

@@ -6,10 +6,12 @@
 #include <functional>
 #include <thread>
 
+#include "distribution.hpp"
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 #include "progress.hpp"
 #include "scenes/played_scene.hpp"
 #include "stress/clocks.hpp"
-#include "stress/distribution.hpp"
 
 namespace graze::tools {
 namespace {
@@ -73,16 +75,16 @@ class ReportReader {
   std::size_t torn_ = 0, frames_ = 0, pairs_ = 0;
 };
 
-void print_row(const char* name, const Distribution& times) {
-  std::printf("%-32s %10.2f %10.2f %10.2f %10.2f\n", name, times.median(), times.quantile(0.99),
-              times.quantile(0.999), times.quantile(1));
-}
-
 nlohmann::ordered_json tables(const ReadTimes& graze, const ReadTimes& control) {
   const Distribution graze_wall(graze.wall), control_wall(control.wall);
   const Distribution graze_cpu(graze.cpu), control_cpu(control.cpu);
   const Distribution graze_late(graze.late), control_late(control.late);
-  std::printf("%-32s %10s %10s %10s %10s\n", "µs", "p50", "p99", "p99.9", "max");
+  const TextTable table = TextTable::of_numbers({"µs", "p50", "p99", "p99.9", "max"}, 29, 10);
+  print(table.head());
+  const auto print_row = [&](const char* name, const Distribution& times) {
+    print(table.row({name, fixed(times.median(), 2), fixed(times.quantile(0.99), 2),
+                     fixed(times.quantile(0.999), 2), fixed(times.quantile(1), 2)}));
+  };
   print_row("read a report, wall", graze_wall);
   print_row("control: load a counter, wall", control_wall);
   print_row("read a report, processor", graze_cpu);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <thread>
 
+#include "distribution.hpp"
 #include "scenes/report_hash.hpp"
 #include "stress/clocks.hpp"
-#include "stress/distribution.hpp"
 
 namespace graze::tools {
 namespace {

@@ -6,18 +6,18 @@
 #include <atomic>
 #include <barrier>
 #include <chrono>
-#include <cinttypes>
 #include <cstdio>
 #include <fstream>
 #include <shared_mutex>
 #include <thread>
 
+#include "output/text.hpp"
+#include "output/text_table.hpp"
 #include "progress.hpp"
 #include "sanitizers.hpp"
 #include "scenes/report_hash.hpp"
 #include "stress/clocks.hpp"
 #include "stress/soak_world.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
@@ -182,7 +182,7 @@ class Soak {
   void step_until_the_end() {
     Progress progress("interval", intervals);
     const Clock::time_point start = Clock::now();
-    print_head();
+    print(table_.head());
     for (std::uint64_t frame = 1; intervals_.size() < intervals; ++frame) {
       world_.change_between_steps(true);
       barrier_.arrive_and_wait();
@@ -212,7 +212,7 @@ class Soak {
     const std::string difference = world_.difference_from_fresh(*report);
     if (!difference.empty())
       result_.violations.push_back(
-          format("frame %" PRIu64 ", %s: %s", frame, world_.mode().c_str(), difference.c_str()));
+          format("frame %llu, %s: %s", number(frame), world_.mode().c_str(), difference.c_str()));
   }
 
   void remake() {
@@ -220,17 +220,11 @@ class Soak {
     world_.remake_scene();
   }
 
-  static void print_head() {
-    std::printf("%8s %8s %8s %8s %10s %12s %10s %12s\n", "minutes", "frames", "checks", "objects", "contacts",
-                "diagnostics", "RSS MB", "counted MB");
-  }
-
   void close_interval() {
     const Interval& i = interval_;
-    std::printf("%8.2f %8" PRIu64 " %8" PRIu64 " %8" PRIu64 " %10" PRIu64 " %12" PRIu64 " %10.1f %12.2f\n",
-                i.minutes, i.frames, i.checks, i.objects, i.contacts, i.diagnostics, i.resident / 1e6,
-                i.statistics / 1e6);
-    std::fflush(stdout);
+    print(table_.row({fixed(i.minutes, 2), std::to_string(i.frames), std::to_string(i.checks),
+                      std::to_string(i.objects), std::to_string(i.contacts), std::to_string(i.diagnostics),
+                      fixed(i.resident / 1e6, 1), fixed(i.statistics / 1e6, 2)}));
     result_.figures["intervals"].push_back({{"minutes", i.minutes},
                                             {"frames", i.frames},
                                             {"checks", i.checks},
@@ -274,20 +268,24 @@ class Soak {
       taken += holder.taken();
       changed += holder.changed();
     }
-    std::printf("%" PRIu64 " frames, %" PRIu64 " of them next to a scene built afresh; %" PRIu64
-                " contacts, %" PRIu64 " diagnostics; %" PRIu64 " reports held\n",
-                all.frames, all.checks, all.contacts, all.diagnostics, taken);
+    std::printf(
+        "%llu frames, %llu of them next to a scene built afresh; %llu contacts, %llu diagnostics; %llu "
+        "reports "
+        "held\n",
+        number(all.frames), number(all.checks), number(all.contacts), number(all.diagnostics), number(taken));
     result_.figures["frames"] = all.frames;
     result_.figures["checks"] = all.checks;
     result_.figures["reports_held"] = taken;
     result_.figures["failed_steps"] = failed_steps_;
     if (resident_memory_is_ours) judge_growth("resident memory", &Interval::resident);
     judge_growth("counted memory", &Interval::statistics);
-    if (changed > 0) result_.violations.push_back(format("%" PRIu64 " held reports changed", changed));
+    if (changed > 0) result_.violations.push_back(std::to_string(changed) + " held reports changed");
     if (all.checks == 0) result_.violations.emplace_back("no frame was checked: give it more time");
     return std::move(result_);
   }
 
+  const TextTable table_ = TextTable::of_numbers(
+      {"minutes", "frames", "checks", "objects", "contacts", "diagnostics", "RSS MB", "counted MB"}, 8, 10);
   SoakOptions options_;
   SoakWorld world_;
   std::barrier<> barrier_;

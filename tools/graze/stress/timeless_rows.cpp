@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "output/text.hpp"
 #include "scenes/report_hash.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
 
 std::string yes_or_no(bool holds) {
   return holds ? "yes" : "no";
-}
-
-unsigned long long number(std::uint64_t value) {
-  return value;
 }
 
 std::uint64_t missed(const RowResult& row) {
@@ -24,9 +20,6 @@ std::uint64_t reported(const RowResult& row) {
 }
 std::uint64_t extra(const RowResult& row) {
   return row.sum(&StepCount::extra);
-}
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
 }
 double percent_missed(const RowResult& row) {
   return percent(missed(row), row.sum(&StepCount::truth));

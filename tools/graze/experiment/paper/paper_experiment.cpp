@@ -13,7 +13,7 @@
 #include "experiment/paper/paper_rows.hpp"
 #include "experiment/paper/paper_tables.hpp"
 #include "experiment/paper/paper_text.hpp"
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {

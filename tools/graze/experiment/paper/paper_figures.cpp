@@ -2,18 +2,16 @@
 
 #include <map>
 
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
 
 template <typename ValueOf>
 Series series_of(const RowResult& row, const std::string& name, const ValueOf& value_of) {
-  Series series{name, {}, {}, true, {}};
-  for (std::size_t step = 0; step < row.steps.size(); ++step) {
-    series.x.push_back(static_cast<double>(step + 1));
-    series.y.push_back(static_cast<double>(value_of(row.steps[step])));
-  }
+  Series series{name};
+  for (std::size_t step = 0; step < row.steps.size(); ++step)
+    series.add(static_cast<double>(step + 1), static_cast<double>(value_of(row.steps[step])));
   return series;
 }
 
@@ -57,11 +55,9 @@ Figure times_figure(const PaperResults& results) {
   Figure figure{"times", "Time of each step, one thread", "step", "ms", false, true, true, {}};
   for (const SettingTime& time : results.times) {
     if (time.detail != ContactDetail::regions) continue;
-    Series series{format("%s, %g", time.name.c_str(), time.contact_distance), {}, {}, true, {}};
-    for (std::size_t step = 0; step < time.step_ms.size(); ++step) {
-      series.x.push_back(static_cast<double>(step + 1));
-      series.y.push_back(time.step_ms[step]);
-    }
+    Series series{format("%s, %g", time.name.c_str(), time.contact_distance)};
+    for (std::size_t step = 0; step < time.step_ms.size(); ++step)
+      series.add(static_cast<double>(step + 1), time.step_ms[step]);
     figure.series.push_back(std::move(series));
   }
   return figure;

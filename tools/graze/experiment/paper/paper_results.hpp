@@ -12,6 +12,10 @@
 
 namespace graze::tools {
 
+inline double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
 /// How the paper's numbers are read.
 enum class Reading : std::uint8_t {
   pair,           ///< a row's numbers are eq. 4's, for the two objects of a pair; leaves go to DV untested

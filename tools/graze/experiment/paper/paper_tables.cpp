@@ -19,23 +19,10 @@ std::string numbers_of(const PaperResults& results, const RowResult& row) {
   return &row == &results.formula ? "by each pair's shapes" : row.row.numbers();
 }
 
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
-}
-
 ResultTable shapes_table(const RecordedMotion& motion) {
-  ResultTable table{"shapes",
-                    "The shapes, and ε by eq. 3 in the first step",
-                    {{"kind", "kind"},
-                     {"objects", "objects"},
-                     {"vertices", "vertices"},
-                     {"faces", "faces"},
-                     {"edges", "edges"},
-                     {"level_1", "ε of level 1"},
-                     {"level_2", "ε of level 2"},
-                     {"level_3", "ε of level 3"},
-                     {"leaves", "leaf regions"}},
-                    {}};
+  ResultTable table{"shapes", "The shapes, and ε by eq. 3 in the first step",
+                    columns_of({"kind", "objects", "vertices", "faces", "edges", "level_1: ε of level 1",
+                                "level_2: ε of level 2", "level_3: ε of level 3", "leaves: leaf regions"})};
   std::set<std::string> seen;
   for (const RecordedObject& object : motion.objects) {
     if (!seen.insert(object.kind).second) continue;
@@ -54,18 +41,10 @@ ResultTable shapes_table(const RecordedMotion& motion) {
 }
 
 ResultTable rows_table(const PaperResults& results) {
-  ResultTable table{"rows",
-                    "Collisions of all steps together",
-                    {{"row", "row"},
-                     {"epsilon", "ε of level 1 / 2 / last step"},
-                     {"truth", "collisions (truth)"},
-                     {"found", "found"},
-                     {"missed", "missed"},
-                     {"missed_percent", "missed, %"},
-                     {"reported", "reported by DV"},
-                     {"extra", "reported, no collision"},
-                     {"contacts", "different vertex pairs"}},
-                    {}};
+  ResultTable table{"rows", "Collisions of all steps together",
+                    columns_of({"row", "epsilon: ε of level 1 / 2 / last step", "truth: collisions (truth)",
+                                "found", "missed", "missed_percent: missed, %", "reported: reported by DV",
+                                "extra: reported, no collision", "contacts: different vertex pairs"})};
   for (const RowResult* row : rows_and_formula(results)) {
     const std::uint64_t truth = row->sum(&StepCount::truth);
     const std::uint64_t missed = row->sum(&StepCount::missed);
@@ -77,18 +56,11 @@ ResultTable rows_table(const PaperResults& results) {
 }
 
 ResultTable last_step_table(const PaperResults& results) {
-  ResultTable table{"last_step",
-                    "The last step",
-                    {{"row", "row"},
-                     {"truth", "collisions (truth)"},
-                     {"found", "found"},
-                     {"reported", "reported by DV"},
-                     {"passed_1", "region pairs that pass eq. 4, level 1"},
-                     {"passed_2", "that pass, level 2"},
-                     {"expanded_1", "region pairs expanded, level 1"},
-                     {"expanded_2", "expanded, level 2"},
-                     {"given_to_dv", "leaf pairs given to DV"}},
-                    {}};
+  ResultTable table{"last_step", "The last step",
+                    columns_of({"row", "truth: collisions (truth)", "found", "reported: reported by DV",
+                                "passed_1: region pairs that pass eq. 4, level 1",
+                                "passed_2: that pass, level 2", "expanded_1: region pairs expanded, level 1",
+                                "expanded_2: expanded, level 2", "given_to_dv: leaf pairs given to DV"})};
   for (const RowResult* row : rows_and_formula(results)) {
     const StepCount& last = row->steps.back();
     table.rows.push_back({row->row.name, last.truth, last.found(), last.reported, last.passed[1],
@@ -103,19 +75,11 @@ std::string name_of(Reading reading) {
 }
 
 ResultTable readings_table(const PaperResults& results) {
-  ResultTable table{"readings",
-                    "Other readings of the paper's numbers; all steps together",
-                    {{"reading", "reading"},
-                     {"row", "row"},
-                     {"truth", "collisions (truth)"},
-                     {"found", "found"},
-                     {"missed", "missed"},
-                     {"missed_percent", "missed, %"},
-                     {"reported", "reported by DV"},
-                     {"passed_1", "region pairs that pass eq. 4, level 1"},
-                     {"passed_2", "that pass, level 2"},
-                     {"given_to_dv", "leaf pairs given to DV"}},
-                    {}};
+  ResultTable table{"readings", "Other readings of the paper's numbers; all steps together",
+                    columns_of({"reading", "row", "truth: collisions (truth)", "found", "missed",
+                                "missed_percent: missed, %", "reported: reported by DV",
+                                "passed_1: region pairs that pass eq. 4, level 1",
+                                "passed_2: that pass, level 2", "given_to_dv: leaf pairs given to DV"})};
   std::vector<const RowResult*> rows;
   for (const RowResult& row : results.rows) rows.push_back(&row);
   for (const RowResult& row : results.readings) rows.push_back(&row);
@@ -130,23 +94,14 @@ ResultTable readings_table(const PaperResults& results) {
 }
 
 ResultTable checks_table(const PaperResults& results) {
-  ResultTable table{"contacts",
-                    "Exact mode and within against the truth",
-                    {{"setting", "setting"},
-                     {"detail", "detail"},
-                     {"contact_distance", "contact distance"},
-                     {"compared", "pairs of objects compared"},
-                     {"contacts", "contacts (truth)"},
-                     {"recall_percent", "recall, %"},
-                     {"precision_percent", "precision, %"},
-                     {"wrong", "pairs with a wrong or missing contact"},
-                     {"distances", "distances compared"},
-                     {"distances_wrong", "distances wrong"},
-                     {"widest", "widest bounds"},
-                     {"expanded_1", "regions expanded, level 1"},
-                     {"expanded_2", "expanded, level 2"},
-                     {"leaf_pairs", "leaf pairs tested"}},
-                    {}};
+  ResultTable table{
+      "contacts", "Exact mode and within against the truth",
+      columns_of({"setting", "detail", "contact_distance", "compared: pairs of objects compared",
+                  "contacts: contacts (truth)", "recall_percent: recall, %",
+                  "precision_percent: precision, %", "wrong: pairs with a wrong or missing contact",
+                  "distances: distances compared", "distances_wrong", "widest: widest bounds",
+                  "expanded_1: regions expanded, level 1", "expanded_2: expanded, level 2",
+                  "leaf_pairs: leaf pairs tested"})};
   const auto share = [](std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 100.0 : percent(part, whole);
   };
@@ -160,18 +115,14 @@ ResultTable checks_table(const PaperResults& results) {
 }
 
 ResultTable escapes_table(const PaperResults& results) {
-  ResultTable table{"escapes",
-                    "Vertices that leave the ε of the first step",
-                    {{"kind", "kind"},
-                     {"level", "level"},
-                     {"epsilon", "ε of the level (eq. 3)"},
-                     {"vertices", "vertices, in all later steps"},
-                     {"outside_own", "outside ε of their region (eq. 2)"},
-                     {"outside_own_percent", "outside ε of their region, %"},
-                     {"outside_level", "outside ε of the level (eq. 3)"},
-                     {"outside_level_percent", "outside ε of the level, %"},
-                     {"furthest", "furthest, in ε of its region"}},
-                    {}};
+  ResultTable table{
+      "escapes", "Vertices that leave the ε of the first step",
+      columns_of({"kind", "level", "epsilon: ε of the level (eq. 3)",
+                  "vertices: vertices, in all later steps", "outside_own: outside ε of their region (eq. 2)",
+                  "outside_own_percent: outside ε of their region, %",
+                  "outside_level: outside ε of the level (eq. 3)",
+                  "outside_level_percent: outside ε of the level, %",
+                  "furthest: furthest, in ε of its region"})};
   for (const EscapeCount& count : results.escapes)
     table.rows.push_back({count.kind, std::uint64_t{count.level}, count.epsilon, count.vertices,
                           count.outside_own, percent(count.outside_own, count.vertices), count.outside_level,
@@ -187,16 +138,13 @@ double mean_of_last_tenth(const std::vector<double>& values) {
 }
 
 ResultTable times_table(const PaperResults& results) {
-  ResultTable table{"times",
-                    "Time of a step on one thread, in ms",
-                    {{"setting", "setting"},
-                     {"detail", "detail"},
-                     {"contact_distance", "last ε, or contact distance"},
-                     {"mean_ms", "mean"},
-                     {"last_tenth_ms", "mean of the last tenth of the steps"},
-                     {"worst_ms", "worst"}},
-                    {},
-                    true};
+  ResultTable table{
+      "times",
+      "Time of a step on one thread, in ms",
+      columns_of({"setting", "detail", "contact_distance: last ε, or contact distance", "mean_ms: mean",
+                  "last_tenth_ms: mean of the last tenth of the steps", "worst_ms: worst"}),
+      {},
+      true};
   for (const SettingTime& time : results.times)
     table.rows.push_back({time.name, std::string(io::to_string(time.detail)), time.contact_distance,
                           time.mean(), mean_of_last_tenth(time.step_ms), time.worst()});
@@ -204,24 +152,16 @@ ResultTable times_table(const PaperResults& results) {
 }
 
 ResultTable steps_table(const PaperResults& results) {
-  ResultTable table{"steps",
-                    "Every step of every row",
-                    {{"step", "step"},
-                     {"row", "row"},
-                     {"truth", "collisions there are"},
-                     {"found", "found"},
-                     {"missed", "missed"},
-                     {"reported", "reported by DV"},
-                     {"extra", "that are none"},
-                     {"contacts", "different vertex pairs"},
-                     {"passed_1", "pass eq. 4, level 1"},
-                     {"passed_2", "level 2"},
-                     {"expanded_1", "expanded, level 1"},
-                     {"expanded_2", "level 2"},
-                     {"given_to_dv", "leaf pairs given to DV"}},
-                    {},
-                    false,
-                    false};
+  ResultTable table{
+      "steps",
+      "Every step of every row",
+      columns_of({"step", "row", "truth: collisions there are", "found", "missed", "reported: reported by DV",
+                  "extra: that are none", "contacts: different vertex pairs", "passed_1: pass eq. 4, level 1",
+                  "passed_2: level 2", "expanded_1: expanded, level 1", "expanded_2: level 2",
+                  "given_to_dv: leaf pairs given to DV"}),
+      {},
+      false,
+      false};
   for (const RowResult* row : rows_and_formula(results))
     for (std::size_t step = 0; step < row->steps.size(); ++step) {
       const StepCount& count = row->steps[step];

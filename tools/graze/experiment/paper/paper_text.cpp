@@ -1,6 +1,6 @@
 #include "experiment/paper/paper_text.hpp"
 
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
@@ -47,10 +47,6 @@ std::string scale_text(const PaperResults& results) {
 const char* motion_text = "| motion | [made once, by springs](#motion) |\n";
 
 const char* reading_text = "\nThe words below are explained under [terms](#terms).\n\n";
-
-unsigned long long number(std::uint64_t value) {
-  return value;
-}
 
 std::string outcome(const PaperResults& results) {
   std::uint64_t compared = 0;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <limits>
 
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {

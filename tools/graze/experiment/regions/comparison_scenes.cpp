@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "experiment/regions/deforming_scenes.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
@@ -26,7 +27,7 @@ class Collector {
       return;
     }
     std::fprintf(stderr, "skipped: the scene \"%s\" (%s)\n", scene.name.c_str(), scene.missing.c_str());
-    list(scene.name, missing_);
+    missing_.push_back(scene.name);
   }
   /// One of the bench's, under a name that says what it is.
   void add_bench(const char* bench_name, const char* name) {
@@ -34,23 +35,20 @@ class Collector {
   }
   void add_large_bench(const char* bench_name, const char* name) {
     if (options_.frames == 0) return add_bench(bench_name, name);
-    list(name, large_);
+    large_.emplace_back(name);
   }
 
   ComparisonScenes take() {
-    if (!missing_.empty()) result_.left_out += "Left out, since their files are missing: " + missing_ + ". ";
-    if (!large_.empty()) result_.left_out += "Left out of a short run: " + large_ + ". ";
+    if (!missing_.empty())
+      result_.left_out += "Left out, since their files are missing: " + joined(missing_) + ". ";
+    if (!large_.empty()) result_.left_out += "Left out of a short run: " + joined(large_) + ". ";
     return std::move(result_);
   }
 
  private:
-  static void list(const std::string& name, std::string& names) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
-
   const ExperimentOptions& options_;
   ComparisonScenes result_;
-  std::string missing_, large_;
+  std::vector<std::string> missing_, large_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "experiment/regions/bound_measure.hpp"
 #include "experiment/regions/comparison_scenes.hpp"
 #include "experiment/regions/swept_box.hpp"
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
@@ -63,17 +63,10 @@ SceneResult measure_scene(const bench::BenchScene& scene, const ExperimentOption
 // Tables.
 
 ResultTable scene_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"scenes",
-                    "The scenes",
-                    {{"scene", "scene"},
-                     {"what", "what"},
-                     {"vertices", "vertices"},
-                     {"regions", "regions"},
-                     {"frames", "frames"},
-                     {"distance", "distance"},
-                     {"near_vertex_pairs", "near vertex pairs, a frame"},
-                     {"near_leaf_pairs", "near leaf pairs, a frame"}},
-                    {}};
+  ResultTable table{"scenes", "The scenes",
+                    columns_of({"scene", "what", "vertices", "regions", "frames", "distance",
+                                "near_vertex_pairs: near vertex pairs, a frame",
+                                "near_leaf_pairs: near leaf pairs, a frame"})};
   for (const SceneResult& result : results)
     table.rows.push_back({result.name, result.what, result.vertices, result.regions,
                           std::uint64_t{result.frames}, result.distance,
@@ -83,19 +76,14 @@ ResultTable scene_table(const std::vector<SceneResult>& results) {
 }
 
 ResultTable tightness_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"tightness",
-                    "How tight: work a frame, by bound",
-                    {{"scene", "scene"},
-                     {"bound", "bound"},
-                     {"bytes_a_region", "bytes a region"},
-                     {"tests", "region pairs tested"},
-                     {"leaf_pairs", "leaf pairs reached"},
-                     {"of_near", "leaf pairs reached / near leaf pairs"},
-                     {"vertex_pairs", "vertex pairs in the leaves reached"},
-                     {"face_tests", "region pairs tested, bounds of faces"},
-                     {"face_leaf_pairs", "leaf pairs reached, bounds of faces"},
-                     {"corner_pairs", "corner pairs left after clipping"}},
-                    {}};
+  ResultTable table{
+      "tightness", "How tight: work a frame, by bound",
+      columns_of({"scene", "bound", "bytes_a_region", "tests: region pairs tested",
+                  "leaf_pairs: leaf pairs reached", "of_near: leaf pairs reached / near leaf pairs",
+                  "vertex_pairs: vertex pairs in the leaves reached",
+                  "face_tests: region pairs tested, bounds of faces",
+                  "face_leaf_pairs: leaf pairs reached, bounds of faces",
+                  "corner_pairs: corner pairs left after clipping"})};
   for (const SceneResult& result : results)
     for (std::size_t i = 0; i < all_bounds.size(); ++i) {
       const BoundMeasure& bound = result.of_vertices[i];
@@ -112,10 +100,8 @@ ResultTable tightness_table(const std::vector<SceneResult>& results) {
 }
 
 ResultTable level_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"levels",
-                    "Region pairs expanded a level",
-                    {{"scene", "scene"}, {"bound", "bound"}, {"level", "level"}, {"expanded", "a frame"}},
-                    {}};
+  ResultTable table{"levels", "Region pairs expanded a level",
+                    columns_of({"scene", "bound", "level", "expanded: a frame"})};
   table.shown = false;
   for (const SceneResult& result : results)
     for (const BoundMeasure& bound : result.of_vertices)
@@ -126,20 +112,10 @@ ResultTable level_table(const std::vector<SceneResult>& results) {
 }
 
 ResultTable time_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"times",
-                    "Times: one test of two regions in ns, the rest in ms a frame",
-                    {{"scene", "scene"},
-                     {"bound", "bound"},
-                     {"test_ns", "one test"},
-                     {"update", "update"},
-                     {"walk", "walk"},
-                     {"leaves", "leaves"},
-                     {"step", "step"},
-                     {"face_update", "update, faces"},
-                     {"face_walk", "walk, faces"},
-                     {"face_leaves", "leaves, faces"},
-                     {"face_step", "step, faces"}},
-                    {}};
+  ResultTable table{"times", "Times: one test of two regions in ns, the rest in ms a frame",
+                    columns_of({"scene", "bound", "test_ns: one test", "update", "walk", "leaves", "step",
+                                "face_update: update, faces", "face_walk: walk, faces",
+                                "face_leaves: leaves, faces", "face_step: step, faces"})};
   table.timed = true;
   for (const SceneResult& result : results)
     for (std::size_t i = 0; i < all_bounds.size(); ++i) {
@@ -199,31 +175,21 @@ BesideBox beside_box(const std::vector<SceneResult>& results, std::size_t bound)
 }
 
 ResultTable beside_box_table(const std::vector<BesideBox>& all) {
-  ResultTable table{"beside_box",
-                    "Work relative to the box (box = 1), geometric means over the scenes",
-                    {{"bound", "bound"},
-                     {"tests", "region pairs tested"},
-                     {"leaf_pairs", "leaf pairs reached"},
-                     {"face_leaf_pairs", "leaf pairs reached, bounds of faces"},
-                     {"corner_pairs", "corner pairs left after clipping"}},
-                    {}};
+  ResultTable table{"beside_box", "Work relative to the box (box = 1), geometric means over the scenes",
+                    columns_of({"bound", "tests: region pairs tested", "leaf_pairs: leaf pairs reached",
+                                "face_leaf_pairs: leaf pairs reached, bounds of faces",
+                                "corner_pairs: corner pairs left after clipping"})};
   for (const BesideBox& each : all)
     table.rows.push_back({each.bound, each.tests, each.leaf_pairs, each.face_leaf_pairs, each.corner_pairs});
   return table;
 }
 
 ResultTable beside_box_time_table(const std::vector<BesideBox>& all) {
-  ResultTable table{"times_beside_box",
-                    "Time relative to the box (box = 1), geometric means over the scenes",
-                    {{"bound", "bound"},
-                     {"test", "one test"},
-                     {"update", "update"},
-                     {"walk", "walk"},
-                     {"step", "step, vertices"},
-                     {"faster_scenes", "scenes with a faster step, vertices"},
-                     {"face_step", "step, faces"},
-                     {"faster_face_scenes", "scenes with a faster step, faces"}},
-                    {}};
+  ResultTable table{
+      "times_beside_box", "Time relative to the box (box = 1), geometric means over the scenes",
+      columns_of({"bound", "test: one test", "update", "walk", "step: step, vertices",
+                  "faster_scenes: scenes with a faster step, vertices", "face_step: step, faces",
+                  "faster_face_scenes: scenes with a faster step, faces"})};
   table.timed = true;
   for (const BesideBox& each : all)
     table.rows.push_back({each.bound, each.test_ns, each.update, each.walk, each.step,
@@ -244,13 +210,13 @@ Figure time_figure(const std::vector<SceneResult>& results) {
                 true,
                 {}};
   for (std::size_t i = 0; i < all_bounds.size(); ++i) {
-    Series series{results.front().of_vertices[i].bound, {}, {}, false, {}};
+    Series series{results.front().of_vertices[i].bound, {}, {}, false};
     for (const SceneResult& result : results) {
       const BoundMeasure& box = result.of_vertices[axis_box];
       const BoundMeasure& bound = result.of_vertices[i];
       if (bound.walked.reached == 0 || box.walked.reached == 0) continue;
-      series.x.push_back(static_cast<double>(bound.walked.reached) / static_cast<double>(box.walked.reached));
-      series.y.push_back(bound.search_ms() / box.search_ms());
+      series.add(static_cast<double>(bound.walked.reached) / static_cast<double>(box.walked.reached),
+                 bound.search_ms() / box.search_ms());
     }
     figure.series.push_back(std::move(series));
   }
@@ -269,10 +235,8 @@ void add_distances(const bench::BenchScene& models, const ExperimentOptions& opt
                 false,
                 {}};
   ResultTable table{
-      "distance",
-      figure.title,
-      {{"edges", "distance, in mean edge lengths"}, {"near_leaf_pairs", "near leaf pairs, a frame"}},
-      {}};
+      "distance", figure.title,
+      columns_of({"edges: distance, in mean edge lengths", "near_leaf_pairs: near leaf pairs, a frame"})};
   bench::BenchScene scene = models;
   const double edge_length = models.distance;
   for (const double edges : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
@@ -285,12 +249,11 @@ void add_distances(const bench::BenchScene& models, const ExperimentOptions& opt
     for (std::size_t i = 0; i < all_bounds.size(); ++i) {
       const BoundMeasure bound = all_bounds[i](divided, {Cover::vertices, 1}, {});
       if (figure.series.size() <= i) {
-        figure.series.push_back({bound.bound, {}, {}, true, {}});
+        figure.series.push_back({bound.bound});
         table.columns.push_back({format("bound_%zu", i + 1), bound.bound});
       }
       const double ratio = static_cast<double>(bound.walked.reached) / static_cast<double>(near);
-      figure.series[i].x.push_back(edges);
-      figure.series[i].y.push_back(ratio);
+      figure.series[i].add(edges, ratio);
       row.emplace_back(ratio);
     }
     table.rows.push_back(std::move(row));
@@ -305,9 +268,8 @@ void check(const SceneResult& result, Study& study) {
   for (const BoundMeasure& bound : result.of_vertices)
     if (bound.near_found != result.near_pairs)
       study.violations.push_back(format("%s, %s: %llu of %llu near vertex pairs are in the leaves reached",
-                                        result.name.c_str(), bound.bound.c_str(),
-                                        static_cast<unsigned long long>(bound.near_found),
-                                        static_cast<unsigned long long>(result.near_pairs)));
+                                        result.name.c_str(), bound.bound.c_str(), number(bound.near_found),
+                                        number(result.near_pairs)));
 }
 
 std::string text_of(const std::vector<BesideBox>& all, const ComparisonScenes& scenes,

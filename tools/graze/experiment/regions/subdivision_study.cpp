@@ -7,7 +7,7 @@
 
 #include "experiment/regions/bound_measure.hpp"
 #include "experiment/regions/comparison_scenes.hpp"
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {
@@ -89,15 +89,9 @@ SceneResult measure_scene(const bench::BenchScene& scene, const ExperimentOption
 // Tables.
 
 ResultTable scene_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"scenes",
-                    "The scenes",
-                    {{"scene", "scene"},
-                     {"what", "what"},
-                     {"vertices", "vertices"},
-                     {"frames", "frames"},
-                     {"distance", "distance"},
-                     {"near_vertex_pairs", "near vertex pairs, a frame"}},
-                    {}};
+  ResultTable table{"scenes", "The scenes",
+                    columns_of({"scene", "what", "vertices", "frames", "distance",
+                                "near_vertex_pairs: near vertex pairs, a frame"})};
   for (const SceneResult& result : results)
     table.rows.push_back({result.name, result.what, result.vertices, std::uint64_t{result.frames},
                           result.distance, a_frame(result.near_pairs, result.frames)});
@@ -105,16 +99,9 @@ ResultTable scene_table(const std::vector<SceneResult>& results) {
 }
 
 ResultTable tree_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"trees",
-                    "The trees",
-                    {{"scene", "scene"},
-                     {"partition", "partition"},
-                     {"regions", "regions"},
-                     {"levels", "levels"},
-                     {"vertices_a_leaf", "vertices a leaf"},
-                     {"tree_kb", "tree, KB"},
-                     {"kb", "boxes, KB"}},
-                    {}};
+  ResultTable table{"trees", "The trees",
+                    columns_of({"scene", "partition", "regions", "levels", "vertices_a_leaf",
+                                "tree_kb: tree, KB", "kb: boxes, KB"})};
   for (const SceneResult& result : results)
     for (const DivisionResult& each : result.divisions)
       table.rows.push_back({result.name, each.name, each.regions, std::uint64_t{each.levels},
@@ -125,18 +112,14 @@ ResultTable tree_table(const std::vector<SceneResult>& results) {
 }
 
 ResultTable work_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"work",
-                    "Work a frame, with boxes and with the spheres of eq. 2",
-                    {{"scene", "scene"},
-                     {"partition", "partition"},
-                     {"near_leaf_pairs", "near leaf pairs"},
-                     {"box_tests", "region pairs tested, boxes"},
-                     {"box_leaf_pairs", "leaf pairs reached, boxes"},
-                     {"box_vertex_pairs", "vertex pairs in the leaves reached, boxes"},
-                     {"sphere_tests", "region pairs tested, spheres"},
-                     {"sphere_leaf_pairs", "leaf pairs reached, spheres"},
-                     {"sphere_vertex_pairs", "vertex pairs in the leaves reached, spheres"}},
-                    {}};
+  ResultTable table{
+      "work", "Work a frame, with boxes and with the spheres of eq. 2",
+      columns_of({"scene", "partition", "near_leaf_pairs", "box_tests: region pairs tested, boxes",
+                  "box_leaf_pairs: leaf pairs reached, boxes",
+                  "box_vertex_pairs: vertex pairs in the leaves reached, boxes",
+                  "sphere_tests: region pairs tested, spheres",
+                  "sphere_leaf_pairs: leaf pairs reached, spheres",
+                  "sphere_vertex_pairs: vertex pairs in the leaves reached, spheres"})};
   for (const SceneResult& result : results)
     for (const DivisionResult& each : result.divisions)
       table.rows.push_back({result.name, each.name, a_frame(each.near_leaf_pairs, result.frames),
@@ -150,11 +133,8 @@ ResultTable work_table(const std::vector<SceneResult>& results) {
 }
 
 ResultTable level_table(const std::vector<SceneResult>& results) {
-  ResultTable table{
-      "levels",
-      "Region pairs expanded a level, with boxes",
-      {{"scene", "scene"}, {"partition", "partition"}, {"level", "level"}, {"expanded", "a frame"}},
-      {}};
+  ResultTable table{"levels", "Region pairs expanded a level, with boxes",
+                    columns_of({"scene", "partition", "level", "expanded: a frame"})};
   table.shown = false;
   for (const SceneResult& result : results)
     for (const DivisionResult& each : result.divisions)
@@ -165,18 +145,10 @@ ResultTable level_table(const std::vector<SceneResult>& results) {
 }
 
 ResultTable time_table(const std::vector<SceneResult>& results) {
-  ResultTable table{"times",
-                    "Times: the build in ms, the rest in ms a frame",
-                    {{"scene", "scene"},
-                     {"partition", "partition"},
-                     {"build", "build, once"},
-                     {"update", "update, boxes"},
-                     {"walk", "walk, boxes"},
-                     {"leaves", "leaves, boxes"},
-                     {"step", "step, boxes"},
-                     {"sphere_update", "update, spheres"},
-                     {"sphere_step", "step, spheres"}},
-                    {}};
+  ResultTable table{"times", "Times: the build in ms, the rest in ms a frame",
+                    columns_of({"scene", "partition", "build: build, once", "update: update, boxes",
+                                "walk: walk, boxes", "leaves: leaves, boxes", "step: step, boxes",
+                                "sphere_update: update, spheres", "sphere_step: step, spheres"})};
   table.timed = true;
   for (const SceneResult& result : results)
     for (const DivisionResult& each : result.divisions) {
@@ -229,27 +201,20 @@ BesideOctree beside_octree(const std::vector<SceneResult>& results, std::size_t 
 ResultTable beside_table(const std::vector<BesideOctree>& all) {
   ResultTable table{"beside_octree",
                     "Work relative to the octree (octree = 1), geometric means over the scenes",
-                    {{"partition", "partition"},
-                     {"tests", "region pairs tested, boxes"},
-                     {"vertex_pairs", "vertex pairs in the leaves reached, boxes"},
-                     {"sphere_vertex_pairs", "vertex pairs in the leaves reached, spheres"},
-                     {"bytes", "memory, tree and boxes"}},
-                    {}};
+                    columns_of({"partition", "tests: region pairs tested, boxes",
+                                "vertex_pairs: vertex pairs in the leaves reached, boxes",
+                                "sphere_vertex_pairs: vertex pairs in the leaves reached, spheres",
+                                "bytes: memory, tree and boxes"})};
   for (const BesideOctree& each : all)
     table.rows.push_back({each.name, each.tests, each.vertex_pairs, each.sphere_vertex_pairs, each.bytes});
   return table;
 }
 
 ResultTable beside_time_table(const std::vector<BesideOctree>& all) {
-  ResultTable table{"times_beside_octree",
-                    "Time relative to the octree (octree = 1), geometric means over the scenes",
-                    {{"partition", "partition"},
-                     {"build", "build"},
-                     {"update", "update, boxes"},
-                     {"step", "step, boxes"},
-                     {"faster_scenes", "scenes with a faster step, boxes"},
-                     {"sphere_step", "step, spheres"}},
-                    {}};
+  ResultTable table{
+      "times_beside_octree", "Time relative to the octree (octree = 1), geometric means over the scenes",
+      columns_of({"partition", "build", "update: update, boxes", "step: step, boxes",
+                  "faster_scenes: scenes with a faster step, boxes", "sphere_step: step, spheres"})};
   table.timed = true;
   for (const BesideOctree& each : all)
     table.rows.push_back(
@@ -267,11 +232,9 @@ Figure frames_figure(const SceneResult& result, std::string name, std::string ti
     const DivisionResult& each = result.divisions[i];
     const bool has_full_leaves = i != octree && all_divisions[i].capacity == RegionTree::leaf_capacity;
     if (has_full_leaves) continue;
-    Series series{each.name, {}, {}, true, {}};
-    for (std::size_t frame = 0; frame < each.boxes.leaf_vertex_pairs_by_frame.size(); ++frame) {
-      series.x.push_back(static_cast<double>(frame));
-      series.y.push_back(static_cast<double>(each.boxes.leaf_vertex_pairs_by_frame[frame]));
-    }
+    Series series{each.name};
+    for (const std::uint64_t pairs : each.boxes.leaf_vertex_pairs_by_frame)
+      series.add(static_cast<double>(series.x.size()), static_cast<double>(pairs));
     figure.series.push_back(std::move(series));
   }
   return figure;
@@ -285,8 +248,7 @@ void check(const SceneResult& result, Study& study) {
       if (bound->near_found != result.near_pairs)
         study.violations.push_back(format(
             "%s, %s, %s: %llu of %llu near vertex pairs are in the leaves reached", result.name.c_str(),
-            each.name.c_str(), bound->bound.c_str(), static_cast<unsigned long long>(bound->near_found),
-            static_cast<unsigned long long>(result.near_pairs)));
+            each.name.c_str(), bound->bound.c_str(), number(bound->near_found), number(result.near_pairs)));
 }
 
 std::string text_of(const std::vector<BesideOctree>& all, const std::vector<SceneResult>& results,

@@ -6,14 +6,11 @@
 #include <vector>
 
 #include "check_failed.hpp"
-#include "experiment/report/report_csv.hpp"
-#include "experiment/report/report_html.hpp"
 #include "experiment/report/report_markdown.hpp"
-#include "experiment/report/text_file.hpp"
-#include "figure_plot.hpp"
-#include "gnuplot.hpp"
+#include "output/figure_plot.hpp"
+#include "output/html_page.hpp"
+#include "output/text_file.hpp"
 #include "progress.hpp"
-#include "text_format.hpp"
 
 namespace graze::tools {
 namespace {
@@ -69,8 +66,18 @@ void draw_all(std::span<const Study> studies, const std::filesystem::path& folde
   std::vector<Drawing> drawings;
   for (const Study& study : studies)
     for (const Figure& figure : study.figures)
-      drawings.push_back({&figure, folder / file_name(study, figure, extension)});
+      drawings.push_back({{&figure, 1}, folder / file_name(study, figure, extension)});
   draw(drawings);
+}
+
+/// Writes STUDY_TABLE.csv for each table, and STUDY_FIGURE.points.csv for each figure.
+void write_csv(const std::filesystem::path& folder, std::span<const Study> studies) {
+  for (const Study& study : studies) {
+    for (const ResultTable& table : study.tables)
+      write_text_file(folder / (study.name + "_" + table.name + ".csv"), csv_of(table));
+    for (const Figure& figure : study.figures)
+      write_text_file(folder / file_name(study, figure, ".points.csv"), csv_of(figure));
+  }
 }
 
 void write_page(const std::filesystem::path& out, std::span<const Study> studies, bool with_figures) {
@@ -105,9 +112,7 @@ void run_studies(std::span<const StudyMaker> makers, const ExperimentOptions& op
   write_csv(options.out, findings.studies);
   write_page(options.out, findings.studies, with_figures);
   if (!docs.empty()) write_document(docs, findings.studies, with_figures);
-  if (!findings.violations.empty())
-    throw CheckFailed(findings.violations.front() +
-                      format(" (%zu violations in all)", findings.violations.size()));
+  throw_violations(findings.violations);
 }
 
 }  // namespace graze::tools

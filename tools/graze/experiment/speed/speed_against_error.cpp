@@ -7,7 +7,7 @@
 
 #include "experiment/speed/speed_figures.hpp"
 #include "experiment/speed/speed_tables.hpp"
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {

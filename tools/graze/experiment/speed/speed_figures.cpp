@@ -26,8 +26,7 @@ Series front_of(const std::vector<Point>& points, bool less_is_better) {
   for (const Point& point : points) costs.push_back({point.x, less_is_better ? point.y : -point.y});
   Series front{"Pareto front", {}, {}, true, {}, false};
   for (const std::size_t i : pareto_front(costs)) {
-    front.x.push_back(points[i].x);
-    front.y.push_back(points[i].y);
+    front.add(points[i].x, points[i].y);
     front.labels.push_back(points[i].setting);
   }
   return front;
@@ -37,12 +36,9 @@ Series front_of(const std::vector<Point>& points, bool less_is_better) {
 std::vector<Series> series_of(const std::vector<Point>& points, bool less_is_better) {
   std::vector<Series> all = {front_of(points, less_is_better)};
   for (const ModeFamily family : families) {
-    Series series{title_of(family), {}, {}, false, {}};
+    Series series{title_of(family), {}, {}, false};
     for (const Point& point : points)
-      if (point.family == family) {
-        series.x.push_back(point.x);
-        series.y.push_back(point.y);
-      }
+      if (point.family == family) series.add(point.x, point.y);
     all.push_back(std::move(series));
   }
   return all;
@@ -125,25 +121,6 @@ SpeedMean mean_of(const std::vector<const SpeedMeasure*>& measures) {
 }
 
 }  // namespace
-
-std::string title_of(ModeFamily family) {
-  switch (family) {
-    case ModeFamily::exact:
-      return "exact";
-    case ModeFamily::within:
-      return "within(t)";
-    case ModeFamily::work_budget:
-      return "work budget";
-    case ModeFamily::time_budget:
-      return "time budget";
-    case ModeFamily::paper_formula:
-      return "paper, eq. 3 and 6";
-    case ModeFamily::paper_numbers:
-      return "paper, numbers";
-    default:
-      return "paper, last number too large";
-  }
-}
 
 std::vector<SpeedMean> means_of(std::span<const SpeedResults> scenes) {
   std::vector<SpeedMean> means;

@@ -22,8 +22,6 @@ struct SpeedMean {
 /// Settings that all scenes have, in the order of the first scene.
 std::vector<SpeedMean> means_of(std::span<const SpeedResults> scenes);
 
-std::string title_of(ModeFamily family);
-
 /// Time against error with the Pareto front: means over the scenes first, then each scene's.
 std::vector<Figure> speed_figures(std::span<const SpeedResults> scenes);
 

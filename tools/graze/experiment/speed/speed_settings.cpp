@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "text_format.hpp"
+#include "output/text.hpp"
 
 namespace graze::tools {
 namespace {

@@ -16,19 +16,12 @@ double mean_of(std::uint64_t sum, std::size_t count) {
 }
 
 ResultTable scene_table(std::span<const SpeedResults> scenes) {
-  ResultTable table{"scenes",
-                    "The scenes",
-                    {{"scene", "scene"},
-                     {"objects", "objects"},
-                     {"vertices", "vertices"},
-                     {"frames", "frames"},
-                     {"contact_distance", "contact distance"},
-                     {"edge_length", "mean edge length"},
-                     {"contacts_per_step", "contacts a step"},
-                     {"pairs_checked", "pairs of objects checked by brute force"},
-                     {"contacts_checked", "contacts of these pairs"},
-                     {"wrong", "of these pairs, wrong"}},
-                    {}};
+  ResultTable table{
+      "scenes", "The scenes",
+      columns_of({"scene", "objects", "vertices", "frames", "contact_distance",
+                  "edge_length: mean edge length", "contacts_per_step: contacts a step",
+                  "pairs_checked: pairs of objects checked by brute force",
+                  "contacts_checked: contacts of these pairs", "wrong: of these pairs, wrong"})};
   for (const SpeedResults& scene : scenes)
     table.rows.push_back({scene.title, std::uint64_t{scene.objects}, std::uint64_t{scene.vertices},
                           std::uint64_t{scene.frames}, scene.contact_distance, scene.edge_length,
@@ -38,24 +31,14 @@ ResultTable scene_table(std::span<const SpeedResults> scenes) {
 }
 
 ResultTable answer_table(std::span<const SpeedResults> scenes) {
-  ResultTable table{"answers",
-                    "What each setting answers",
-                    {{"scene", "scene"},
-                     {"question", "question"},
-                     {"mode", "mode"},
-                     {"setting", "setting"},
-                     {"pairs_complete", "pairs complete"},
-                     {"contacts_true", "true contacts"},
-                     {"contacts_reported", "contacts reported"},
-                     {"contacts_found", "true contacts reported"},
-                     {"recall", "recall"},
-                     {"precision", "precision"},
-                     {"contact_error", "missing or wrong"},
-                     {"distance_error_mean", "distance error, mean (edges)"},
-                     {"distance_error_largest", "distance error, largest (edges)"},
-                     {"bounds_width_mean", "width of bounds, mean (edges)"},
-                     {"region_pairs_per_step", "region pairs a step"}},
-                    {}};
+  ResultTable table{
+      "answers", "What each setting answers",
+      columns_of({"scene", "question", "mode", "setting", "pairs_complete", "contacts_true: true contacts",
+                  "contacts_reported", "contacts_found: true contacts reported", "recall", "precision",
+                  "contact_error: missing or wrong", "distance_error_mean: distance error, mean (edges)",
+                  "distance_error_largest: distance error, largest (edges)",
+                  "bounds_width_mean: width of bounds, mean (edges)",
+                  "region_pairs_per_step: region pairs a step"})};
   table.shown = false;
   for (const SpeedResults& scene : scenes)
     for (const SpeedMeasure& measure : scene.measures) {
@@ -73,10 +56,10 @@ ResultTable answer_table(std::span<const SpeedResults> scenes) {
 /// Returns the columns that show the errors of the answers to a question.
 std::vector<Column> error_columns(SpeedQuestion question) {
   if (question == SpeedQuestion::distances)
-    return {{"distance_error_mean", "distance error, mean (edges)"},
-            {"distance_error_largest", "distance error, largest (edges)"},
-            {"bounds_width_mean", "width of bounds, mean (edges)"}};
-  return {{"recall", "recall"}, {"precision", "precision"}, {"contact_error", "missing or wrong"}};
+    return columns_of({"distance_error_mean: distance error, mean (edges)",
+                       "distance_error_largest: distance error, largest (edges)",
+                       "bounds_width_mean: width of bounds, mean (edges)"});
+  return columns_of({"recall", "precision", "contact_error: missing or wrong"});
 }
 
 void add_errors(const SpeedMeasure& measure, std::vector<Cell>& row) {
@@ -105,10 +88,7 @@ ResultTable time_table(std::span<const SpeedResults> scenes, SpeedQuestion quest
   ResultTable table{
       std::string(word_of(question)) + (only_front ? "_front" : "_times"),
       question == SpeedQuestion::contacts ? "Contacts: the Pareto fronts" : "Distances: the Pareto fronts",
-      {{"scene", "scene"},
-       {"setting", "setting"},
-       {"ms", "ms a step"},
-       {"relative_ms", "time / exact mode's"}},
+      columns_of({"scene", "setting", "ms: ms a step", "relative_ms: time / exact mode's"}),
       {},
       true,
       only_front};
@@ -132,7 +112,7 @@ ResultTable mean_table(std::span<const SpeedResults> scenes, SpeedQuestion quest
   ResultTable table{std::string(word_of(question)) + "_means",
                     is_contacts ? "Contacts: means over all scenes (times: geometric means)"
                                 : "Distances: means over all scenes (times: geometric means)",
-                    {{"setting", "setting"}, {"relative_ms", "time / exact mode's"}},
+                    columns_of({"setting", "relative_ms: time / exact mode's"}),
                     {},
                     true};
   if (is_contacts) {

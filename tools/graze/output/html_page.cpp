@@ -1,4 +1,4 @@
-#include "experiment/report/report_html.hpp"
+#include "output/html_page.hpp"
 
 #include <md4c-html.h>
 

@@ -3,15 +3,18 @@
 #include <filesystem>
 #include <span>
 
-#include "figure.hpp"
+#include "output/figure.hpp"
 
 namespace graze::tools {
 
-/// A figure and the file that it is drawn into: an SVG or a PNG by its name.
+/// Figures that are drawn beside each other, and the file of the image: an SVG or a PNG by its name.
 struct Drawing {
-  const Figure* figure;
+  std::span<const Figure> panels;
   std::filesystem::path path;
 };
+
+/// Whether gnuplot, which draws figures, can be run.
+bool has_gnuplot();
 
 /// Draws with gnuplot on a white ground. On a logarithmic axis 0 is drawn a decade below all else, and marked
 /// so. Throws io::InputError where gnuplot fails.

@@ -1,4 +1,4 @@
-#include "experiment/report/text_file.hpp"
+#include "output/text_file.hpp"
 
 #include <fstream>
 #include <graze/io/error.hpp>
@@ -16,7 +16,7 @@ std::string read_text_file(const std::filesystem::path& path) {
 void write_text_file(const std::filesystem::path& path, const std::string& text) {
   std::ofstream stream(path, std::ios::binary);
   stream << text;
-  if (!stream.flush()) throw io::InputError(path.string() + ": cannot be written; name a folder that exists");
+  if (!stream.flush()) throw io::InputError(path.string() + ": could not be written to its end");
 }
 
 }  // namespace graze::tools

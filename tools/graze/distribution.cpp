@@ -1,4 +1,4 @@
-#include "stress/distribution.hpp"
+#include "distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
