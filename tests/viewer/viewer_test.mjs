@@ -4,6 +4,7 @@
 // CHROMIUM names the browser, and GRAZE_VIEWER_FOLDER the folder in which the viewer was built. Times are asserted unless the machine is busy or TIMES=print is set.
 
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { gzipSync } from 'node:zlib';
 import { availableParallelism, loadavg, tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -288,6 +289,139 @@ async function checkMarks(page) {
   await page.keyboard.press('Escape');
 }
 
+/** Faults of earlier pages: words that were cut off or hidden, and an empty picture. */
+async function checkLayout(page) {
+  await page.evaluate(() => window.graze.select(null));
+  await goTo(page, 41);
+  const settings = await page.textContent('#source');
+  check('settings are words', /accuracy paper 0.3, 0.2, 0.1/.test(settings), settings);
+  const colours = await page.evaluate(() => {
+    const track = document.getElementById('track');
+    const x = Math.round((41.5 / 96) * track.width) + 4;
+    const { data } = track.getContext('2d').getImageData(x, 0, 1, track.height);
+    return [...new Set(Array.from({ length: track.height }, (_, y) => data.slice(4 * y, 4 * y + 3).join()))];
+  });
+  check('stale frames and diagnostics have rows of their own', colours.includes('184,168,0') && colours.includes('90,100,112'), colours.join(' '));
+  const isHintShown = () => page.isVisible('[data-testid=plot-bounds] .hint');
+  check('without a pair the plot of its distance says so', await isHintShown());
+  await page.evaluate(() => window.graze.select('pair:4:90'));
+  check('and with one it does not', !(await isHintShown()));
+  const cut = await page.$$eval('.u-legend, .facts dt', (elements) =>
+    elements.filter((e) => e.scrollWidth > e.clientWidth).map((e) => e.textContent));
+  same('no name of a number is cut off', cut, []);
+  await checkLostObject(page);
+  const corner = await page.evaluate(() => new Promise((resolve) => {
+    const canvas = document.getElementById('view');
+    let calls = 0;
+    // It is called after the page's own observer, before the browser shows the frame.
+    new ResizeObserver(() => {
+      if (++calls < 2) return;
+      const gl = canvas.getContext('webgl2');
+      const pixel = new Uint8Array(4);
+      gl.readPixels(2, gl.drawingBufferHeight - 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      resolve([...pixel].join());
+    }).observe(canvas.parentElement);
+    requestAnimationFrame(() => requestAnimationFrame(() => document.body.classList.toggle('noplots')));
+  }));
+  await page.evaluate(() => document.body.classList.toggle('noplots'));
+  same('a picture of a new size is not shown empty', corner, '244,245,247,255');
+}
+
+/** An object of which no vertex is finite. */
+async function checkLostObject(page) {
+  await goTo(page, 44);
+  await page.evaluate(() => window.graze.select('object:90'));
+  const facts = (await inspect(page)).selection;
+  check('an object without a place has no box', facts.exists && !('box_low' in facts) && facts.vertices_not_finite.length > 0);
+  await page.keyboard.press('a');
+  await page.keyboard.press('v');
+  await page.waitForTimeout(400);
+  await drawn(page);
+  const before = await pixelsOf(page);
+  await press(page, 'set-diagnostics');
+  const changed = difference(before, await pixelsOf(page));
+  await press(page, 'set-diagnostics');
+  await page.keyboard.press('v');
+  check('its diagnostic is in the picture', changed > 50, `${changed} pixels`);
+  await page.evaluate(() => window.graze.select(null));
+}
+
+// ---- Keys ----
+
+/** All that a key can change, as text. */
+async function stateOf(page) {
+  return page.evaluate(() => {
+    const states = [...document.querySelectorAll('[aria-selected], [aria-pressed]')];
+    return JSON.stringify([
+      window.graze.link(), window.graze.drawn(), document.documentElement.dataset.theme, document.body.className,
+      document.getElementById('right').dataset.shown, states.map((e) => e.ariaSelected ?? e.ariaPressed),
+      document.getElementById('speed').value, document.getElementById('names').textContent, document.activeElement.id,
+      document.getElementById('help').open, document.getElementById('note').textContent,
+    ]);
+  });
+}
+
+/** Keys whose work is seen in the picture alone. */
+const SEEN_KEYS = ['r', 'Shift+c', '<', '>', 'b'];
+
+const LABELS = { ' ': 'Space', ArrowLeft: '←', ArrowRight: '→', ArrowUp: '↑', ArrowDown: '↓', Escape: 'Esc' };
+const labelOf = (key) => key === '+' ? key : key.split('+').map((part) => LABELS[part] ?? (part.length === 1 ? part.toUpperCase() : part)).join('+');
+
+/** Keys of time, and the frame after each, beginning at 52. */
+const TIME_KEYS = [['ArrowLeft', 51], ['ArrowRight', 52], ['PageUp', 42], ['PageDown', 52], ['Home', 0], ['End', 95]];
+
+/** Each of these changes something. Where the selection matters it stands beside the key. */
+const OTHER_KEYS = [
+  [' '], [' '], [','], ['.'], ['['], [']'], ['Shift+r'], ['Shift+r'], ['t'], ['t'],
+  ['f', 'pair:4:90'], ['a'], ['Shift+ArrowLeft'], ['Shift+ArrowRight'], ['Shift+ArrowUp'], ['Shift+ArrowDown'],
+  ['Alt+ArrowLeft'], ['Alt+ArrowRight'], ['Alt+ArrowUp'], ['Alt+ArrowDown'], ['+'], ['='], ['-'], ['_'], ['u'], ['u'], ['a'],
+  ['w'], ['w'], ['e'], ['e'], ['r'], ['r'], ['c'], ['Shift+c'], ['<'], ['>'], ['c'], ['k'], ['k'], ['m'], ['m'],
+  ['o', 'pair:4:90'], ['x'], ['l'], ['l'], ...[1, 2, 3, 4, 9, 1, 2, 3, 4, 9].map((level) => [`Alt+${level}`]),
+  ['d'], ['d'], ['b'], ['Shift+b'], ['b'], ['b'], ['n'], ['n'], ['i', 'object:4'], ['i'], ['h', 'object:4'], ['i'],
+  ['1'], ['3'], ['2'], ['ArrowDown'], ['j'], ['j'], ['ArrowUp'], ['Shift+j'], ['Escape'], ['/'], ['Escape'], ['p'], ['v'], ['v'],
+  ['y'], ['g'], ['g'], ['g'], ['?'], ['Escape'],
+];
+
+async function checkKeys(path) {
+  const page = await open(path);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const tested = new Set(['…', labelOf('Shift+o')]);
+  await goTo(page, 52);
+  const frames = [];
+  for (const [key, frame] of TIME_KEYS) {
+    await page.keyboard.press(key);
+    await page.waitForFunction((f) => window.graze.frame === f, frame, { timeout: 5000 }).catch(() => {});
+    frames.push([key, await page.evaluate(() => window.graze.frame)]);
+    tested.add(labelOf(key));
+  }
+  same('keys of time', frames, TIME_KEYS);
+  await goTo(page, 52);
+  const idle = [];
+  for (const [key, selection] of OTHER_KEYS) {
+    if (selection) await page.evaluate((s) => window.graze.select(s), selection);
+    const look = SEEN_KEYS.includes(key) ? pixelsOf : stateOf;
+    const before = await look(page);
+    await page.keyboard.press(key);
+    // Some work is done a little later, such as that of the clipboard.
+    let isChanged = false;
+    for (let i = 0; i < 40 && !isChanged; ++i) {
+      isChanged = before !== await look(page);
+      if (!isChanged) await page.waitForTimeout(50);
+    }
+    if (!isChanged) idle.push(key);
+    tested.add(labelOf(key));
+  }
+  same('each key changes something', idle, []);
+  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.keyboard.press('Shift+o')]);
+  check('a key asks for a file', chooser !== null);
+  await page.keyboard.press('?');
+  const told = await page.$$eval('#help .columns section', (sections) => sections.slice(1).flatMap((section) =>
+    [...section.querySelectorAll('dt')].flatMap((dt) => dt.textContent.split(' '))));
+  same('all keys of the help page are tested', told.filter((key) => !tested.has(key)), []);
+  same('no console error after all keys', page.errors, []);
+  await page.close();
+}
+
 async function checkLink(page, path) {
   await goTo(page, 33);
   await page.evaluate(() => window.graze.select('object:6'));
@@ -317,8 +451,31 @@ async function checkFile(made) {
   await page.setInputFiles('[data-testid=file]', write('bad.grazeview', Buffer.from('no such file')));
   await page.waitForFunction(() => /not a .grazeview/.test(document.getElementById('note').textContent));
   check('a bad file is refused with a reason', true);
+  await checkDrop(page, made);
   same('no console error without data', page.errors, []);
   await page.close();
+}
+
+/** Drops a file on the page as a pointer does. */
+async function checkDrop(page, made) {
+  const drop = (name, bytes) => page.evaluate(([fileName, base64]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], fileName));
+    const send = (type) => document.getElementById('view').dispatchEvent(
+      new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+    send('dragover');
+    const isMarked = document.body.classList.contains('dropping');
+    send('drop');
+    return isMarked && !document.body.classList.contains('dropping');
+  }, [name, bytes.toString('base64')]);
+  const other = new Map(made.chunks);
+  other.set('head', gzipSync(JSON.stringify({ ...made.head, title: 'dropped' })));
+  check('the page shows where a file may fall', await drop('dropped.grazeview', viewFile(other)));
+  await page.waitForFunction(() => document.getElementById('title').textContent === 'dropped');
+  check('a file that is dropped opens', (await drawn(page)).surfaces > 0);
+  await drop('wrong.grazeview', Buffer.from('no such file'));
+  await page.waitForFunction(() => /^wrong.grazeview: .*not a .grazeview/.test(document.getElementById('note').textContent));
+  same('a bad file leaves the page as it is', await page.textContent('[data-testid=title]'), 'dropped');
 }
 
 // ---- Large pages ----
@@ -416,10 +573,12 @@ try {
     await checkLines(page, made);
     await checkNumbers(page, made);
     await checkMarks(page);
+    await checkLayout(page);
     await checkLink(page, path);
     await checkSchemes(page);
     same('no console error', page.errors, []);
     await page.close();
+    await checkKeys(path);
     await checkFile(made);
     await checkLarge('1,000 frames of 10,000 vertices', longScene(), 4, { size: 60, open: 2000, seek: 50, seeks: 15 });
     await checkLarge('2 × 100,000 vertices', largeScene(), 1, { size: 60, seeks: 4 });

@@ -31,6 +31,18 @@ export function diagnosticPlace(object: ObjectState): [number, number, number] {
   return count ? (sum.map((x) => x / count) as [number, number, number]) : object.centre();
 }
 
+/** Where an object is shown that has no good vertex: at a witness of its pairs, which are still of its last good positions. */
+function lastKnownPlace(stage: Stage, object: number): ArrayLike<number> {
+  const { report } = stage.viewer;
+  for (const pair of report?.pairs() ?? []) {
+    const { pairA, pairB, witnessPoints } = report!.block;
+    const side = [pairA[pair], pairB[pair]].indexOf(object);
+    const at = 6 * pair + 3 * side;
+    if (side >= 0 && Number.isFinite(witnessPoints[at])) return witnessPoints.subarray(at, at + 3);
+  }
+  return stage.sceneBounds().isEmpty ? stage.origin : stage.sceneBounds().centre();
+}
+
 export class ContactsLayer implements Layer {
   /** The contacts that are drawn, as rows of the report, in the order of `places`. */
   shown: [contact: number, pair: number][] = [];
@@ -97,7 +109,8 @@ export class ContactsLayer implements Layer {
     for (const diagnostic of report?.diagnostics ?? []) {
       const object = diagnostic.object === null ? undefined : page!.objects[diagnostic.object];
       if (!object?.isThere) continue;
-      this.warnings.add(stage.local(diagnosticPlace(object)), palette().warning, SHAPE.warning, 30);
+      const place = object.hasBox ? diagnosticPlace(object) : lastKnownPlace(stage, object.index);
+      this.warnings.add(stage.local(place), palette().warning, SHAPE.warning, 30);
     }
   }
 }

@@ -28,7 +28,7 @@ export function objectFacts(viewer: Viewer, index: number): Facts {
     type: 'object', name: object.name, serial: object.serial, motion: object.motion, exists: state.isThere,
     frames: [object.first, object.last], user_data: object.user_data, position_error: object.position_error,
     vertices: mesh.vertices, edges: mesh.edges, triangles: mesh.triangles, quads: mesh.quads, levels: mesh.levels,
-    ...(state.isThere ? { box_low: [...state.low], box_high: [...state.high] } : {}),
+    ...(state.isThere && state.hasBox ? { box_low: [...state.low], box_high: [...state.high] } : {}),
     ...(state.notFinite.length ? { vertices_not_finite: state.notFinite.slice(0, 50) } : {}),
   };
 }

@@ -15,7 +15,7 @@ export function fillHelp(dialog: HTMLDialogElement): void {
   const groups = new Map<string, [string, string][]>([['Pointer', MOUSE]]);
   for (const command of commands()) {
     const list = groups.get(command.group) ?? [];
-    list.push([command.keys.map(keyName).join(' '), command.text]);
+    list.push([command.keysText ?? command.keys.map(keyName).join(' '), command.text]);
     groups.set(command.group, list);
   }
   dialog.replaceChildren(

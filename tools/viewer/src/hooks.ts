@@ -45,7 +45,7 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
       stage.draw();
       return {
         contacts: stage.contacts.shown.length, normals: stage.contacts.normalCount, warnings: stage.contacts.warningCount,
-        lines: stage.lines.counts(), bounds: stage.lines.boundCount, highlights: stage.highlight.count,
+        lines: stage.lines.counts(), hiddenLevels: [...viewer.display.hiddenLevels], bounds: stage.lines.boundCount, highlights: stage.highlight.count,
         surfaces: stage.surfaces.filter((s) => s.object.visible).length, rows: lists.rows.length,
         isPlaying: player.isPlaying, selection: viewer.selection && selectionText(viewer, viewer.selection),
       };

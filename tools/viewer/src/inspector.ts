@@ -9,6 +9,8 @@ const LABELS: Record<string, string> = { type: '', a: 'a', b: 'b' };
 /** These are in the heading already. */
 const IN_HEADING = new Set(['type', 'kind', 'name', 'a', 'b', 'object', 'serial', 'serial_a', 'serial_b']);
 
+const LONG_TEXT = 60;
+
 export class Inspector {
   readonly element = h('div', { id: 'inspector', 'data-testid': 'inspector' });
 
@@ -115,8 +117,10 @@ function text(fact: Fact): string {
 
 function addRow(table: HTMLElement, key: string, value: string, axis = '', id = key): void {
   const label = LABELS[key] ?? key.replaceAll('_', ' ');
+  // A long text has lines of its own, so that the names of numbers keep their width.
+  const width = value.length > LONG_TEXT ? 'long' : '';
   table.append(
-    h('dt', {}, label),
-    h('dd', {}, axis && h('i', {}, axis), h('output', {
+    h('dt', { class: width }, label),
+    h('dd', { class: width }, axis && h('i', {}, axis), h('output', {
       'data-fact': id, title: `${value}\nClick to copy`, click: () => void copy(value) }, value)));
 }

@@ -2,9 +2,11 @@
 
 export interface Command {
   keys: string[];
+  /** What help has in place of the keys, where they are many. */
+  keysText?: string;
   group: string;
   text: string;
-  run: () => void;
+  run: (key: string) => void;
 }
 
 let all: Command[] = [];
@@ -43,6 +45,6 @@ export function listenForKeys(): void {
     const command = all.find((c) => c.keys.includes(name));
     if (!command) return;
     event.preventDefault();
-    command.run();
+    command.run(name);
   });
 }

@@ -64,7 +64,8 @@ export class LinesLayer implements Layer {
     for (const pair of this.pairs(stage)) {
       const { block } = stage.viewer.report!;
       const alpha = this.alpha(stage, pair) * this.strength;
-      for (let r = block.regionBegin[pair]!; r < block.regionEnd[pair]!; ++r) {
+      // Lines of a pair are sorted by level. The few of level 1 are drawn last, over the many of deeper levels.
+      for (let r = block.regionEnd[pair]! - 1; r >= block.regionBegin[pair]!; --r) {
         const level = block.regionLevels[r]!;
         if (hiddenLevels.has(level)) continue;
         const [a, b] = [stage.local(block.regionPoints, 6 * r), stage.local(block.regionPoints, 6 * r + 3)];

@@ -69,11 +69,18 @@ function showTitle(): void {
   const { head } = viewer.page!;
   document.title = `${head.title} – graze`;
   byId('title').textContent = head.title;
-  const settings = Object.entries(head.settings).map(([key, value]) => `${key.replaceAll('_', ' ')} ${String(value)}`).join(' · ');
+  const settings = Object.entries(head.settings).map(([key, value]) => `${key.replaceAll('_', ' ')} ${settingText(value)}`).join(' · ');
   byId('source').textContent = settings;
   byId('source').title = `${head.source} · graze ${head.graze} · ${head.frames} frames of ${head.source_frames}\n${settings}`;
   document.body.classList.add('loaded');
   byId('empty').replaceChildren();
+}
+
+/** A setting as words: {"paper": [24, 14, 8]} is "paper 24, 14, 8". */
+function settingText(value: unknown): string {
+  if (Array.isArray(value)) return value.map(settingText).join(', ');
+  if (value === null || typeof value !== 'object') return String(value);
+  return Object.entries(value).map(([key, part]) => `${key} ${settingText(part)}`.trim()).join(', ');
 }
 
 function flip(name: { [K in keyof Display]: Display[K] extends boolean ? K : never }[keyof Display]): void {
@@ -157,8 +164,6 @@ function cameraCommands(): Command[] {
 function viewCommands(): Command[] {
   const group = 'View';
   const { display } = viewer;
-  const levels = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((level): Command => ({
-    group, keys: [`Alt+${level}`], text: `lines of level ${level}`, run: () => toggleLevel(viewer, level) }));
   return [
     { group, keys: ['w'], text: 'wireframe', run: () => flip('surfaces') },
     { group, keys: ['e'], text: 'edges', run: () => flip('edges') },
@@ -180,7 +185,8 @@ function viewCommands(): Command[] {
     } },
     { group, keys: ['x'], text: 'take all filters away', run: () => resetFilter(viewer) },
     { group, keys: ['l'], text: 'lines between middle vertices', run: () => flip('lines') },
-    ...levels.slice(0, 3),
+    { group, keys: [1, 2, 3, 4, 5, 6, 7, 8, 9].map((level) => `Alt+${level}`), keysText: 'Alt+1 … Alt+9', text: 'lines of this level',
+      run: (key) => toggleLevel(viewer, Number(key.at(-1))) },
     { group, keys: ['d'], text: 'witnesses of pairs', run: () => flip('witnesses') },
     { group, keys: ['b'], text: 'bounds of regions', run: () => {
       display.bounds = nextOf(['off', 'circles', 'spheres'] as const, display.bounds);

@@ -145,6 +145,11 @@ export class ObjectState {
     return [this.world[3 * v]!, this.world[3 * v + 1]!, this.world[3 * v + 2]!];
   }
 
+  /** False where no vertex is finite. */
+  get hasBox(): boolean {
+    return this.low[0]! <= this.high[0]!;
+  }
+
   centre(): [number, number, number] {
     return [0, 1, 2].map((k) => (this.low[k]! + this.high[k]!) / 2) as [number, number, number];
   }

@@ -42,7 +42,7 @@ export class Plots {
       { title: 'ms', id: 'ms', lines: [
         { label: 'step', colour: neutral, values: series('step_ms') },
         ...STAGES.map((stage, i) => ({ label: stage.replace('_ms', ''), colour: STAGE_COLOURS[i]!, values: series(stage) }))] },
-      { title: 'Distance of the pair', id: 'bounds', lines: [
+      { title: 'Pair distance', id: 'bounds', lines: [
         { label: 'lower', colour: selected, values: this.bounds[0] },
         { label: 'upper', colour: second, values: this.bounds[1] }] },
     ];
@@ -55,7 +55,9 @@ export class Plots {
     this.element.replaceChildren();
     const frames = this.viewer.page.head.frame_numbers.map((_, f) => f);
     for (const plot of this.plots()) {
-      const box = h('div', { class: 'plot', 'data-testid': `plot-${plot.id}` });
+      const isUnasked = plot.id === 'bounds' && this.viewer.selectedPair() === null;
+      const box = h('div', { class: `plot${isUnasked ? ' unasked' : ''}`, 'data-testid': `plot-${plot.id}` });
+      if (plot.id === 'bounds') box.append(h('p', { class: 'hint' }, 'Select a pair or a contact'));
       this.element.append(box);
       this.charts.push(this.chart(plot, frames, box));
     }
@@ -76,7 +78,8 @@ export class Plots {
       series: [{ label: plot.title, value: (_, frame) => frame === null ? '' : String(frame) }, ...plot.lines.map((line) => ({
         label: line.label, stroke: line.colour, width: 1.25, points: { show: false },
         // Six values do not fit; those of the stages are in the inspector.
-        value: (_: uPlot, value: number | null) => value === null || (plot.id === 'ms' && line.label !== 'step') ? '' : short(value) }))],
+        value: (_: uPlot, value: number | null) => value === null ? '' : plot.id !== 'ms' ? short(value) :
+          line.label === 'step' ? String(Number(value.toPrecision(3))) : '' }))],
       hooks: { ready: [(chart) => this.listen(chart)] },
     };
     const data = [frames, ...plot.lines.map((line) => line.values.length ? line.values : frames.map(() => null))];
@@ -152,6 +155,7 @@ export class Plots {
     const chart = this.charts[3];
     if (!chart) return;
     chart.setData([chart.data[0]!, ...this.bounds] as uPlot.AlignedData);
+    this.element.children[3]!.classList.toggle('unasked', this.viewer.selectedPair() === null);
     this.mark();
   }
 }

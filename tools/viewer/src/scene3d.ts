@@ -234,7 +234,9 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.eye.camera.aspect = width / height;
     this.eye.camera.updateProjectionMatrix();
-    this.refresh();
+    // A new size empties the canvas. It is drawn before the browser shows it.
+    this.isStale = true;
+    this.draw();
   }
 
   private resizeLayers(): void {

@@ -5,7 +5,7 @@ import { palette, PHASE_COLOURS } from './palette';
 import { SPEEDS, type Player } from './player';
 import type { Viewer } from './viewer';
 
-interface Lane { name: string; colour: () => string; test: (frame: number) => boolean; row: number }
+interface Lane { name: string; colour: () => string; test: (frame: number) => boolean }
 
 export class Timeline {
   readonly element = h('div', { id: 'timeline' });
@@ -76,12 +76,12 @@ export class Timeline {
     const diverged = new Set(head.diverged ?? []);
     const has = (name: keyof typeof head.series) => (f: number) => (head.series[name]?.[f] ?? 0) > 0;
     return [
-      { name: 'began', colour: () => PHASE_COLOURS[1]!, test: has('began'), row: 0 },
-      { name: 'ended', colour: () => PHASE_COLOURS[3]!, test: has('ended'), row: 1 },
-      { name: 'incomplete', colour: () => '#cc79a7', test: (f) => has('incomplete')(f) || has('contacts_cut')(f), row: 2 },
-      { name: 'stale', colour: () => palette().neutral, test: has('stale'), row: 2 },
-      { name: 'diagnostics', colour: () => '#b8a800', test: has('diagnostics'), row: 2 },
-      { name: 'DIVERGED', colour: () => palette().warning, test: (f) => diverged.has(f), row: 3 },
+      { name: 'began', colour: () => PHASE_COLOURS[1]!, test: has('began') },
+      { name: 'ended', colour: () => PHASE_COLOURS[3]!, test: has('ended') },
+      { name: 'incomplete', colour: () => '#cc79a7', test: (f) => has('incomplete')(f) || has('contacts_cut')(f) },
+      { name: 'stale', colour: () => palette().neutral, test: has('stale') },
+      { name: 'diagnostics', colour: () => '#b8a800', test: has('diagnostics') },
+      { name: 'DIVERGED', colour: () => palette().warning, test: (f) => diverged.has(f) },
     ];
   }
 
@@ -108,13 +108,14 @@ export class Timeline {
     this.marks.height = height;
     const pen = this.marks.getContext('2d')!;
     const used = this.lanes().filter((lane) => head.frame_numbers.some((_, f) => lane.test(f)));
-    const size = height / 4;
-    for (const lane of used) {
+    // Each kind has a row of its own, so that none hides another.
+    const size = height / Math.max(4, used.length);
+    for (const [row, lane] of used.entries()) {
       pen.fillStyle = lane.colour();
       const least = lane.name === 'DIVERGED' ? 4 * ratio : 2 * ratio;
       const wide = Math.max(least, width / head.frames - ratio);
       for (let f = 0; f < head.frames; ++f)
-        if (lane.test(f)) pen.fillRect(((f + 0.5) * width) / head.frames - wide / 2, lane.row * size + ratio, wide, size - 2 * ratio);
+        if (lane.test(f)) pen.fillRect(((f + 0.5) * width) / head.frames - wide / 2, row * size + ratio, wide, size - 2 * ratio);
     }
     this.keys.replaceChildren(...used.map((lane) => h('span', { class: 'key' },
       h('i', { class: 'swatch square', style: `--c:${lane.colour()}` }), lane.name)));

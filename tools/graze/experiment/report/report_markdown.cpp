@@ -74,6 +74,29 @@ a quarter of a unit, all would stand still from there on.
 The motion is made once, rounded to multiples of 2⁻¹⁴, and every setting plays the same one. The command writes it as scene
 files that `graze run` plays.
 
+<a id="pictures"></a>
+
+## The paper's figures 7 and 8
+
+graze's viewer draws these figures anew. A line joins the middle vertices of two regions that pass eq. 4. Its colour is
+their level: red for level 1, green for level 2, blue for level 3. The numbers below the picture count the lines.
+
+| picture | ε of level 1, of level 2, and last ε | row |
+| :-- | :-- | :-- |
+| two pawns | 24, 14, 8 | row 3 of table 2 |
+| three humans and a torus: between humans | 25, 15, 10 | row 3 of table 3 |
+| three humans and a torus: between a human and the torus | 35, 30, 10 | row 3 of table 3 |
+
+The two pawns are models of experiment 1, put near each other. The humans and the torus are those of experiment 2, played
+in 40 steps instead of 200, in frame 14. One command makes both pictures anew, in about a minute. It needs Chromium, and a
+graze that was built with the viewer:
+
+    node docs/experiments/make_pictures.mjs build/release/tools/graze/graze
+
+![Two pawns: red, green and blue lines join their heads and their feet](experiments/viewer_pawns.png)
+
+![Three humans and a torus: red, green and blue lines join the torus and the heads of two of them](experiments/viewer_humans.png)
+
 ## Studies
 
 )";
