@@ -52,7 +52,9 @@ TEST_CASE("recording: a run is recorded, replayed and described") {
   CHECK(run_graze({"replay", recorded.file, "--instruction-set", "scalar", "--from", "13"}).exit_code == 0);
   const ProgramResult info = run_graze({"info", recorded.file});
   CHECK(info.exit_code == 0);
-  CHECK_THAT(info.out, Contains("40 frames") && Contains("frames     1 to 40, 1 keyframes, 0 dropped"));
+  CHECK_THAT(info.out,
+             Contains("40 frames") &&
+                 Contains("frames     0 to 39, steps 1 to 40 of the scene, 1 keyframes, 0 dropped"));
   CHECK_THAT(info.out, Contains("1 \"spike\", ") && Contains("objects    3 in the last frame"));
 }
 

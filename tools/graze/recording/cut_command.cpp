@@ -57,9 +57,8 @@ void print_answer(const std::string& file) {
   Replay replay(recording);
   while (replay.step())
     if (const auto& difference = replay.difference()) {
-      std::printf("a replay differs in frame %llu: %s\n  recorded  %s\n  replayed  %s\n",
-                  number(difference->frame), difference->pair.c_str(), difference->recorded.c_str(),
-                  difference->replayed.c_str());
+      std::printf("a replay differs in frame %zu: %s\n  recorded  %s\n  replayed  %s\n", replay.frame_index(),
+                  difference->pair.c_str(), difference->recorded.c_str(), difference->replayed.c_str());
       return;
     }
   std::printf("a replay answers as it was recorded\n");

@@ -20,10 +20,10 @@ struct FrameSums {
   std::size_t incomplete = 0;
   std::uint64_t diagnostics = 0;
   std::uint64_t most_contacts = 0;
-  std::uint64_t frame_of_most_contacts = 0;
+  std::size_t frame_of_most_contacts = 0;
   std::vector<double> step_ms;
 
-  void add(const RecordedFrame& frame) {
+  void add(const RecordedFrame& frame, std::size_t index) {
     if (frame.has_keyframe) ++keyframes;
     dropped += frame.dropped_before;
     if (!frame.complete) ++incomplete;
@@ -31,7 +31,7 @@ struct FrameSums {
     step_ms.push_back(frame.step_ms);
     if (frame.contacts <= most_contacts) return;
     most_contacts = frame.contacts;
-    frame_of_most_contacts = frame.frame;
+    frame_of_most_contacts = index;
   }
 };
 
@@ -43,14 +43,16 @@ void print_settings(const SceneSettings& settings) {
 
 void print_frames(const Recording& recording) {
   FrameSums sums;
-  for (std::size_t index = 0; index < recording.frame_count(); ++index) sums.add(recording.frame(index));
+  for (std::size_t index = 0; index < recording.frame_count(); ++index)
+    sums.add(recording.frame(index), index);
   if (sums.step_ms.empty()) return;
   std::sort(sums.step_ms.begin(), sums.step_ms.end());
-  std::printf("  frames     %llu to %llu, %zu keyframes, %llu dropped\n", number(recording.frame(0).frame),
+  std::printf("  frames     0 to %zu, steps %llu to %llu of the scene, %zu keyframes, %llu dropped\n",
+              recording.frame_count() - 1, number(recording.frame(0).frame),
               number(recording.frame(recording.frame_count() - 1).frame), sums.keyframes,
               number(sums.dropped));
-  std::printf("  contacts   at most %llu, in frame %llu\n", number(sums.most_contacts),
-              number(sums.frame_of_most_contacts));
+  std::printf("  contacts   at most %llu, in frame %zu\n", number(sums.most_contacts),
+              sums.frame_of_most_contacts);
   std::printf("  steps      median %.3f ms, worst %.3f ms, %zu incomplete\n",
               sums.step_ms[sums.step_ms.size() / 2], sums.step_ms.back(), sums.incomplete);
   std::printf("  problems   %llu diagnostics\n", number(sums.diagnostics));

@@ -52,6 +52,7 @@ void replay(const ReplayOptions& options) {
   std::size_t differing = 0;
   std::size_t rows_not_compared = 0;
   std::optional<ReplayDifference> first;
+  std::size_t first_index = 0;
   Progress progress("frame", recording.frame_count());
   while (replayed.step()) {
     progress.at(replayed.frame_index());
@@ -59,7 +60,9 @@ void replay(const ReplayOptions& options) {
     rows_not_compared += replayed.rows_not_compared();
     if (!replayed.difference()) continue;
     ++differing;
-    if (!first) first = replayed.difference();
+    if (first) continue;
+    first = replayed.difference();
+    first_index = replayed.frame_index();
   }
   std::printf("%s: %zu frames, recorded by graze %s\n", options.file.c_str(), recording.frame_count(),
               recording.made_by().c_str());
@@ -70,12 +73,10 @@ void replay(const ReplayOptions& options) {
     std::printf("%zu frames answered again, all the same\n", compared);
     return;
   }
-  std::printf("DIVERGED in %zu of %zu frames, first in frame %llu: %s\n  recorded  %s\n  replayed  %s\n",
-              differing, compared, number(first->frame),
-              first->pair.empty() ? "diagnostics" : first->pair.c_str(), first->recorded.c_str(),
-              first->replayed.c_str());
-  throw CheckFailed(
-      format("%s: the replay differs from frame %llu on", options.file.c_str(), number(first->frame)));
+  std::printf("DIVERGED in %zu of %zu frames, first in frame %zu: %s\n  recorded  %s\n  replayed  %s\n",
+              differing, compared, first_index, first->pair.empty() ? "diagnostics" : first->pair.c_str(),
+              first->recorded.c_str(), first->replayed.c_str());
+  throw CheckFailed(format("%s: the replay differs from frame %zu on", options.file.c_str(), first_index));
 }
 
 }  // namespace
