@@ -74,7 +74,10 @@ a quarter of a unit, all would stand still from there on.
 The motion is made once, rounded to multiples of 2⁻¹⁴, and every setting plays the same one. The command writes it as scene
 files that `graze run` plays.
 
-<a id="pictures"></a>
+)";
+
+const char* pictures_of_viewer =
+    R"(<a id="pictures"></a>
 
 ## The paper's figures 7 and 8
 
@@ -96,8 +99,6 @@ graze that was built with the viewer:
 ![Two pawns: red, green and blue lines join their heads and their feet](experiments/viewer_pawns.png)
 
 ![Three humans and a torus: red, green and blue lines join the torus and the heads of two of them](experiments/viewer_humans.png)
-
-## Studies
 
 )";
 
@@ -127,8 +128,10 @@ std::string section_of(const Study& study, const ImageOf& image_of) {
 
 }  // namespace
 
-std::string markdown_of(std::span<const Study> studies, const ImageOf& image_of) {
+std::string markdown_of(std::span<const Study> studies, const ImageOf& image_of, Pictures pictures) {
   std::string text = introduction;
+  if (pictures == Pictures::of_viewer_too) text += pictures_of_viewer;
+  text += "## Studies\n\n";
   for (const Study& study : studies) text += "- [" + markdown_text(study.title) + "](#" + study.name + ")\n";
   text += "\n";
   for (const Study& study : studies) text += section_of(study, image_of);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -12,8 +13,14 @@ namespace graze::tools {
 /// no image and is left out.
 using ImageOf = std::function<std::string(const Study&, const Figure&)>;
 
+/// Which pictures a page has.
+enum class Pictures : std::uint8_t {
+  of_studies,
+  of_viewer_too,  ///< those that docs/experiments/make_pictures.mjs makes, in the folder `experiments`
+};
+
 /// The page of some studies: contents, and for each study its text, claims beside what was measured, tables
 /// that are shown, and figures.
-std::string markdown_of(std::span<const Study> studies, const ImageOf& image_of);
+std::string markdown_of(std::span<const Study> studies, const ImageOf& image_of, Pictures pictures);
 
 }  // namespace graze::tools

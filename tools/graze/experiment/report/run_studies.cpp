@@ -83,19 +83,26 @@ void write_csv(const std::filesystem::path& folder, std::span<const Study> studi
 void write_page(const std::filesystem::path& out, std::span<const Study> studies, bool with_figures) {
   const std::filesystem::path figures = out / "figures";
   if (with_figures) draw_all(studies, figures, ".svg");
-  const std::string page = markdown_of(studies, [&](const Study& study, const Figure& figure) {
-    if (!with_figures) return std::string();
-    return data_address_of(read_text_file(figures / file_name(study, figure, ".svg")));
-  });
+  const std::string page = markdown_of(
+      studies,
+      [&](const Study& study, const Figure& figure) {
+        if (!with_figures) return std::string();
+        return data_address_of(read_text_file(figures / file_name(study, figure, ".svg")));
+      },
+      Pictures::of_studies);
   write_text_file(out / "experiments.html", html_of(page, page_title));
 }
 
 void write_document(const std::filesystem::path& docs, std::span<const Study> studies, bool with_figures) {
   if (with_figures) draw_all(studies, docs / "experiments", ".png");
-  write_text_file(docs / "experiments.md",
-                  markdown_of(studies, [&](const Study& study, const Figure& figure) {
-                    return with_figures ? "experiments/" + file_name(study, figure, ".png") : std::string();
-                  }));
+  write_text_file(docs / "experiments.md", markdown_of(
+                                               studies,
+                                               [&](const Study& study, const Figure& figure) {
+                                                 return with_figures ? "experiments/" +
+                                                                           file_name(study, figure, ".png")
+                                                                     : std::string();
+                                               },
+                                               Pictures::of_viewer_too));
 }
 
 }  // namespace
