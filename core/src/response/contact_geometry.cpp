@@ -54,22 +54,23 @@ ClosestPoints closest_to_face(const Eigen::Vector3d& point, const PlacedFeature&
   return {point, point - gap, -gap, is_interior};
 }
 
+/// Whether points serve better as the closest ones of two faces.
+bool is_better(const ClosestPoints& found, const ClosestPoints& best) {
+  if (found.are_interior != best.are_interior) return found.are_interior;
+  return found.gap.squaredNorm() < best.gap.squaredNorm();
+}
+
 /// Points inside both come before nearer ones that are not: first where the segment pierces the face, then
 /// where it is closest to the inner diagonal.
 ClosestPoints closest_to_face(const Segment& segment, const PlacedFeature& face) {
   ClosestPoints best = closest_of_segment_and_triangle(segment, face.triangle(0));
   if (!face.is_quad() || best.are_interior) return best;
   const ClosestPoints second = closest_of_segment_and_triangle(segment, face.triangle(1));
-  if (second.are_interior) return second;
+  if (is_better(second, best)) best = second;
+  if (best.are_interior) return best;
   const ClosestPoints fold = closest_of_segments(segment, face.diagonal());
-  if (fold.are_interior) return fold;
-  return second.gap.squaredNorm() < best.gap.squaredNorm() ? second : best;
-}
-
-/// Whether points serve better as the closest ones of two faces.
-bool is_better(const ClosestPoints& found, const ClosestPoints& best) {
-  if (found.are_interior != best.are_interior) return found.are_interior;
-  return found.gap.squaredNorm() < best.gap.squaredNorm();
+  if (fold.are_interior) best = fold;
+  return best;
 }
 
 /// Of the closest points of two faces one is on an edge or on an inner diagonal.
