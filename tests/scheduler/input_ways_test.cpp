@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sanitizers.hpp"
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
@@ -17,6 +18,11 @@ namespace graze::tests {
 namespace {
 
 constexpr std::size_t count = 10;
+#ifdef GRAZE_HAS_ADDRESS_SANITIZER
+constexpr int step_count = 40;  // with all it would be the longest of the sanitizer's tests
+#else
+constexpr int step_count = 120;
+#endif
 
 enum class Way : std::uint8_t { bound, told, copied, copied_with_gaps, posed };
 
@@ -121,7 +127,7 @@ void compare_ways(const SceneSettings& settings, const std::vector<Way>& ways) {
   oracle::Random random(5);
   std::size_t contacts = 0;
   std::size_t surveyed = 0;
-  for (int step = 0; step < 120; ++step) {
+  for (int step = 0; step < step_count; ++step) {
     motions.advance();
     const std::size_t replaced = random.chance(0.1) ? random.below(count) : count;
     std::vector<ReportHandle> reports;
