@@ -5,7 +5,6 @@ set -eu
 cd "$(dirname "$0")/.."
 
 log=build/demo/build.log
-began=$(date +%s)
 
 # The last step that the build says it has finished, such as 12/31.
 finished_steps() {
@@ -15,7 +14,8 @@ finished_steps() {
 # One line that is written over on a terminal, and a line every 15 s elsewhere.
 show_progress() {
   seconds=$(($(date +%s) - began))
-  text="building graze: $(finished_steps) steps, $seconds s"
+  steps=$(finished_steps)
+  text="building graze: ${steps:-no} steps, $seconds s"
   if [ -t 1 ]; then
     printf '\r%s ' "$text"
   elif [ $((seconds % 15)) -eq 0 ]; then
@@ -32,6 +32,7 @@ give_up() {
 }
 
 tools/install_packages.sh demo
+began=$(date +%s)
 mkdir -p "$(dirname "$log")"
 echo "building graze: configuring"
 cmake --preset demo >"$log" 2>&1 || give_up
