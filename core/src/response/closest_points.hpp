@@ -34,6 +34,7 @@ enum class TrianglePart : std::uint8_t { corner, edge_01, edge_12, edge_20, insi
 struct TrianglePoint {
   Eigen::Vector3d gap;  ///< from the triangle to the point
   TrianglePart part;
+  double height = 0;  ///< of a point over the inside: has the sign of its side by the winding
 };
 
 /// Of a triangle without area: the closest point of its sides.
@@ -64,7 +65,8 @@ inline TrianglePoint closest_on_triangle(const Eigen::Vector3d& point, const Tri
   const Eigen::Vector3d normal = ab.cross(ac);
   const double area = normal.squaredNorm();
   if (!(area > 0)) return closest_on_sides(point, triangle);
-  return {normal * (normal.dot(from_a) / area), TrianglePart::inside};
+  const double height = normal.dot(from_a);
+  return {normal * (height / area), TrianglePart::inside, height};
 }
 
 /// Two closest points, and whether each lies inside its simplex.
@@ -73,8 +75,9 @@ struct ClosestPoints {
   Eigen::Vector3d b;
   Eigen::Vector3d gap;  ///< b - a, but with a true direction where rounding leaves none in the difference
   bool are_interior;
+  double height = 0;  ///< of a vertex over a triangle, as in TrianglePoint
 
-  [[nodiscard]] ClosestPoints swapped() const { return {b, a, -gap, are_interior}; }
+  [[nodiscard]] ClosestPoints swapped() const { return {b, a, -gap, are_interior, height}; }
 };
 
 /// Of segments whose closest points are not unique, or not inside both.
@@ -88,10 +91,13 @@ inline ClosestPoints closest_of_segments(const Segment& a, const Segment& b) {
   const double squared = across.squaredNorm();
   // What rounding leaves of the cross product of parallel edges says nothing of where they are closest.
   const bool are_parallel = !(squared > 0x1p-90 * along_a.squaredNorm() * along_b.squaredNorm());
-  const double s = between.cross(along_b).dot(across) / squared;
-  const double t = between.cross(along_a).dot(across) / squared;
-  if (are_parallel || !(s > 0 && s < 1 && t > 0 && t < 1)) return closest_of_ends(a, b, are_parallel);
-  return {a[0] + along_a * s, b[0] + along_b * t, across * (across.dot(between) / squared), true};
+  const double s = between.cross(along_b).dot(across);
+  const double t = between.cross(along_a).dot(across);
+  if (are_parallel || !(s > 0 && s < squared && t > 0 && t < squared))
+    return closest_of_ends(a, b, are_parallel);
+  const double scale = 1 / squared;
+  return {a[0] + along_a * (s * scale), b[0] + along_b * (t * scale), across * (across.dot(between) * scale),
+          true};
 }
 
 /// Of a segment and a triangle. They are interior where the segment pierces the triangle; both points are one

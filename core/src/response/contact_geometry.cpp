@@ -39,19 +39,15 @@ ClosestPoints closest(const Eigen::Vector3d& point, const Segment& edge) {
 }
 
 ClosestPoints closest_to_face(const Eigen::Vector3d& point, const PlacedFeature& face) {
-  const TrianglePoint first = closest_on_triangle(point, face.triangle(0));
-  bool is_interior = first.part == TrianglePart::inside;
-  Eigen::Vector3d gap = first.gap;
+  TrianglePoint best = closest_on_triangle(point, face.triangle(0));
+  bool is_interior = best.part == TrianglePart::inside;
   if (face.is_quad()) {
     const TrianglePoint second = closest_on_triangle(point, face.triangle(1));
-    const bool is_on_fold = first.part == TrianglePart::edge_20 && second.part == TrianglePart::edge_01;
-    if (second.gap.squaredNorm() < gap.squaredNorm()) {
-      gap = second.gap;
-      is_interior = second.part == TrianglePart::inside;
-    }
-    is_interior = is_interior || is_on_fold;
+    const bool is_on_fold = best.part == TrianglePart::edge_20 && second.part == TrianglePart::edge_01;
+    if (second.gap.squaredNorm() < best.gap.squaredNorm()) best = second;
+    is_interior = best.part == TrianglePart::inside || is_on_fold;
   }
-  return {point, point - gap, -gap, is_interior};
+  return {point, point - best.gap, -best.gap, is_interior, best.height};
 }
 
 /// Whether points serve better as the closest ones of two faces.
@@ -127,6 +123,7 @@ Eigen::Vector3d touching_normal(const PlacedFeature& a, const PlacedFeature& b, 
 
 /// Whether the contact's separation is negative; see Contact::separation().
 bool is_behind(const PlacedFeature& a, const PlacedFeature& b, const ClosestPoints& at) {
+  if (at.height != 0) return at.height < 0;
   const auto is_behind_a = [&] { return sign_along_normal(a.placed, a.feature, at.a, at.gap) < 0; };
   const auto is_behind_b = [&] { return sign_along_normal(b.placed, b.feature, at.b, at.gap) > 0; };
   if (a.is(FeatureKind::vertex)) return is_behind_b() || (b.is(FeatureKind::vertex) && is_behind_a());

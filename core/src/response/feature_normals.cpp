@@ -38,8 +38,8 @@ Eigen::Vector3d area_normal(const TrianglePoints& triangle) {
   return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
 }
 
-/// Whether a triangle of a face has both ends of an edge. Of a quad it may be the inner diagonal that joins
-/// them, but then the edge is a side of the same face.
+/// Whether a triangle of a quad has both ends of an edge. The inner diagonal may join them too, but then the
+/// edge is a side of the same quad.
 bool has_edge(std::span<const std::uint32_t> corners, std::size_t triangle,
               const std::array<std::uint32_t, 2>& ends) {
   int found = 0;
@@ -52,9 +52,15 @@ bool has_edge(std::span<const std::uint32_t> corners, std::size_t triangle,
 template <typename Visit>
 void visit_triangles_at_edge(const PlacedMesh& placed, std::uint32_t edge, const Visit& visit) {
   const auto ends = placed.mesh.edge(edge);
-  for (const std::uint32_t face : placed.mesh.edge_faces(edge))
-    for (std::size_t triangle = 0; triangle < triangle_count(placed, face); ++triangle)
-      if (has_edge(placed.mesh.face(face), triangle, ends)) visit(triangle_of(placed, face, triangle));
+  for (const std::uint32_t face : placed.mesh.edge_faces(edge)) {
+    const auto corners = placed.mesh.face(face);
+    if (corners.size() == 3) {
+      visit(triangle_of(placed, corners, 0));
+      continue;
+    }
+    for (std::size_t triangle = 0; triangle < 2; ++triangle)
+      if (has_edge(corners, triangle, ends)) visit(triangle_of(placed, corners, triangle));
+  }
 }
 
 Eigen::Vector3d edge_normal(const PlacedMesh& placed, std::uint32_t edge) {
@@ -101,8 +107,10 @@ Eigen::Vector3d unit_normal(const TrianglePoints& triangle) {
 double sign_along_normal(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& point,
                          const Eigen::Vector3d& direction) {
   if (feature.kind == FeatureKind::edge) return sign_along_edge_normal(placed, feature.index, direction);
-  if (feature.kind == FeatureKind::face && triangle_count(placed, feature.index) == 1)
-    return area_normal(triangle_of(placed, feature.index, 0)).dot(direction);
+  if (feature.kind == FeatureKind::face) {
+    const auto corners = placed.mesh.face(feature.index);
+    if (corners.size() == 3) return area_normal(triangle_of(placed, corners, 0)).dot(direction);
+  }
   return normal_at(placed, feature, point).dot(direction);
 }
 

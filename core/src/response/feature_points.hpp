@@ -4,6 +4,7 @@
 #include <array>
 #include <graze/contact.hpp>
 #include <graze/position_view.hpp>
+#include <span>
 
 #include "core/mesh/indexed_mesh.hpp"
 
@@ -22,11 +23,14 @@ constexpr std::array<std::array<std::uint8_t, 3>, 2> triangle_corners{{{0, 1, 2}
 
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
-/// Triangle 0 of a face, or triangle 1 of a quad.
-inline TrianglePoints triangle_of(const PlacedMesh& placed, std::uint32_t face, std::size_t triangle) {
-  const auto corners = placed.mesh.face(face);
+/// Triangle 0 of a face with these corners, or triangle 1 of a quad.
+inline TrianglePoints triangle_of(const PlacedMesh& placed, std::span<const std::uint32_t> corners,
+                                  std::size_t triangle) {
   const auto& [i, j, k] = triangle_corners[triangle];
   return {placed.point(corners[i]), placed.point(corners[j]), placed.point(corners[k])};
+}
+inline TrianglePoints triangle_of(const PlacedMesh& placed, std::uint32_t face, std::size_t triangle) {
+  return triangle_of(placed, placed.mesh.face(face), triangle);
 }
 
 [[noreturn]] void refuse_feature(const PlacedMesh& placed, const Feature& feature, const char* function);
