@@ -71,6 +71,19 @@ enum class ContactDetail : std::uint8_t {
   features,
 };
 
+/// @cond internal
+/// Returns whether the separation of two features is negative. `is_behind_a` says whether the point of b lies
+/// behind the surface of a, and `is_behind_b` the opposite. Each is asked only if the answer needs it.
+template <typename IsBehindA, typename IsBehindB>
+[[nodiscard]] bool has_negative_separation(FeatureKind a, FeatureKind b, const IsBehindA& is_behind_a,
+                                           const IsBehindB& is_behind_b) {
+  const bool has_vertex_a = a == FeatureKind::vertex;
+  const bool has_vertex_b = b == FeatureKind::vertex;
+  if (!has_vertex_a && !has_vertex_b) return is_behind_a() && is_behind_b();
+  return (has_vertex_b && is_behind_a()) || (has_vertex_a && is_behind_b());
+}
+/// @endcond
+
 /// One contact between two objects a and b. Points and distances are in the caller's units. Contacts of a
 /// pair are sorted by kind, feature a, feature b, and these three are the key of a contact from step to step.
 struct Contact {
@@ -113,13 +126,9 @@ struct Contact {
  private:
   /// At distance 0 nothing is behind, so that no separation is -0.
   [[nodiscard]] bool is_behind() const {
-    const bool back_of_a = side_a == Side::back;
-    const bool back_of_b = side_b == Side::back;
-    const bool has_vertex_a = feature_a.kind == FeatureKind::vertex;
-    const bool has_vertex_b = feature_b.kind == FeatureKind::vertex;
-    if (distance == 0) return false;
-    if (!has_vertex_a && !has_vertex_b) return back_of_a && back_of_b;
-    return (has_vertex_b && back_of_a) || (has_vertex_a && back_of_b);
+    return distance != 0 && has_negative_separation(
+                                feature_a.kind, feature_b.kind, [&] { return side_a == Side::back; },
+                                [&] { return side_b == Side::back; });
   }
 };
 

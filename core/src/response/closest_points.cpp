@@ -25,6 +25,34 @@ class Nearest {
   ClosestPoints points_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), false};
 };
 
+/// Finds the middle of where parallel segments lie beside each other.
+std::optional<ClosestPoints> closest_of_parallels(const Segment& a, const Segment& b) {
+  const Eigen::Vector3d along = a[1] - a[0];
+  const double length = along.squaredNorm();
+  const auto [first, last] = std::minmax({along.dot(b[0] - a[0]), along.dot(b[1] - a[0])});
+  const double begin = std::max(first, 0.0);
+  const double end = std::min(last, length);
+  if (!(begin < end)) return std::nullopt;
+  const Eigen::Vector3d point = a[0] + along * ((begin + end) / 2 / length);
+  const SegmentPoint other = closest_on_segment(point, b);
+  if (!other.is_interior) return std::nullopt;
+  return ClosestPoints{point, other.point, other.point - point, true};
+}
+
+/// The point in which a segment passes through the inside of a triangle.
+std::optional<Eigen::Vector3d> piercing_point(const Segment& segment, const TrianglePoints& triangle) {
+  const Eigen::Vector3d normal = area_normal(triangle);
+  const double start = normal.dot(segment[0] - triangle[0]);
+  const double end = normal.dot(segment[1] - triangle[0]);
+  if (!((start < 0 && end > 0) || (start > 0 && end < 0))) return std::nullopt;
+  const Eigen::Vector3d point = segment[0] + (segment[1] - segment[0]) * (start / (start - end));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& from = triangle[i];
+    if (!(normal.dot((triangle[(i + 1) % 3] - from).cross(point - from)) > 0)) return std::nullopt;
+  }
+  return point;
+}
+
 }  // namespace
 
 TrianglePoint closest_on_sides(const Eigen::Vector3d& point, const TrianglePoints& triangle) {
@@ -40,24 +68,6 @@ TrianglePoint closest_on_sides(const Eigen::Vector3d& point, const TrianglePoint
   return best;
 }
 
-namespace {
-
-/// Of parallel segments that lie beside each other: the middle of the stretch where they do.
-std::optional<ClosestPoints> closest_of_parallels(const Segment& a, const Segment& b) {
-  const Eigen::Vector3d along = a[1] - a[0];
-  const double length = along.squaredNorm();
-  const auto [first, last] = std::minmax({along.dot(b[0] - a[0]), along.dot(b[1] - a[0])});
-  const double begin = std::max(first, 0.0);
-  const double end = std::min(last, length);
-  if (!(begin < end)) return std::nullopt;
-  const Eigen::Vector3d point = a[0] + along * ((begin + end) / 2 / length);
-  const SegmentPoint other = closest_on_segment(point, b);
-  if (!other.is_interior) return std::nullopt;
-  return ClosestPoints{point, other.point, other.point - point, true};
-}
-
-}  // namespace
-
 ClosestPoints closest_of_ends(const Segment& a, const Segment& b, bool are_parallel) {
   if (are_parallel)
     if (const auto beside = closest_of_parallels(a, b)) return *beside;
@@ -66,24 +76,6 @@ ClosestPoints closest_of_ends(const Segment& a, const Segment& b, bool are_paral
   for (const Eigen::Vector3d& end : b) nearest.offer(closest_on_segment(end, a).point, end);
   return nearest.points();
 }
-
-namespace {
-
-/// The point in which a segment passes through the inside of a triangle.
-std::optional<Eigen::Vector3d> piercing_point(const Segment& segment, const TrianglePoints& triangle) {
-  const Eigen::Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-  const double start = normal.dot(segment[0] - triangle[0]);
-  const double end = normal.dot(segment[1] - triangle[0]);
-  if (!((start < 0 && end > 0) || (start > 0 && end < 0))) return std::nullopt;
-  const Eigen::Vector3d point = segment[0] + (segment[1] - segment[0]) * (start / (start - end));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& from = triangle[i];
-    if (!(normal.dot((triangle[(i + 1) % 3] - from).cross(point - from)) > 0)) return std::nullopt;
-  }
-  return point;
-}
-
-}  // namespace
 
 ClosestPoints closest_of_segment_and_triangle(const Segment& segment, const TrianglePoints& triangle) {
   if (const auto point = piercing_point(segment, triangle))

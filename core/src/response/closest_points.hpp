@@ -11,10 +11,9 @@ namespace graze {
 // Closest points of simplices in plain double, as in Ericson, "Real-Time Collision Detection", chapter 5.
 // What evaluate() calls for most contacts is inline: a call takes a tenth of its time.
 
-using Segment = std::array<Eigen::Vector3d, 2>;
-
 struct SegmentPoint {
   Eigen::Vector3d point;
+  double parameter;  ///< 0 at the start of the segment, 1 at its end
   bool is_interior;
 };
 
@@ -23,21 +22,22 @@ inline SegmentPoint closest_on_segment(const Eigen::Vector3d& point, const Segme
   const Eigen::Vector3d along = end - start;
   const double numerator = along.dot(point - start);
   const double denominator = along.squaredNorm();
-  if (!(numerator > 0)) return {start, false};
-  if (!(numerator < denominator)) return {end, false};
-  return {start + along * (numerator / denominator), true};
+  if (!(numerator > 0)) return {start, 0, false};
+  if (!(numerator < denominator)) return {end, 1, false};
+  const double parameter = numerator / denominator;
+  return {start + along * parameter, parameter, true};
 }
 
-/// Where in a triangle a point lies.
+/// Says where in a triangle a point lies.
 enum class TrianglePart : std::uint8_t { corner, edge_01, edge_12, edge_20, inside };
 
 struct TrianglePoint {
   Eigen::Vector3d gap;  ///< from the triangle to the point
   TrianglePart part;
-  double height = 0;  ///< of a point over the inside: has the sign of its side by the winding
+  double height = 0;  ///< where the part is `inside`: has the sign of the point's side by the winding
 };
 
-/// Of a triangle without area: the closest point of its sides.
+/// Finds the closest point on the sides of a triangle. One without area has no other points.
 TrianglePoint closest_on_sides(const Eigen::Vector3d& point, const TrianglePoints& triangle);
 
 inline TrianglePoint closest_on_triangle(const Eigen::Vector3d& point, const TrianglePoints& triangle) {
@@ -62,7 +62,7 @@ inline TrianglePoint closest_on_triangle(const Eigen::Vector3d& point, const Tri
     return {from_a - ac * (a2 / (a2 - c2)), TrianglePart::edge_20};
   if (b1 * c2 - c1 * b2 <= 0 && b2 >= b1 && c1 >= c2 && b2 - b1 > c2 - c1)
     return {from_b - (c - b) * ((b2 - b1) / ((b2 - b1) + (c1 - c2))), TrianglePart::edge_12};
-  const Eigen::Vector3d normal = ab.cross(ac);
+  const Eigen::Vector3d normal = area_normal(triangle);
   const double area = normal.squaredNorm();
   if (!(area > 0)) return closest_on_sides(point, triangle);
   const double height = normal.dot(from_a);
@@ -75,12 +75,12 @@ struct ClosestPoints {
   Eigen::Vector3d b;
   Eigen::Vector3d gap;  ///< b - a, but with a true direction where rounding leaves none in the difference
   bool are_interior;
-  double height = 0;  ///< of a vertex over a triangle, as in TrianglePoint
+  double height = 0;  ///< of a vertex and a triangle: that of TrianglePoint, which spares a second normal
 
   [[nodiscard]] ClosestPoints swapped() const { return {b, a, -gap, are_interior, height}; }
 };
 
-/// Of segments whose closest points are not unique, or not inside both.
+/// Finds the closest points of segments that are parallel, or that are not closest inside both.
 ClosestPoints closest_of_ends(const Segment& a, const Segment& b, bool are_parallel);
 
 inline ClosestPoints closest_of_segments(const Segment& a, const Segment& b) {
@@ -89,7 +89,7 @@ inline ClosestPoints closest_of_segments(const Segment& a, const Segment& b) {
   const Eigen::Vector3d between = b[0] - a[0];
   const Eigen::Vector3d across = along_a.cross(along_b);
   const double squared = across.squaredNorm();
-  // What rounding leaves of the cross product of parallel edges says nothing of where they are closest.
+  // Of parallel edges rounding leaves a cross product that says nothing of where they are closest.
   const bool are_parallel = !(squared > 0x1p-90 * along_a.squaredNorm() * along_b.squaredNorm());
   const double s = between.cross(along_b).dot(across);
   const double t = between.cross(along_a).dot(across);
@@ -100,8 +100,8 @@ inline ClosestPoints closest_of_segments(const Segment& a, const Segment& b) {
           true};
 }
 
-/// Of a segment and a triangle. They are interior where the segment pierces the triangle; both points are one
-/// then, without a gap.
+/// Finds the closest points of a segment and a triangle. They are interior where the segment pierces the
+/// triangle. Both points are one then, and the gap is zero.
 ClosestPoints closest_of_segment_and_triangle(const Segment& segment, const TrianglePoints& triangle);
 
 }  // namespace graze

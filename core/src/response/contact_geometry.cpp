@@ -50,7 +50,7 @@ ClosestPoints closest_to_face(const Eigen::Vector3d& point, const PlacedFeature&
   return {point, point - best.gap, -best.gap, is_interior, best.height};
 }
 
-/// Whether points serve better as the closest ones of two faces.
+/// Whether points serve better as the closest ones of two features.
 bool is_better(const ClosestPoints& found, const ClosestPoints& best) {
   if (found.are_interior != best.are_interior) return found.are_interior;
   return found.gap.squaredNorm() < best.gap.squaredNorm();
@@ -69,7 +69,7 @@ ClosestPoints closest_to_face(const Segment& segment, const PlacedFeature& face)
   return best;
 }
 
-/// Of the closest points of two faces one is on an edge or on an inner diagonal.
+/// One of the closest points of two faces is on an edge or on an inner diagonal.
 ClosestPoints closest_of_faces(const PlacedFeature& a, const PlacedFeature& b) {
   std::optional<ClosestPoints> best;
   const auto offer_segments = [&](const PlacedFeature& of, const PlacedFeature& to, bool is_swapped) {
@@ -124,10 +124,10 @@ Eigen::Vector3d touching_normal(const PlacedFeature& a, const PlacedFeature& b, 
 /// Whether the contact's separation is negative; see Contact::separation().
 bool is_behind(const PlacedFeature& a, const PlacedFeature& b, const ClosestPoints& at) {
   if (at.height != 0) return at.height < 0;
-  const auto is_behind_a = [&] { return sign_along_normal(a.placed, a.feature, at.a, at.gap) < 0; };
-  const auto is_behind_b = [&] { return sign_along_normal(b.placed, b.feature, at.b, at.gap) > 0; };
-  if (a.is(FeatureKind::vertex)) return is_behind_b() || (b.is(FeatureKind::vertex) && is_behind_a());
-  return is_behind_a() && (b.is(FeatureKind::vertex) || is_behind_b());
+  return has_negative_separation(
+      a.feature.kind, b.feature.kind,
+      [&] { return sign_along_normal(a.placed, a.feature, at.a, at.gap) < 0; },
+      [&] { return sign_along_normal(b.placed, b.feature, at.b, at.gap) > 0; });
 }
 
 }  // namespace

@@ -34,10 +34,6 @@ Eigen::Vector3d vertex_normal(const PlacedMesh& placed, std::uint32_t vertex) {
   return sum;
 }
 
-Eigen::Vector3d area_normal(const TrianglePoints& triangle) {
-  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-}
-
 /// Whether a triangle of a quad has both ends of an edge. The inner diagonal may join them too, but then the
 /// edge is a side of the same quad.
 bool has_edge(std::span<const std::uint32_t> corners, std::size_t triangle,
@@ -48,7 +44,7 @@ bool has_edge(std::span<const std::uint32_t> corners, std::size_t triangle,
   return found == 2;
 }
 
-/// Of each face the triangle that has the edge.
+/// Visits the triangle of each face at an edge that has this edge.
 template <typename Visit>
 void visit_triangles_at_edge(const PlacedMesh& placed, std::uint32_t edge, const Visit& visit) {
   const auto ends = placed.mesh.edge(edge);
@@ -87,7 +83,7 @@ double sign_along_edge_normal(const PlacedMesh& placed, std::uint32_t edge,
 Eigen::Vector3d quad_normal(const PlacedMesh& placed, std::uint32_t face, const Eigen::Vector3d& point) {
   const TrianglePoints first = triangle_of(placed, face, 0);
   const TrianglePoints second = triangle_of(placed, face, 1);
-  const std::array<Eigen::Vector3d, 2> diagonal{first[0], first[2]};
+  const Segment diagonal{first[0], first[2]};
   const double off_diagonal = (point - closest_on_segment(point, diagonal).point).norm();
   if (off_diagonal < 0x1p-40 * (diagonal[1] - diagonal[0]).norm())
     return unit_normal(first) + unit_normal(second);

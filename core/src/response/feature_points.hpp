@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <graze/contact.hpp>
 #include <graze/position_view.hpp>
@@ -21,7 +22,13 @@ struct PlacedMesh {
 /// The corners of one triangle of a face, by their places in the face: a quad is split from its first corner.
 constexpr std::array<std::array<std::uint8_t, 3>, 2> triangle_corners{{{0, 1, 2}, {0, 2, 3}}};
 
+using Segment = std::array<Eigen::Vector3d, 2>;
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
+
+/// The normal of a triangle by its winding, twice as long as its area is large.
+inline Eigen::Vector3d area_normal(const TrianglePoints& triangle) {
+  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+}
 
 /// Triangle 0 of a face with these corners, or triangle 1 of a quad.
 inline TrianglePoints triangle_of(const PlacedMesh& placed, std::span<const std::uint32_t> corners,

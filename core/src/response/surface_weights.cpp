@@ -3,6 +3,7 @@
 #include <graze/contact_geometry.hpp>
 #include <limits>
 
+#include "response/closest_points.hpp"
 #include "response/feature_points.hpp"
 
 namespace graze {
@@ -10,7 +11,7 @@ namespace {
 
 using Barycentric = std::array<double, 3>;
 
-/// Of several weights for a triangle, those that come nearest to a point.
+/// Keeps the weights of a triangle that come nearest to a point.
 class BestWeights {
  public:
   BestWeights(const TrianglePoints& triangle, const Eigen::Vector3d& point)
@@ -34,24 +35,17 @@ class BestWeights {
   double error_ = std::numeric_limits<double>::infinity();
 };
 
-double weight_of_end(const Eigen::Vector3d& point, const Eigen::Vector3d& start, const Eigen::Vector3d& end) {
-  const Eigen::Vector3d along = end - start;
-  const double length = along.squaredNorm();
-  return length > 0 ? std::clamp(along.dot(point - start) / length, 0.0, 1.0) : 0;
-}
-
 /// The edges are offered besides the inside: of a triangle with next to no area the areas say nothing.
 BestWeights triangle_weights(const TrianglePoints& triangle, const Eigen::Vector3d& point) {
   BestWeights best(triangle, point);
-  const auto& [a, b, c] = triangle;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double end = weight_of_end(point, triangle[i], triangle[(i + 1) % 3]);
+    const double end = closest_on_segment(point, {triangle[i], triangle[(i + 1) % 3]}).parameter;
     Barycentric weights{};
     weights[i] = 1 - end;
     weights[(i + 1) % 3] = end;
     best.offer(weights);
   }
-  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  const Eigen::Vector3d normal = area_normal(triangle);
   Barycentric areas{};
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -93,7 +87,7 @@ SurfaceWeights weights(const Mesh& mesh, PositionView positions, const Feature& 
   if (feature.kind == FeatureKind::vertex) return {1, {feature.index}, {1}};
   if (feature.kind == FeatureKind::face) return face_weights(placed, feature.index, point);
   const auto [start, end] = placed.mesh.edge(feature.index);
-  const double of_end = weight_of_end(point, placed.point(start), placed.point(end));
+  const double of_end = closest_on_segment(point, {placed.point(start), placed.point(end)}).parameter;
   return {2, {start, end}, {1 - of_end, of_end}};
 }
 
