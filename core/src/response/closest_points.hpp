@@ -89,7 +89,7 @@ inline ClosestPoints closest_of_segments(const Segment& a, const Segment& b) {
   const Eigen::Vector3d between = b[0] - a[0];
   const Eigen::Vector3d across = along_a.cross(along_b);
   const double squared = across.squaredNorm();
-  // Of parallel edges rounding leaves a cross product that says nothing of where they are closest.
+  // For parallel edges the cross product is what rounding leaves. It says nothing of where they are closest.
   const bool are_parallel = !(squared > 0x1p-90 * along_a.squaredNorm() * along_b.squaredNorm());
   const double s = between.cross(along_b).dot(across);
   const double t = between.cross(along_a).dot(across);
