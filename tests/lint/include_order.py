@@ -30,6 +30,7 @@ ORDER = {
         "leaves": "features of two leaves, filters",
         "walk": "DMV, leaf pairs, witness",
         "vertices": "near vertices, by blocks",
+        "solid": "what is inside a closed surface",
         "paper": "paper mode, region distances",
         "search": "one query, in stages",
         "response": "contacts at other positions",

@@ -50,6 +50,15 @@ enum class Side : std::uint8_t {
   back,   ///< The point lies on the other side.
 };
 
+/// Says of a pair with a solid whether one object is inside the other. A vertex is inside a solid where the
+/// solid's winding number about it is not 0, which is decided exactly. On the surface it is not inside.
+enum class Inside : std::uint8_t {
+  none,      ///< No vertex of one is inside the other's solid, and nothing pierces. Or neither is a solid.
+  a_in_b,    ///< All vertices of a are inside b, and nothing pierces.
+  b_in_a,    ///< All vertices of b are inside a, and nothing pierces.
+  crossing,  ///< An edge of one pierces a face of the other, or some vertices are inside and others are not.
+};
+
 /// Selects what a step says about each pair in contact. More details may be added, so do not rely on there
 /// being only these.
 enum class ContactDetail : std::uint8_t {

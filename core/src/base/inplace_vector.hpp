@@ -26,6 +26,8 @@ class InplaceVector {
     elements_[size_++] = element;
     return true;
   }
+  [[nodiscard]] const Element& back() const { return elements_[size_ - 1]; }
+  void pop_back() { --size_; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] Element& operator[](std::size_t index) { return elements_[index]; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/pair/near_list.hpp"
+#include "leaves/touching_edges.hpp"
 #include "pair/near_listing.hpp"
 
 namespace graze {
@@ -13,6 +14,7 @@ struct BelowThreshold {
 
   double threshold;
   const NearListing& listing;
+  TouchingEdges* touching_edges;  ///< null where nobody asks
 
   [[nodiscard]] double limit() const { return threshold + listing.slack; }
   [[nodiscard]] double keys_only_below() const { return threshold; }
@@ -20,6 +22,9 @@ struct BelowThreshold {
   [[nodiscard]] double touching() const { return listing.slack; }
   [[nodiscard]] bool is_listing() const { return listing.is_wanted(); }
   void found(const FeatureRef& a, const FeatureRef& b) const { listing.add(a, b); }
+  void may_touch(const FeatureRef& segment, bool is_of_a) const {
+    if (touching_edges != nullptr) touching_edges->add(segment, is_of_a);
+  }
   [[nodiscard]] bool keep(double lower) const { return lower < limit() || lower == 0; }
   void left_out(double /*limit*/) const {}
 };

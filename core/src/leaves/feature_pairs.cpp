@@ -11,6 +11,7 @@ bool CloseFeatures::is_contact(const FeaturePairKey& key, const SquaredRange& sq
 void CloseFeatures::add_if_contact(const FeaturePairKey& key, const SquaredRange& squared) {
   pair_.check_time();
   if (!is_contact(key, squared)) return;
+  if (touching_ != nullptr && is_edge_through_face(key)) touching_->pierced = true;
   std::uint32_t& slot = scratch_.recent_keys.slot(key);
   if (slot < keys_.size() && keys_[slot] == key) return;
   slot = static_cast<std::uint32_t>(keys_.size());
@@ -18,7 +19,7 @@ void CloseFeatures::add_if_contact(const FeaturePairKey& key, const SquaredRange
 }
 
 void CloseFeatures::add(const LeafOf& leaf_a, const LeafOf& leaf_b) {
-  BelowThreshold<false> range{threshold_, listing_};
+  BelowThreshold<false> range{threshold_, listing_, touching_};
   if (scratch_.select_near(pair_, leaf_a, leaf_b, range)) add_selected();
 }
 
@@ -37,7 +38,7 @@ void CloseFeatures::finish() {
 /// Calls `use` with what gives the keys to `take`.
 template <typename Use>
 void CloseFeatures::with_names(const Use& use) {
-  BelowThreshold<false> range{threshold_, listing_};
+  BelowThreshold<false> range{threshold_, listing_, touching_};
   const auto sink = [&](const FeaturePairKey& key, const SquaredRange& squared) {
     add_if_contact(key, squared);
   };

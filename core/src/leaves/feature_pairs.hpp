@@ -6,6 +6,7 @@
 #include "closest_features/feature_pair_key.hpp"
 #include "core/pair/near_list.hpp"
 #include "leaves/leaf_feature_pairs.hpp"
+#include "leaves/touching_edges.hpp"
 #include "pair/near_listing.hpp"
 
 namespace graze {
@@ -14,10 +15,17 @@ namespace graze {
 /// than a threshold and every edge that pierces a face. A key may be met in several pairs of leaves.
 class CloseFeatures {
  public:
-  /// Keys are appended to `keys`; all are there after `finish`.
+  /// Keys are appended to `keys`; all are there after `finish`. So are the edges that touch in `touching`,
+  /// which may be null.
   CloseFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
-                std::vector<FeaturePairKey>& keys, const NearListing& listing = {})
-      : pair_(pair), threshold_(threshold), scratch_(scratch), keys_(keys), listing_(listing) {}
+                std::vector<FeaturePairKey>& keys, const NearListing& listing = {},
+                TouchingEdges* touching = nullptr)
+      : pair_(pair),
+        threshold_(threshold),
+        scratch_(scratch),
+        keys_(keys),
+        listing_(listing),
+        touching_(touching) {}
 
   void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
   /// Sets the threshold for pairs that are added from here on, after `finish`.
@@ -39,6 +47,7 @@ class CloseFeatures {
   LeafScratch& scratch_;
   std::vector<FeaturePairKey>& keys_;
   NearListing listing_;
+  TouchingEdges* touching_;
 };
 
 /// Keeps one of sorted keys for each pair of features. Where two features meet in several pieces (a fold and

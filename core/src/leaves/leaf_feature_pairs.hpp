@@ -23,7 +23,8 @@ namespace graze {
 /// `range.may_pierce()`, if they are not further than `range.touching()`. The search calls
 /// `range.found(a, b)` for each pair that is not further than these, at times twice. It calls
 /// `range.left_out(limit)` when something further than that was discarded. It asks `range.keep(lower)` about
-/// features that are too large for float, with a bound from double.
+/// features that are too large for float, with a bound from double. It calls `range.may_touch(segment,
+/// is_of_a)` for every segment that touches a face of the other surface, and perhaps for others.
 ///
 /// Where `Range::nearest_only` holds, the keys of a vertex and a face come with the range of their distance.
 /// Keys of two edges are left out where a closest point is an end. So is everything about folds that is no
@@ -285,6 +286,7 @@ class LeafFeaturePairs {
   auto handle_through_b() {
     return [this](const FeatureRef& segment, const FeatureRef& face, const KnownInFloat& known) {
       if (!may_touch(pair_.a, segment, pair_.b, face, known)) return;
+      range_.may_touch(segment, true);
       pair_.check_time();
       if (!is_segment(pair_.a, segment)) return;
       const FeaturePiece a = piece_of(segment);
@@ -295,6 +297,7 @@ class LeafFeaturePairs {
   auto handle_through_a() {
     return [this](const FeatureRef& segment, const FeatureRef& face, const KnownInFloat& known) {
       if (!may_touch(pair_.b, segment, pair_.a, face, known)) return;
+      range_.may_touch(segment, false);
       pair_.check_time();
       if (!is_segment(pair_.b, segment)) return;
       const FeaturePiece b = piece_of(segment);

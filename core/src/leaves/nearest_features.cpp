@@ -7,7 +7,7 @@
 namespace graze {
 
 void NearestFeatures::add(const LeafOf& leaf_a, const LeafOf& leaf_b) {
-  BelowThreshold<true> range{threshold_, listing_};
+  BelowThreshold<true> range{threshold_, listing_, touching_};
   if (scratch_.select_near(pair_, leaf_a, leaf_b, range)) with_names([](auto& keys) { keys.add_selected(); });
 }
 
@@ -22,7 +22,7 @@ void NearestFeatures::finish() {
 /// Calls `use` with what gives the keys to `take`.
 template <typename Use>
 void NearestFeatures::with_names(const Use& use) {
-  BelowThreshold<true> range{threshold_, listing_};
+  BelowThreshold<true> range{threshold_, listing_, touching_};
   const auto sink = [&](const FeaturePairKey& key, const SquaredRange& squared) { take(key, squared); };
   LeafFeaturePairs keys(pair_, scratch_, range, sink);
   use(keys);
@@ -37,9 +37,10 @@ void NearestFeatures::take(const FeaturePairKey& key, const SquaredRange& square
   if (kind_b == FeatureKind::vertex)
     vertices_.offer(pair_, {VertexOfPair::of_b(key.index_b()), key, squared});
   if (kind_a == FeatureKind::vertex || kind_b == FeatureKind::vertex) return;
-  if (is_edge_through_face(key) ||
-      (key.kind() == ContactKind::EE && is_closer_than(pair_, key, squared, threshold_) &&
-       are_locally_closest(pair_, key.index_a(), key.index_b())))
+  const bool pierces = is_edge_through_face(key);
+  if (pierces && touching_ != nullptr) touching_->pierced = true;
+  if (pierces || (key.kind() == ContactKind::EE && is_closer_than(pair_, key, squared, threshold_) &&
+                  are_locally_closest(pair_, key.index_a(), key.index_b())))
     keys_.push_back(key);
 }
 

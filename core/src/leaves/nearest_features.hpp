@@ -7,6 +7,7 @@
 #include "core/pair/near_list.hpp"
 #include "leaves/leaf_scratch.hpp"
 #include "leaves/nearest_of_vertices.hpp"
+#include "leaves/touching_edges.hpp"
 #include "pair/near_listing.hpp"
 
 namespace graze {
@@ -16,16 +17,17 @@ namespace graze {
 /// is offered to `vertices`, which are complete when all leaves have been added.
 class NearestFeatures {
  public:
-  /// All keys have come after `finish`.
+  /// All keys have come after `finish`. So have the edges that touch in `touching`, which may be null.
   NearestFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
                   NearestOfVertices& vertices, std::vector<FeaturePairKey>& keys,
-                  const NearListing& listing = {})
+                  const NearListing& listing = {}, TouchingEdges* touching = nullptr)
       : pair_(pair),
         threshold_(threshold),
         scratch_(scratch),
         vertices_(vertices),
         keys_(keys),
-        listing_(listing) {}
+        listing_(listing),
+        touching_(touching) {}
 
   void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
   /// Features that were listed, in the frame of the scratch.
@@ -45,6 +47,7 @@ class NearestFeatures {
   NearestOfVertices& vertices_;
   std::vector<FeaturePairKey>& keys_;
   NearListing listing_;
+  TouchingEdges* touching_;
 };
 
 /// Appends the keys of those vertices that are nearer than a threshold.

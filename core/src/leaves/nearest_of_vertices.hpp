@@ -18,6 +18,8 @@ struct VertexOfPair {
 
   static VertexOfPair of_a(std::uint32_t vertex) { return {vertex}; }
   static VertexOfPair of_b(std::uint32_t vertex) { return {std::uint64_t{1} << 32U | vertex}; }
+  [[nodiscard]] bool is_of_a() const { return number >> 32U == 0; }
+  [[nodiscard]] std::uint32_t index() const { return static_cast<std::uint32_t>(number); }
 
   friend auto operator<=>(const VertexOfPair&, const VertexOfPair&) = default;
 };

@@ -24,6 +24,7 @@ constexpr std::chrono::nanoseconds to_find_one{5};
 SearchProgress ContactSearch::begin(SearchWorker& worker) {
   if (is_limited()) nearest_keys_.begin(pair_.query.contact_limit);
   list_slack_ = 0;
+  touching_.clear();
   if (pair_.query.detail != ContactDetail::regions) {
     const NearList* const near = pair_.front->list_for(*pair_.a, *pair_.b, pair_.query.threshold);
     if (near != nullptr) return begin_listed(*near);
@@ -98,6 +99,8 @@ void ContactSearch::reserve_as(const ContactSearch& other) {
   const FoundContacts& other_first = other.slices_.first().contacts;
   graze::reserve_as(first.near, other_first.near);
   graze::reserve_as(first.of_vertices, other_first.of_vertices);
+  graze::reserve_as(first.touching, other_first.touching);
+  graze::reserve_as(touching_, other.touching_);
   // The two lists of keys are swapped with each other.
   const std::size_t keys = std::max(other.keys_.capacity(), other_first.keys.capacity());
   keys_.reserve(keys);
@@ -114,7 +117,8 @@ void ContactSearch::reserve(const PairRoom& room) {
 }
 
 std::size_t ContactSearch::byte_count() const {
-  return bytes_of(keys_) + bytes_of(stretches_) + bytes_of(runs_) + nearest_keys_.byte_count();
+  return bytes_of(keys_) + bytes_of(touching_) + bytes_of(stretches_) + bytes_of(runs_) +
+         nearest_keys_.byte_count();
 }
 
 // ---- Contacts between leaves
@@ -181,7 +185,7 @@ void ContactSearch::run_contacts(SearchSlice& slice, SearchWorker& worker) {
     return keep_nearest(slice, worker);
   }
   CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys,
-                         listing_in(slice));
+                         listing_in(slice), touching_in(slice));
   test_leaves(slice, worker, features);
 }
 

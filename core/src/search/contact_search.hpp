@@ -35,6 +35,9 @@ class ContactSearch {
   [[nodiscard]] bool& is_complete(std::size_t index);
   void run(std::size_t index, SearchWorker& worker);
 
+  /// The edges that touch, of a pair with a solid, once all keys have been found.
+  [[nodiscard]] const TouchingEdges& touching() const { return touching_; }
+
   /// Makes room in the slice of a pair that is not cut, for all that it can find before the deadline.
   void make_room_until_deadline(SearchWorker& worker);
   void reserve_as(const ContactSearch& other);
@@ -84,6 +87,7 @@ class ContactSearch {
   /// How near contacts are, or what is listed for the next steps.
   [[nodiscard]] double wanted() const { return pair_.query.threshold + list_slack_; }
   [[nodiscard]] NearListing listing_in(SearchSlice& slice) const;
+  [[nodiscard]] TouchingEdges* touching_in(SearchSlice& slice) const;
   void run_listed(SearchSlice& slice, SearchWorker& worker);
   template <typename Features>
   void test_listed(SearchSlice& slice, SearchWorker& worker, Features& features);
@@ -109,7 +113,7 @@ class ContactSearch {
   void order(Stretch& stretch, SearchWorker& worker);
   [[nodiscard]] std::size_t sort_keys(std::span<FeaturePairKey> keys, SearchWorker& worker) const;
   SearchProgress begin_measuring(SearchWorker& worker);
-  [[nodiscard]] SearchProgress finish_without_contacts() const;
+  [[nodiscard]] SearchProgress finish_without_contacts(SearchWorker& worker);
   void keep_time_back(std::size_t contacts, SearchWorker& worker);
   void run_measured(SearchSlice& slice, SearchWorker& worker);
   SearchProgress finish_measuring(SearchWorker& worker);
@@ -123,6 +127,7 @@ class ContactSearch {
   Stage stage_ = Stage::reach;
   bool is_from_front_ = false;  ///< the pairs of leaves come from the last query's front, not from a walk
   double list_slack_ = 0;       ///< `PairQuery::list_slack` where a new near list is made, otherwise 0
+  TouchingEdges touching_;      ///< of all slices, where the pair has a solid
   std::vector<FeaturePairKey> keys_;
   NearestKeys nearest_keys_;                           ///< of all slices, where contacts are limited
   FeaturePairKey lowest_;                              ///< the nearest of all, where contacts are limited

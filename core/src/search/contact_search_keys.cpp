@@ -14,6 +14,7 @@
 #include "measure/measure_batch.hpp"
 #include "pair/room_in_time.hpp"
 #include "search/contact_search.hpp"
+#include "search/solid_search.hpp"
 
 namespace graze {
 namespace {
@@ -33,6 +34,8 @@ constexpr std::chrono::nanoseconds to_measure_one{40};
 SearchProgress ContactSearch::finish_keys(SearchWorker& worker) {
   if (stage_ == Stage::listed) ++worker.meter.counters().pairs_by_list;
   if (is_listing()) keep_list(worker);
+  if (pair_.query.has_solid())
+    for (const SearchSlice& slice : slices_.all()) touching_.add(slice.contacts.touching);
   if (is_limited()) return finish_nearest(worker);
   if (slices_.size() > 1) return begin_ordering();
   keys_.clear();
@@ -134,7 +137,7 @@ SearchProgress ContactSearch::begin_measuring(SearchWorker& worker) {
   slices_.clear();
   std::size_t count = 0;
   for (const Stretch& stretch : stretches_) count += stretch.end - stretch.begin;
-  if (count == 0) return finish_without_contacts();
+  if (count == 0) return finish_without_contacts(worker);
   keep_time_back(count, worker);
   stage_ = Stage::measured;
   make_room_in_time(pair_.answer->contacts, count, worker.pair.time);
@@ -150,8 +153,9 @@ SearchProgress ContactSearch::begin_measuring(SearchWorker& worker) {
   return SearchProgress::slices;
 }
 
-/// Asks for the closest points where these may be in reach.
-SearchProgress ContactSearch::finish_without_contacts() const {
+/// Asks for the closest points where these may be in reach, or where something is inside a solid.
+SearchProgress ContactSearch::finish_without_contacts(SearchWorker& worker) {
+  if (pair_.query.has_solid()) SolidSearch(pair_, worker, &touching_).widen_reach();
   if (pair_.query.reach > pair_.query.threshold) return SearchProgress::no_contact;
   pair_.answer->contacts.clear();
   return SearchProgress::answered;

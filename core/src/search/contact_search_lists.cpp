@@ -38,6 +38,10 @@ NearListing ContactSearch::listing_in(SearchSlice& slice) const {
   return is_listing() ? NearListing{&slice.contacts.near, list_slack_} : NearListing{};
 }
 
+TouchingEdges* ContactSearch::touching_in(SearchSlice& slice) const {
+  return pair_.query.has_solid() ? &slice.contacts.touching : nullptr;
+}
+
 void ContactSearch::run_listed(SearchSlice& slice, SearchWorker& worker) {
   const auto listed = std::span(pair_.front->near->pairs).subspan(slice.begin, slice.end - slice.begin);
   for (std::size_t i = 0; i < listed.size() && slice.complete; i += listed_in_one)
@@ -57,7 +61,8 @@ void ContactSearch::run_listed(SearchSlice& slice, SearchWorker& worker) {
     test_listed(slice, worker, features);
     return keep_nearest(slice, worker);
   }
-  CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys);
+  CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys, {},
+                         touching_in(slice));
   test_listed(slice, worker, features);
 }
 

@@ -17,7 +17,7 @@ NearestFeatures ContactSearch::nearest_features_in(SearchSlice& slice, SearchWor
   worker.scratch.nearest_of_vertices.clear();
   return {
       worker.pair,         pair_.query.threshold, worker.scratch.features, worker.scratch.nearest_of_vertices,
-      slice.contacts.keys, listing_in(slice)};
+      slice.contacts.keys, listing_in(slice),     touching_in(slice)};
 }
 
 /// Whether the nearest of each vertex is yet to be chosen out of what several slices have found.

@@ -47,6 +47,7 @@ void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQu
   answer.in_contact = false;
   answer.complete = false;
   answer.cut = false;
+  answer.inside = Inside::none;
   answer.contacts.clear();
   answer.region_distances.clear();
   answer.region_distances_left_out = 0;

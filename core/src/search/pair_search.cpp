@@ -5,6 +5,7 @@
 #include "core/search/pair_detector.hpp"
 #include "pair/time_limit.hpp"
 #include "search/search_worker.hpp"
+#include "search/solid_search.hpp"
 
 namespace graze {
 
@@ -16,6 +17,7 @@ void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& quer
   front.walked = true;
   answer.in_contact = answer.listed = answer.cut = false;
   answer.complete = true;
+  answer.inside = Inside::none;
 }
 
 bool PairSearch::advance(SearchScratch& scratch, PairCounters& counters) {
@@ -46,8 +48,19 @@ void PairSearch::next_stage(SearchWorker& worker) {
     phase_ = Phase::closest;
     progress = closest_.begin(worker);
   }
+  if (progress == SearchProgress::answered && pair_.query.has_solid()) progress = complete_solids(worker);
   if (progress == SearchProgress::gave_up) return give_up();
   if (progress == SearchProgress::answered) phase_ = Phase::done;
+}
+
+/// Completes an answer about a pair with a solid.
+SearchProgress PairSearch::complete_solids(SearchWorker& worker) {
+  const bool knows_touching = lists_piercings(pair_.query.detail);
+  const SearchProgress progress =
+      SolidSearch(pair_, worker, knows_touching ? &contacts_.touching() : nullptr).complete();
+  if (progress != SearchProgress::no_contact) return progress;
+  phase_ = Phase::closest;
+  return closest_.begin(worker);
 }
 
 /// Puts the results of the stage together, and begins the next.

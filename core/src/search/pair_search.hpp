@@ -45,6 +45,7 @@ class PairSearch {
   void next_stage(SearchWorker& worker);
   SearchProgress end_stage(SearchWorker& worker);
   SearchProgress begin_search(SearchWorker& worker);
+  SearchProgress complete_solids(SearchWorker& worker);
   void run(std::size_t index, SearchWorker& worker);
   void give_up();
 

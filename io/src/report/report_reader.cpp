@@ -22,6 +22,7 @@ class BadLine : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+constexpr std::array insides{Inside::none, Inside::a_in_b, Inside::b_in_a, Inside::crossing};
 constexpr std::array phases{PairPhase::near, PairPhase::began, PairPhase::touching, PairPhase::ended};
 constexpr std::array contact_kinds{ContactKind::VV, ContactKind::VE, ContactKind::VF,
                                    ContactKind::EE, ContactKind::EF, ContactKind::FF};
@@ -99,6 +100,7 @@ ReportedPair read_pair(const json& value) {
   pair.complete = value.value("complete", true);
   pair.contacts_cut = value.value("contacts_cut", false);
   pair.stale = value.value("stale", false);
+  if (value.contains("inside")) pair.inside = named(insides, value.at("inside"));
   pair.distance = {read_real(value.at("distance").at(0)), read_real(value.at("distance").at(1))};
   const json& witness = value.at("witness");
   pair.witness.feature_a = read_feature(witness.at("a"), pair.witness_edge_a);

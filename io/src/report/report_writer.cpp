@@ -89,6 +89,7 @@ void ReportWriter::State::write_pair(std::uint64_t frame, const FrameReport& rep
   if (!pair.complete) json.key("complete").flag(false);
   if (pair.contacts_cut) json.key("contacts_cut").flag(true);
   if (pair.stale) json.key("stale").flag(true);
+  if (pair.inside != Inside::none) json.key("inside").text(to_string(pair.inside));
   json.key("distance").open('[').real(pair.distance.lower).real(pair.distance.upper).close(']');
   json.key("witness");
   write_witness(json, pair.witness, mesh_a, mesh_b);

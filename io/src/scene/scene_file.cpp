@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t any_number = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t largest_kind = 255;
 
-constexpr std::array<std::pair<std::string_view, ContactDetail>, 5> details{{
+constexpr std::array<std::pair<std::string_view, ContactDetail>, 6> details{{
     {"none", ContactDetail::none},
     {"closest", ContactDetail::closest},
     {"regions", ContactDetail::regions},
@@ -118,7 +118,7 @@ void check_motion(const ObjectDescription& object, const JsonPath& json) {
 
 ObjectDescription read_object(const JsonPath& json, const std::filesystem::path& folder) {
   json.expect_keys({"name", "mesh", "node", "up", "unit", "motion", "positions", "animation", "transform",
-                    "poses", "layer", "collides_with", "group", "margin", "kind"});
+                    "poses", "layer", "collides_with", "group", "margin", "kind", "solid"});
   ObjectDescription object;
   object.place = json.where();
   object.mesh = folder / json.require("mesh", "name the object's mesh file").text();
@@ -133,6 +133,7 @@ ObjectDescription read_object(const JsonPath& json, const std::filesystem::path&
   if (const auto mask = json.find("collides_with")) object.collides_with = mask->whole_number(0, any_number);
   if (const auto group = json.find("group")) object.group = group->whole_number(0, any_number);
   if (const auto margin = json.find("margin")) object.margin = margin->number_not_negative();
+  if (const auto solid = json.find("solid")) object.solid = solid->truth();
   if (const auto kind = json.find("kind")) object.kind = kind->whole_number(0, largest_kind);
   if (!object.positions.empty() || object.animation) object.motion = Motion::deformable;
   if (const auto motion = json.find("motion")) object.motion = read_motion(*motion);

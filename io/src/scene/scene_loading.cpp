@@ -149,6 +149,7 @@ void Loader::load_object(std::size_t entry_index, const MeshFile& file, std::siz
   object.settings.collides_with = entry.collides_with;
   object.settings.group = entry.group;
   object.settings.margin = entry.margin;
+  object.settings.solid = entry.solid;
   object.settings.kind = entry.kind;
   object.placement = linear_map(entry.transform.stretch) * linear_map(conversion(entry, file));
   if (object.settings.motion == Motion::deformable)

@@ -146,6 +146,11 @@ double JsonPath::number() const {
   return value_->get<double>();
 }
 
+bool JsonPath::truth() const {
+  if (!value_->is_boolean()) fail("true or false", "write one of them, without quotes");
+  return value_->get<bool>();
+}
+
 double JsonPath::number_not_negative() const {
   if (!value_->is_number() || value_->get<double>() < 0)
     fail("a number that is not negative", "write 0 or more, without quotes");

@@ -38,6 +38,7 @@ class JsonPath {
   [[nodiscard]] std::size_t array_size(std::string_view remedy) const;
   [[nodiscard]] JsonPath item(std::size_t index) const;
 
+  [[nodiscard]] bool truth() const;
   [[nodiscard]] double number() const;
   [[nodiscard]] double number_not_negative() const;
   [[nodiscard]] double number_positive() const;

@@ -50,6 +50,9 @@ struct PairReport {
   /// True if SceneSettings::max_contacts or SceneSettings::max_contacts_per_pair left contacts out. The
   /// nearest ones are listed. Phase, distance and witness are those of all contacts.
   bool contacts_cut = false;
+  /// Whether one object is inside the other, if one of them is a solid (ObjectSettings::solid). It is
+  /// Inside::none if #complete is false because a budget ran out, and in a row that says #phase `ended`.
+  Inside inside = Inside::none;
   /// The bounds of the distance of the pair, in the caller's units. If the pair ended because an object was
   /// removed, they are those of the report before.
   DistanceBounds distance;
@@ -88,6 +91,8 @@ enum class DiagnosticKind : std::uint8_t {
 GRAZE_API std::string_view to_string(DiagnosticKind kind);
 /// Returns the enumerator's own name, such as "touching".
 GRAZE_API std::string_view to_string(PairPhase phase);
+/// Returns the enumerator's own name, such as "a_in_b".
+GRAZE_API std::string_view to_string(Inside inside);
 /// Returns the enumerator's own name, such as "VF".
 GRAZE_API std::string_view to_string(ContactKind kind);
 /// Returns the enumerator's own name, such as "vertex".

@@ -92,8 +92,8 @@ class GRAZE_API Scene {
   /// Adds an object, which stands at the rest shape of its mesh until a call moves it. Any number of objects
   /// and scenes may share one mesh.
   ///
-  /// Throws Error if `mesh` is null, if the margin is negative or not finite, if the kind is above 255, or if
-  /// the motion is no enumerator.
+  /// Throws Error if `mesh` is null, if the margin is negative or not finite, if the kind is above 255, if the
+  /// motion is no enumerator, or if a solid's surface is not closed.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings = {});
   /// Removes an object and ends its binding. A pair of it that was in contact is listed once more as `ended`.
   /// The id stays valid as a key in that row, and is never given again.

@@ -13,6 +13,7 @@
 #include "base/pose.hpp"
 #include "base/settings_check.hpp"
 #include "core/base/floating_point_scope.hpp"
+#include "core/mesh/closed.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/surface/surface.hpp"
 
@@ -139,6 +140,9 @@ bool Staging::has_step_read(const Binding& binding) const {
 ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
   if (mesh == nullptr) throw Error("object '" + settings.name + "': there is no mesh");
   if (const auto problem = problem_of(settings)) throw Error(*problem);
+  if (settings.solid)
+    if (const auto problem = why_not_closed(indexed(*mesh)))
+      throw Error("object '" + settings.name + "': a solid has a closed surface; " + *problem);
   const FloatingPointScope scope;
   AddObject call{{}, std::make_unique<Surface>(mesh), settings};
   const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);

@@ -113,6 +113,10 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   const bool may_be_cut =
       job.last == nullptr || job.last->contacts_cut || job.last->contact_count > query.contact_limit / 2;
   if (query.contact_limit > 0 && may_be_cut) query.list_slack = 0;
+  if (!is_about_vertices(query.detail) && job.task == PairJob::Task::detect) {
+    query.a_is_solid = job.a->settings.solid;
+    query.b_is_solid = job.b->settings.solid;
+  }
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
     if (!is_about_vertices(query.detail)) query.detail = ContactDetail::none;

@@ -35,7 +35,7 @@ class Hash {
 
 std::uint64_t answer_hash_of(const FrameReport& report, const PairReport& pair) {
   Hash hash;
-  hash(pair.complete, pair.stale, pair.contacts_cut, pair.distance.lower, pair.distance.upper);
+  hash(pair.complete, pair.stale, pair.contacts_cut, pair.inside, pair.distance.lower, pair.distance.upper);
   hash(pair.witness.feature_a, pair.witness.feature_b, pair.witness.point_a, pair.witness.point_b);
   for (const Contact& contact : report.contacts(pair)) {
     hash(contact.kind, contact.side_a, contact.side_b, contact.feature_a, contact.feature_b);

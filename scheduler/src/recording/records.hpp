@@ -64,7 +64,8 @@ concept Is = std::same_as<std::remove_const_t<Candidate>, Type>;
 
 template <Is<ObjectSettings> T>
 auto fields(T& r) {
-  return std::tie(r.name, r.motion, r.layer, r.collides_with, r.group, r.margin, r.kind, r.user_data);
+  return std::tie(r.name, r.motion, r.layer, r.collides_with, r.group, r.margin, r.kind, r.user_data,
+                  r.solid);
 }
 template <Is<PairRule> T>
 auto fields(T& r) {

@@ -66,6 +66,20 @@ std::string_view to_string(PairPhase phase) {
   return "unknown";
 }
 
+std::string_view to_string(Inside inside) {
+  switch (inside) {
+    case Inside::none:
+      return "none";
+    case Inside::a_in_b:
+      return "a_in_b";
+    case Inside::b_in_a:
+      return "b_in_a";
+    case Inside::crossing:
+      return "crossing";
+  }
+  return "unknown";
+}
+
 std::string_view to_string(ContactKind kind) {
   switch (kind) {
     case ContactKind::VV:

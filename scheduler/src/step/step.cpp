@@ -212,7 +212,10 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   const bool repeats = !job.is_tested();
   std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
   if (!row) return;
-  if (repeats && !job.allowed) row->phase = PairPhase::ended;
+  if (repeats && !job.allowed) {
+    row->phase = PairPhase::ended;
+    row->inside = Inside::none;
+  }
   if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again_;
   const bool in_contact = is_contact(row->phase);
   const KeptAnswer& answer = jobs_.answer(index);
@@ -241,6 +244,7 @@ void Step::end_pair(PairReport row, ReportBuilder& builder) {
   row.phase = PairPhase::ended;
   row.complete = true;
   row.stale = row.contacts_cut = false;
+  row.inside = Inside::none;
   builder.add(row, 0, {});
   pairs_.pass_row();
   ++builder.statistics().pairs_near;

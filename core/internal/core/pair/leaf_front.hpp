@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <graze/contact.hpp>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -43,6 +44,15 @@ struct LastWitness {
   [[nodiscard]] bool is_known() const { return on_a.size > 0; }
 };
 
+/// Whether one of two surfaces was wholly inside the other, a solid, or not at all. This stays so while the
+/// surfaces move less than they were apart.
+struct LastInside {
+  Inside inside = Inside::none;
+  double apart = 0;  ///< 0 where nothing is known
+  Travel travel_a;
+  Travel travel_b;
+};
+
 /// The pairs of leaves where DMV stopped for one pair of surfaces: every pair that may have been near. The
 /// next query can start there if its detail is about surfaces, or about vertices, as this one's was. The
 /// front stays good while the surfaces move less than the slack that it was made with. The list of near
@@ -57,6 +67,8 @@ struct LeafFront {
   /// The nearest points of the last answer. At the present positions they give an upper bound of the
   /// surfaces' distance, whatever has moved.
   LastWitness witness;
+  /// What is known of a pair with a solid.
+  LastInside last_inside;
   /// The list that a query for contacts uses instead of leaves, with marks of its own. It is null before the
   /// first such query.
   std::unique_ptr<NearList> near;
@@ -86,6 +98,7 @@ struct LeafFront {
     unlisted_lower_bound = -1;
     apart = 0;
     witness = {};
+    last_inside = {};
     touched = false;
   }
   /// The list, where it says all that can be in contact below a threshold now; otherwise null.

@@ -13,6 +13,7 @@ struct PairFinding {
   bool complete = true;  ///< false where the work limit was reached: the bounds hold, contacts are empty
   bool cut = false;      ///< there were more contacts than PairQuery::contact_limit; all else is said of all
   std::uint32_t contacts_left_out = 0;  ///< for whoever keeps less of them than were found
+  Inside inside = Inside::none;
   DistanceBounds distance;
   Witness witness;
   std::uint64_t region_distances_left_out = 0;  ///< at least so many more were not listed

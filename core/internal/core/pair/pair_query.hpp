@@ -32,6 +32,11 @@ struct PairQuery {
   /// The most contacts that an answer keeps: the nearest, and of those at one distance those with the lowest
   /// keys. 0: all. Where more are found, no features are listed for the next steps.
   std::size_t contact_limit = 0;
+  /// Whether the surfaces are solids, so that it matters what is inside of them. This does not go with
+  /// details about vertices, nor with AccuracyMode::paper.
+  bool a_is_solid = false;
+  bool b_is_solid = false;
+  [[nodiscard]] bool has_solid() const { return a_is_solid || b_is_solid; }
   /// How many distances of regions are listed at most; 0: none.
   std::size_t region_distance_limit = 0;
   /// Regions are listed that may be nearer than this; in AccuracyMode::paper, those that pass its test.

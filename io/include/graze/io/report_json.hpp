@@ -96,6 +96,8 @@ struct ReportedPair {
   bool contacts_cut = false;
   /// True if the positions or the pose of one of the objects were not taken.
   bool stale = false;
+  /// Whether one object is inside the other, if one of them is a solid.
+  Inside inside = Inside::none;
   /// The bounds of the distance.
   DistanceBounds distance;
   /// The two points that are DistanceBounds::upper apart.

@@ -64,6 +64,8 @@ struct ObjectDescription {
   std::uint32_t group = 0;
   /// The margin of the object, see ObjectSettings::margin.
   double margin = 0;
+  /// Whether the object's surface bounds a volume, see ObjectSettings::solid.
+  bool solid = false;
   /// The kind of the object, see ObjectSettings::kind.
   std::uint32_t kind = 0;
   /// How errors name this entry, such as `scene.json: objects[2]`.

@@ -1,0 +1,193 @@
+#include "search/solid_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "core/base/growth_policy.hpp"
+#include "leaves/nearest_features.hpp"
+#include "measure/measure_batch.hpp"
+#include "solid/nearest_on_surface.hpp"
+
+namespace graze {
+namespace {
+
+auto key_of(const Contact& contact) {
+  return std::tie(contact.kind, contact.feature_a, contact.feature_b);
+}
+
+/// The order in which contacts of a limited answer are kept.
+bool is_nearer(const Contact& left, const Contact& right) {
+  return left.distance != right.distance ? left.distance < right.distance : key_of(left) < key_of(right);
+}
+
+/// The side of a solid that a vertex is on, of a contact of that vertex.
+Side side_of(const VerticesInSolid& inside, const Contact& contact, std::uint32_t vertex) {
+  if (contact.distance == 0) return Side::none;
+  return inside.contains(vertex) ? Side::back : Side::front;
+}
+
+}  // namespace
+
+void SolidSearch::widen_reach() {
+  find_inside(pair_.query.threshold);
+  if (has_some()) pair_.query.reach = std::numeric_limits<double>::infinity();
+}
+
+SearchProgress SolidSearch::complete() {
+  PairAnswer& answer = *pair_.answer;
+  const double apart = answer.listed ? answer.distance.lower : pair_.query.reach;
+  if (touching_ == nullptr && !find_touching(apart)) return SearchProgress::gave_up;
+  find_inside(apart);
+  if (has_some() && !answer.listed) {
+    pair_.query.reach = std::numeric_limits<double>::infinity();
+    return SearchProgress::no_contact;
+  }
+  if (has_some()) answer.in_contact = true;
+  if (answer.listed && pair_.query.detail == ContactDetail::nearest) {
+    add_contacts_inside();
+    set_sides();
+  }
+  return SearchProgress::answered;
+}
+
+// ---- What is inside
+
+bool SolidSearch::has_some() const {
+  return scratch_.a_in_b.has_some() || scratch_.b_in_a.has_some();
+}
+
+/// Finds what is inside, of surfaces that are at least so far apart.
+void SolidSearch::find_inside(double apart) {
+  scratch_.a_in_b.set_none(*pair_.a);
+  scratch_.b_in_a.set_none(*pair_.b);
+  pair_.answer->inside = Inside::none;
+  if (common(pair_.a->box(), pair_.b->box()).empty()) return;
+  if (knows_inside()) return repeat_inside();
+  if (pair_.query.b_is_solid) scratch_.a_in_b.find(*pair_.a, *pair_.b, touching_->of_a, worker_.pair.count);
+  if (pair_.query.a_is_solid) scratch_.b_in_a.find(*pair_.b, *pair_.a, touching_->of_b, worker_.pair.count);
+  pair_.answer->inside = state(touching_->pierced);
+  remember_inside(apart);
+}
+
+/// Whether what was found for earlier positions still holds.
+bool SolidSearch::knows_inside() const {
+  const LastInside& last = pair_.front->last_inside;
+  if (!(last.apart > 0)) return false;
+  const double motion = pair_.a->motion_since(last.travel_a) + pair_.b->motion_since(last.travel_b);
+  return motion * round_up < last.apart;
+}
+
+void SolidSearch::repeat_inside() {
+  pair_.answer->inside = pair_.front->last_inside.inside;
+  if (pair_.answer->inside == Inside::a_in_b) scratch_.a_in_b.set_all(*pair_.a);
+  if (pair_.answer->inside == Inside::b_in_a) scratch_.b_in_a.set_all(*pair_.b);
+}
+
+/// Looks for the edges that touch, if the surfaces may. Returns false if the budget is spent.
+bool SolidSearch::find_touching(double apart) {
+  scratch_.touching.clear();
+  touching_ = &scratch_.touching;
+  if (apart > 0) return true;
+  LeafPairList found;
+  const RegionPair root;
+  const auto touches = [](double lower, double /*slack*/) { return lower == 0; };
+  if (!worker_.leaf_pairs.walk(
+          {&root, 1}, touches, [](const RegionPair&) {}, found))
+    return false;
+  worker_.begin_leaves(found);
+  scratch_.keys.clear();
+  worker_.scratch.nearest_of_vertices.clear();
+  NearestFeatures features(worker_.pair, 0, worker_.scratch.features, worker_.scratch.nearest_of_vertices,
+                           scratch_.keys, {}, &scratch_.touching);
+  for (const LeafPair& leaves : found.leaves)
+    features.add(worker_.leaf_pairs.leaf_a(leaves.pair), worker_.leaf_pairs.leaf_b(leaves.pair));
+  features.finish();
+  return true;
+}
+
+Inside SolidSearch::state(bool pierced) const {
+  const bool all_of_a = scratch_.a_in_b.has_all(*pair_.a);
+  const bool all_of_b = scratch_.b_in_a.has_all(*pair_.b);
+  if (pierced || (scratch_.a_in_b.has_some() && !all_of_a) || (scratch_.b_in_a.has_some() && !all_of_b))
+    return Inside::crossing;
+  if (all_of_a) return Inside::a_in_b;
+  return all_of_b ? Inside::b_in_a : Inside::none;
+}
+
+/// Remembers the state of surfaces that are so far apart. It has to say which vertices are inside.
+void SolidSearch::remember_inside(double apart) const {
+  LastInside& last = pair_.front->last_inside;
+  last = {};
+  const bool is_known =
+      pair_.answer->inside != Inside::crossing && !(scratch_.a_in_b.has_some() && scratch_.b_in_a.has_some());
+  if (is_known) last = {pair_.answer->inside, apart, pair_.a->travel(), pair_.b->travel()};
+}
+
+// ---- Contacts inside
+
+/// Adds a contact for each vertex inside that is further from the surface than the threshold. The others have
+/// one already.
+void SolidSearch::add_contacts_inside() {
+  PairAnswer& answer = *pair_.answer;
+  if (!has_some() || answer.cut) return;  // what a cut answer keeps is nearer
+  list_keys_inside();
+  resize_to_overwrite(scratch_.contacts, scratch_.keys.size());
+  measure(worker_.pair, scratch_.keys, scratch_.contacts, worker_.scratch.measure);
+  const std::size_t limit = pair_.query.contact_limit;
+  if (limit > 0 && answer.contacts.size() + scratch_.contacts.size() > limit)
+    keep_nearest(limit - answer.contacts.size());
+  merge_contacts();
+}
+
+/// Lists the keys of vertices inside, those of contacts left out, in their order and each once.
+void SolidSearch::list_keys_inside() {
+  scratch_.keys.clear();
+  VertexNearest nearest;
+  const VertexNearest* last = nullptr;
+  const auto add = [&](VertexOfPair vertex) {
+    nearest = nearest_on_surface(worker_.pair, vertex, last);
+    last = &nearest;
+    if (!is_closer_than(worker_.pair, nearest.key, nearest.squared, pair_.query.threshold))
+      scratch_.keys.push_back(nearest.key);
+  };
+  for (const std::uint32_t vertex : scratch_.a_in_b.inside()) add(VertexOfPair::of_a(vertex));
+  for (const std::uint32_t vertex : scratch_.b_in_a.inside()) add(VertexOfPair::of_b(vertex));
+  std::sort(scratch_.keys.begin(), scratch_.keys.end());
+  scratch_.keys.erase(std::unique(scratch_.keys.begin(), scratch_.keys.end()), scratch_.keys.end());
+}
+
+void SolidSearch::keep_nearest(std::size_t most) {
+  auto& contacts = scratch_.contacts;
+  pair_.answer->cut = true;
+  const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(contacts.begin(), end, contacts.end(), is_nearer);
+  contacts.erase(end, contacts.end());
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& left, const Contact& right) { return key_of(left) < key_of(right); });
+}
+
+/// Merges the contacts inside into the answer's, from the back, in place.
+void SolidSearch::merge_contacts() {
+  auto& all = pair_.answer->contacts;
+  auto& added = scratch_.contacts;
+  std::size_t left = all.size();
+  std::size_t to = left + added.size();
+  if (all.capacity() < to) all.reserve(with_growth_room(to));
+  all.resize(to);
+  for (std::size_t i = added.size(); i > 0;) {
+    const bool takes_added = left == 0 || key_of(all[left - 1]) < key_of(added[i - 1]);
+    all[--to] = takes_added ? added[--i] : all[--left];
+  }
+}
+
+void SolidSearch::set_sides() {
+  for (Contact& contact : pair_.answer->contacts) {
+    if (pair_.query.a_is_solid && contact.feature_b.kind == FeatureKind::vertex)
+      contact.side_a = side_of(scratch_.b_in_a, contact, contact.feature_b.index);
+    if (pair_.query.b_is_solid && contact.feature_a.kind == FeatureKind::vertex)
+      contact.side_b = side_of(scratch_.a_in_b, contact, contact.feature_a.index);
+  }
+}
+
+}  // namespace graze

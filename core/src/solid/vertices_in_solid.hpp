@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "arithmetic/arithmetic.hpp"
+#include "base/working_memory.hpp"
+#include "core/mesh/pair_room.hpp"
+#include "core/surface/surface.hpp"
+
+namespace graze {
+
+/// Finds which used vertices of a surface are inside a solid. An edge that does not touch the solid's surface
+/// has both ends on one side. So vertices that such edges join are decided together, by one of them.
+class VerticesInSolid {
+ public:
+  /// Finds them anew. `touching` lists all edges of `surface` that touch the solid's surface, in any order
+  /// and several times, and may list others. Both surfaces have been refitted for faces.
+  void find(const Surface& surface, const Surface& solid, std::span<const std::uint32_t> touching,
+            DecisionCount& count);
+  /// Takes all used vertices of the surface to be inside, or none.
+  void set_all(const Surface& surface);
+  void set_none(const Surface& surface);
+
+  /// Those inside, in no order.
+  [[nodiscard]] std::span<const std::uint32_t> inside() const { return inside_; }
+  [[nodiscard]] bool contains(std::uint32_t vertex) const { return states_[vertex] == State::inside; }
+  [[nodiscard]] bool has_some() const { return !inside_.empty(); }
+  [[nodiscard]] bool has_all(const Surface& surface) const {
+    return inside_.size() == surface.mesh().regions().vertices().size();
+  }
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.states_, self.beside_, self.touching_, self.candidates_, self.joined_, self.inside_);
+  }
+  void reserve(const PairRoom& room);
+
+ private:
+  /// A vertex outside the solid's box is `outside`.
+  enum class State : std::uint8_t { outside, candidate, joined, inside };
+
+  void begin(const Surface& surface);
+  void list_candidates(const Surface& surface, const Box& box);
+  void list_touching(const IndexedMesh& mesh, std::span<const std::uint32_t> touching);
+  [[nodiscard]] bool join(const IndexedMesh& mesh, std::uint32_t first);
+  [[nodiscard]] bool is_joined(std::uint32_t vertex, std::uint32_t other) const;
+
+  std::vector<State> states_;              ///< by vertex; all `outside` between two pairs
+  std::vector<std::uint8_t> beside_;       ///< by vertex: whether an edge of it touches; all 0 between pairs
+  std::vector<std::uint64_t> touching_;    ///< the edges that touch, by their ends, ascending
+  std::vector<std::uint32_t> candidates_;  ///< the vertices in the solid's box
+  std::vector<std::uint32_t> joined_;      ///< those that are decided together
+  std::vector<std::uint32_t> inside_;
+};
+
+}  // namespace graze
