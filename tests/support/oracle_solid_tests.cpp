@@ -1,7 +1,6 @@
 // The oracle of solids against answers known by hand, and the random scenes with solids.
 
 #include <algorithm>
-#include <map>
 
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
@@ -53,17 +52,6 @@ bool is_on(const Shape& shape, const Vector3d& point) {
 
 Containment inside_of(const Shape& a, const Shape& b, oracle::Solids solids) {
   return oracle::solid_pair(a, b, solids, 0).inside;
-}
-
-bool is_closed(const Shape& shape) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> passes;
-  for (const auto& face : shape.faces)
-    for (std::size_t i = 0; i < face.size(); ++i) ++passes[{face[i], face[(i + 1) % face.size()]}];
-  for (const auto& [side, count] : passes) {
-    const auto back = passes.find({side.second, side.first});
-    if (count != 1 || back == passes.end() || back->second != 1) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -138,7 +126,7 @@ TEST_CASE("winding oracle: 64 bits give the same answers as integers of any leng
   std::size_t compared = 0;
   for (std::uint64_t seed = 1; seed < 200; seed += 2) {
     const oracle::RandomSolids scene = oracle::random_solids(seed);
-    if (!is_closed(scene.b)) continue;
+    if (!oracle::is_closed(scene.b)) continue;
     const oracle::WindingOracle winding(scene.b);
     for (const Vector3d& point : scene.a.positions) {
       if (!point.allFinite()) continue;
@@ -223,15 +211,28 @@ TEST_CASE("oracle of solids: in a cavity, in a part of two") {
         Containment::crossing);
 }
 
+TEST_CASE("random solids: a closed surface passes each edge once in both directions") {
+  CHECK(oracle::is_closed(cube({0, 0, 0}, 1)));
+  Shape open = cube({0, 0, 0}, 1);
+  open.faces.pop_back();
+  CHECK_FALSE(oracle::is_closed(open));
+  Shape turned = cube({0, 0, 0}, 1);
+  std::reverse(turned.faces[3].begin(), turned.faces[3].end());
+  CHECK_FALSE(oracle::is_closed(turned));
+  Shape doubled = cube({0, 0, 0}, 1);
+  for (int i = 0; i < 6; ++i) doubled.faces.push_back(doubled.faces[static_cast<std::size_t>(i)]);
+  CHECK_FALSE(oracle::is_closed(doubled));
+}
+
 TEST_CASE("random solids are as they say, and reach every case") {
   oracle::SolidCoverage coverage;
   std::size_t open = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const oracle::RandomSolids scene = oracle::random_solids(seed);
     INFO("seed " << seed);
-    CHECK((!scene.solids.a || is_closed(scene.a)));
-    CHECK((!scene.solids.b || is_closed(scene.b)));
-    open += is_closed(scene.a) && is_closed(scene.b) ? 0U : 1U;
+    CHECK((!scene.solids.a || oracle::is_closed(scene.a)));
+    CHECK((!scene.solids.b || oracle::is_closed(scene.b)));
+    open += oracle::is_closed(scene.a) && oracle::is_closed(scene.b) ? 0U : 1U;
     coverage.count(scene);
   }
   for (const std::size_t reached : coverage.containments) CHECK(reached > 10);

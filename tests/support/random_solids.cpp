@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "support/exact_shape.hpp"
 #include "support/exact_winding.hpp"
@@ -242,6 +244,17 @@ void move_on_grid(Shape& shape, Random& random) {
     shape.positions[random.below(vertex_count(shape))] +=
         grid_step * (whole_point(random, 2) - Eigen::Vector3d(1, 1, 1));
   }
+}
+
+bool is_closed(const Shape& shape) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> passes;
+  for (const auto& face : shape.faces)
+    for (std::size_t i = 0; i < face.size(); ++i) ++passes[{face[i], face[(i + 1) % face.size()]}];
+  return std::all_of(passes.begin(), passes.end(), [&](const auto& entry) {
+    const auto& [from, to] = entry.first;
+    const auto back = passes.find({to, from});
+    return entry.second == 1 && back != passes.end() && back->second == 1;
+  });
 }
 
 void SolidCoverage::count(const RandomSolids& scene) {

@@ -20,6 +20,9 @@ RandomSolids random_solids(std::uint64_t seed);
 /// The next step of a shape: as a whole by up to one step of the grid along each axis, or only one vertex.
 void move_on_grid(Shape& shape, Random& random);
 
+/// Whether each edge has two faces that pass it in opposite directions.
+bool is_closed(const Shape& shape);
+
 /// How often scenes reached each case, so that a test can assert that none was missed.
 struct SolidCoverage {
   std::array<std::size_t, 4> containments{};  ///< by Containment
