@@ -4,6 +4,7 @@
 
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
+#include "support/oracle_nearest.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -162,6 +163,31 @@ TEST_CASE("oracle of nearest: ridges of two cubes, square to each other") {
   CHECK(listed[0].distance == 0.25);
   CHECK(listed[0].point_a == Vector3d(0, 0, 0));
   CHECK(listed[0].point_b == Vector3d(0, 0, 0.25));
+}
+
+TEST_CASE("oracle of nearest: the closest point of a surface is that of the nearest face") {
+  std::size_t ties = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const oracle::RandomScene scene = oracle::random_scene(seed);
+    const oracle::ExactShape a(scene.a);
+    const oracle::ExactShape b(scene.b);
+    for (const std::uint32_t vertex : a.used) {
+      const auto foot =
+          oracle::foot_on_surface(a.points[vertex], a.point_extents[vertex], b, oracle::Limit::none());
+      REQUIRE(foot.has_value());
+      std::size_t as_near = 0;
+      for (std::uint32_t face = 0; face < b.faces.size(); ++face) {
+        const oracle::Foot of_face = oracle::foot_on_face(a.points[vertex], b, face);
+        CHECK(foot->distance_squared <= of_face.distance_squared);
+        if (foot->distance_squared != of_face.distance_squared) continue;
+        CHECK(foot->feature <= of_face.feature);
+        as_near += foot->feature == of_face.feature ? 1U : 0U;
+        ties += foot->feature == of_face.feature ? 0U : 1U;
+      }
+      CHECK(as_near > 0);
+    }
+  }
+  CHECK(ties > 10);
 }
 
 TEST_CASE("oracle of nearest: it lists a part of `features`, and each vertex once") {

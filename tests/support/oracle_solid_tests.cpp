@@ -1,6 +1,9 @@
 // The oracle of solids against answers known by hand, and the random scenes with solids.
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
 
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
@@ -48,6 +51,24 @@ int number_at(const Shape& shape, const Vector3d& point) {
 
 bool is_on(const Shape& shape, const Vector3d& point) {
   return oracle::winding(shape, point).on_surface;
+}
+
+/// The solid angle of a triangle seen from the origin, by its winding: van Oosterom and Strackee's formula.
+double solid_angle(const Vector3d& p, const Vector3d& q, const Vector3d& r) {
+  const double lengths = p.norm() * q.norm() * r.norm();
+  const double rest = p.dot(q) * r.norm() + q.dot(r) * p.norm() + r.dot(p) * q.norm();
+  return 2 * std::atan2(p.dot(q.cross(r)), lengths + rest);
+}
+
+/// The winding number in plain double, for points that are not close to the surface.
+double rough_winding(const Shape& shape, const Vector3d& point) {
+  double sum = 0;
+  for (const auto& face : shape.faces) {
+    const Vector3d first = shape.positions[face[0]] - point;
+    for (std::size_t i = 2; i < face.size(); ++i)
+      sum += solid_angle(first, shape.positions[face[i - 1]] - point, shape.positions[face[i]] - point);
+  }
+  return sum / (4 * std::numbers::pi);
 }
 
 Containment inside_of(const Shape& a, const Shape& b, oracle::Solids solids) {
@@ -138,6 +159,29 @@ TEST_CASE("winding oracle: 64 bits give the same answers as integers of any leng
     }
   }
   CHECK(compared > 500);
+}
+
+TEST_CASE("winding oracle: the sum of solid angles gives the same numbers") {
+  oracle::Random random(3);
+  std::map<int, std::size_t> counts;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const Shape shape = oracle::random_solids(seed).a;
+    if (!oracle::is_closed(shape)) continue;
+    INFO("seed " << seed);
+    const auto corner = [&] {
+      return shape.positions[shape.faces[random.below(static_cast<std::uint32_t>(shape.faces.size()))][0]];
+    };
+    for (int i = 0; i < 20; ++i) {
+      const Vector3d first = corner();
+      const Vector3d point = (first + corner()) / 2 + random.vector(-2, 2);
+      const oracle::Winding about = oracle::winding(shape, point);
+      CHECK_FALSE(about.on_surface);
+      CHECK(std::abs(rough_winding(shape, point) - about.number) < 1e-6);
+      ++counts[about.number];
+    }
+  }
+  for (const int number : {-2, -1, 0, 1, 2}) CHECK(counts[number] > 10);
+  CHECK(counts[1] > 1000);
 }
 
 TEST_CASE("oracle of solids: a cube in a cube") {
