@@ -109,6 +109,17 @@ TEMPLATE_TEST_CASE_SIG("nearest: 10,000 random scenes are those of brute force, 
     check_nearest(2 * (nearest_part * nearest_generic_scenes + i));
 }
 
+TEST_CASE("nearest: the distance is that of the surfaces where they are nearest at the fold of a quad") {
+  // The edge of a is nearest to the fold, from vertex 0 to vertex 3. Vertices and edges are further apart.
+  const oracle::Shape a{{{0, 0, 0}, {-1, 1, 0}}, {{0, 1, 1}}};
+  const oracle::Shape b{{{0, 0, 0.5}, {0, 0, 1}, {0, 0, 1}, {-1, 0, 0}}, {{0, 1, 3, 2}}};
+  const auto closest = oracle::closest(a, b, 1);
+  REQUIRE(closest.has_value());
+  CHECK(closest->kind == ContactKind::EF);
+  CHECK(oracle::nearest(a, b, 1)[0].distance > closest->distance);
+  for (const double threshold : {0.41, 0.5, 1.0}) CHECK(nearest_fault({a, b, threshold}) == "");
+}
+
 TEST_CASE("nearest: generated surfaces of a few hundred faces") {
   const oracle::Shape ball = shape_of(models::sphere(14, 9));
   const oracle::Shape quad_ball = shape_of(models::sphere(12, 7, models::Faces::quads));
