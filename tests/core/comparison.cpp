@@ -70,6 +70,14 @@ Comparison compare_surfaces(const Body& a, const Body& b, double threshold) {
   return comparison;
 }
 
+Comparison compare_nearest(const Body& a, const Body& b, double threshold) {
+  const Expected expected = expected_of(a.now, b.now, threshold, ContactDetail::nearest);
+  const PairAnswer answer = detect(surface_of(a), surface_of(b), query_of(ContactDetail::nearest, threshold));
+  return {difference_of("nearest", answer, expected.contacts, expected.in_contact, expected.distance,
+                        {a.now, b.now}),
+          expected.contacts.size()};
+}
+
 Comparison compare_vertices(const Body& a, const Body& b, double threshold) {
   const Surface surface_a = surface_of(a);
   const Surface surface_b = surface_of(b);

@@ -39,6 +39,8 @@ struct Comparison {
 Comparison compare(const Body& a, const Body& b, double threshold);
 /// The details about surfaces: features, closest, none.
 Comparison compare_surfaces(const Body& a, const Body& b, double threshold);
+/// The detail `nearest`, without solids.
+Comparison compare_nearest(const Body& a, const Body& b, double threshold);
 /// The details about vertices: vertices, regions.
 Comparison compare_vertices(const Body& a, const Body& b, double threshold);
 

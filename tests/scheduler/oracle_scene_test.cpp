@@ -12,9 +12,9 @@
 namespace graze::tests {
 namespace {
 
-constexpr std::array<ContactDetail, 5> details = {ContactDetail::none, ContactDetail::closest,
-                                                  ContactDetail::regions, ContactDetail::vertices,
-                                                  ContactDetail::features};
+constexpr std::array<ContactDetail, 6> details = {ContactDetail::none,     ContactDetail::closest,
+                                                  ContactDetail::regions,  ContactDetail::vertices,
+                                                  ContactDetail::features, ContactDetail::nearest};
 
 /// Compares one row, or its absence, with what brute force says.
 void check_pair(const FrameReport& report, const PairReport* row, const Tolerance& tolerance,

@@ -66,8 +66,10 @@ Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double thre
   if (detail == ContactDetail::regions) expected.contacts = oracle::regions(a, b, threshold, rest_a, rest_b);
   if (detail == ContactDetail::closest)
     if (const auto closest = oracle::closest(a, b, threshold)) expected.contacts = {*closest};
+  if (detail == ContactDetail::nearest) expected.contacts = oracle::nearest(a, b, threshold);
   expected.in_contact = !expected.contacts.empty();
-  if (detail == ContactDetail::none)
+  // A pair that is near at the fold of a quad only is in contact, but `nearest` lists no folds.
+  if (detail == ContactDetail::none || detail == ContactDetail::nearest)
     expected.in_contact = expected.distance.pierced || is_within(expected.distance, threshold);
   return expected;
 }

@@ -18,21 +18,17 @@ Foot foot_on_vertex(const Point& point, const ExactShape& shape, std::uint32_t v
   return {{FeatureKind::vertex, vertex}, corner, squared_length(point - corner)};
 }
 
-/// The fraction of the way along the line through a segment at which a point projects; none without length.
-std::optional<Rational> project(const Point& point, const ExactShape& shape, const Segment& segment) {
+/// The foot of a point on a segment; none if it is not between the ends.
+std::optional<Foot> foot_inside_segment(const Point& point, const ExactShape& shape, const Segment& segment) {
   const Point& start = shape.points[segment.ends[0]];
   const Point along = shape.points[segment.ends[1]] - start;
+  const Point from_start = point - start;
+  const Rational way = dot(from_start, along);
+  if (way <= 0) return std::nullopt;
   const Rational length_squared = squared_length(along);
-  if (length_squared == 0) return std::nullopt;
-  return Rational(dot(point - start, along) / length_squared);
-}
-
-std::optional<Foot> foot_inside_segment(const Point& point, const ExactShape& shape, const Segment& segment) {
-  const std::optional<Rational> t = project(point, shape, segment);
-  if (!t || *t <= 0 || *t >= 1) return std::nullopt;
-  Point foot = point_at(shape, segment, *t);
-  Rational distance_squared = squared_length(point - foot);
-  return Foot{segment.owner, std::move(foot), std::move(distance_squared)};
+  if (way >= length_squared) return std::nullopt;
+  const Rational t = way / length_squared;
+  return Foot{segment.owner, start + t * along, Rational(squared_length(from_start) - t * way)};
 }
 
 std::optional<Foot> foot_inside_triangle(const Point& point, const ExactShape& shape, std::uint32_t face,
@@ -133,10 +129,12 @@ std::optional<SegmentContact> inner_contact(const ExactShape& a, const Segment& 
   const Rational normal_squared = squared_length(normal);
   if (normal_squared == 0) return std::nullopt;
   const Point between = b.points[segment_b.ends[0]] - a.points[segment_a.ends[0]];
-  const Rational s = dot(cross(between, v), normal) / normal_squared;
-  if (s <= 0 || s >= 1) return std::nullopt;
-  const Rational t = dot(cross(between, u), normal) / normal_squared;
-  if (t <= 0 || t >= 1) return std::nullopt;
+  Rational s = dot(cross(between, v), normal);
+  if (s <= 0 || s >= normal_squared) return std::nullopt;
+  Rational t = dot(cross(between, u), normal);
+  if (t <= 0 || t >= normal_squared) return std::nullopt;
+  s /= normal_squared;
+  t /= normal_squared;
   const Rational height = dot(between, normal);
   const Rational distance_squared = height * height / normal_squared;
   return SegmentContact{{segment_a.owner, point_at(a, segment_a, s), distance_squared},

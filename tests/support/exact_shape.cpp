@@ -123,7 +123,15 @@ Limit Limit::up_to(const Rational& distance_squared) {
   return limit;
 }
 
+Limit Limit::none() {
+  Limit limit;
+  limit.endless_ = true;
+  limit.reach_squared_ = std::numeric_limits<long double>::infinity();
+  return limit;
+}
+
 bool Limit::admits(const Rational& distance_squared) const {
+  if (endless_) return true;
   return inclusive_ ? distance_squared <= squared_ : distance_squared < squared_;
 }
 

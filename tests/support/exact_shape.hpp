@@ -21,6 +21,7 @@ class Limit {
  public:
   static Limit below(double threshold);                  ///< strictly closer; nothing for 0 or less
   static Limit up_to(const Rational& distance_squared);  ///< as close, or closer
+  static Limit none();                                   ///< every distance
 
   [[nodiscard]] bool admits(const Rational& distance_squared) const;
   /// Whether the boxes are certainly further apart than the limit. Long double squares of doubles neither
@@ -30,6 +31,7 @@ class Limit {
  private:
   Rational squared_;
   bool inclusive_ = false;
+  bool endless_ = false;
   long double reach_squared_ = 0;
 };
 

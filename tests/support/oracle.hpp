@@ -38,6 +38,15 @@ struct Named {
 /// has several crossings its points are those of a's fold, else of b's fold, nearest the fold's first corner.
 std::vector<Named> features(const Shape& a, const Shape& b, double threshold);
 
+/// The contacts of detail `nearest` between surfaces that are no solids, sorted by (kind, a, b), each once:
+///
+/// - For each used vertex strictly nearer to the other surface than `threshold`, its closest point there. If
+///   several features hold that point, or several points are equally close, the lowest feature names it.
+/// - Each pair of edges whose closest points are inside both, strictly nearer than `threshold`, unless a face
+///   at one of them leads nearer to the other. The diagonal of a quad is no edge.
+/// - Each face that an edge pierces, at any threshold.
+std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold);
+
 /// Every pair of used vertices closer than `threshold`, sorted.
 std::vector<Named> vertices(const Shape& a, const Shape& b, double threshold);
 
@@ -58,6 +67,50 @@ Pair vertex_distance(const Shape& a, const Shape& b);
 
 /// The one contact of detail `closest`; none unless the surfaces are closer than `threshold` or pierced.
 std::optional<Named> closest(const Shape& a, const Shape& b, double threshold);
+
+/// Where a point lies with regard to a closed surface. The number is 1 inside a surface whose normals point
+/// outside.
+struct Winding {
+  int number = 0;  ///< 0 for a point on the surface
+  bool on_surface = false;
+
+  [[nodiscard]] bool is_inside() const { return number != 0; }
+};
+Winding winding(const Shape& closed, const Eigen::Vector3d& point);
+
+/// Which of the two objects of a pair are solids: closed surfaces that bound a volume.
+struct Solids {
+  bool a = false;
+  bool b = false;
+};
+
+/// How two objects of which at least one is a solid lie in each other. The first line that holds counts:
+///
+/// - an edge of one pierces a face of the other: `crossing`
+/// - all used vertices of a are inside the solid b: `a_in_b`
+/// - all used vertices of b are inside the solid a: `b_in_a`
+/// - a vertex of one is inside the other: `crossing`
+///
+/// A point on the surface is not inside. Two surfaces that are no solids are `none`. The two lines in the
+/// middle never hold both: the outermost vertex of both shapes is in no solid.
+enum class Containment : std::uint8_t { none, a_in_b, b_in_a, crossing };
+
+/// The sides of a contact that solids decide: that of a solid on which the contact's vertex lies. None where
+/// the contact has no such vertex, or the object is no solid.
+struct SolidSides {
+  std::optional<Side> a;  ///< of a's surface, where b's vertex is
+  std::optional<Side> b;  ///< of b's surface, where a's vertex is
+};
+
+/// The answer to detail `nearest` about two objects that may be solids.
+struct SolidPair {
+  Containment inside = Containment::none;
+  bool has_vertex_inside = false;
+  /// As `nearest`, and the closest point of each used vertex inside the other's solid, however far.
+  std::vector<Named> contacts;
+  std::vector<SolidSides> sides;  ///< of each contact
+};
+SolidPair solid_pair(const Shape& a, const Shape& b, Solids solids, double threshold);
 
 /// One region of the octree of a rest shape.
 struct OracleRegion {
