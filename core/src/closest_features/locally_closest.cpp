@@ -15,8 +15,7 @@ class VolumesOverEdges {
         a_(ends_of(pair.a, edge_a)),
         b_(ends_of(pair.b, edge_b)),
         normal_((a_[1] - a_[0]).cross(b_[1] - b_[0])),
-        // Each of the six products of a volume is at most this times a coordinate of the way. Its error is
-        // below eight units of 2^-53.
+        // docs/numerics.md derives it.
         error_(largest(a_[1] - a_[0]) * largest(b_[1] - b_[0]) * 0x1p-46) {}
 
   [[nodiscard]] int sign_to(const Eigen::Vector3d& to, const Eigen::Vector3d& from) const {
