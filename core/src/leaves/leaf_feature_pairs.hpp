@@ -27,8 +27,7 @@ namespace graze {
 /// is_of_a)` for every segment that touches a face of the other surface, and perhaps for others.
 ///
 /// Where `Range::nearest_only` holds, the keys of a vertex and a face come with the range of their distance.
-/// Keys of two edges are left out where a closest point is an end. So is everything about folds that is no
-/// vertex: a vertex above a fold is above its face.
+/// Keys of two edges are left out where a closest point is an end.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
  public:
@@ -52,21 +51,17 @@ class LeafFeaturePairs {
     if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
       near_vertices(a.vertices, b.triangles, faces, batches_.vertex_a, handle_vertex_a());
       touching(a.edges, b.triangles, faces, batches_.through_b, handle_through_b());
-      if constexpr (!Range::nearest_only)
-        touching(a.folds, b.triangles, faces, batches_.through_b, handle_through_b());
+      touching(a.folds, b.triangles, faces, batches_.through_b, handle_through_b());
     }
     if (const kernels::Block faces = boxes_of(a.triangles); faces.count > 0) {
       near_vertices(b.vertices, a.triangles, faces, batches_.vertex_b, handle_vertex_b());
       touching(b.edges, a.triangles, faces, batches_.through_a, handle_through_a());
-      if constexpr (!Range::nearest_only)
-        touching(b.folds, a.triangles, faces, batches_.through_a, handle_through_a());
+      touching(b.folds, a.triangles, faces, batches_.through_a, handle_through_a());
     }
     near_segments(a.edges, b.edges);
-    if constexpr (!Range::nearest_only) {
-      near_segments(a.edges, b.folds);
-      near_segments(a.folds, b.edges);
-      near_segments(a.folds, b.folds);
-    }
+    near_segments(a.edges, b.folds);
+    near_segments(a.folds, b.edges);
+    near_segments(a.folds, b.folds);
   }
 
   /// Features that an earlier search has listed.

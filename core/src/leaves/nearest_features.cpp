@@ -33,15 +33,27 @@ void NearestFeatures::take(const FeaturePairKey& key, const SquaredRange& square
   const FeatureKind kind_a = key.a().feature.kind;
   const FeatureKind kind_b = key.b().feature.kind;
   if (kind_a == FeatureKind::vertex)
-    vertices_.offer(pair_, {VertexOfPair::of_a(key.index_a()), key, squared});
+    vertices_.offer(pair_, {{key, squared}, VertexOfPair::of_a(key.index_a())});
   if (kind_b == FeatureKind::vertex)
-    vertices_.offer(pair_, {VertexOfPair::of_b(key.index_b()), key, squared});
+    vertices_.offer(pair_, {{key, squared}, VertexOfPair::of_b(key.index_b())});
   if (kind_a == FeatureKind::vertex || kind_b == FeatureKind::vertex) return;
-  const bool pierces = is_edge_through_face(key);
-  if (pierces && touching_ != nullptr) touching_->pierced = true;
-  if (pierces || (key.kind() == ContactKind::EE && is_closer_than(pair_, key, squared, threshold_) &&
-                  are_locally_closest(pair_, key.index_a(), key.index_b())))
+  if (is_edge_through_face(key)) {
+    if (touching_ != nullptr) touching_->pierced = true;
     keys_.push_back(key);
+  } else if (is_closer_than(pair_, key, squared, threshold_)) {
+    take_near(key, squared);
+  }
+}
+
+/// Takes two edges, or features of which one is a fold, that are below the threshold.
+void NearestFeatures::take_near(const FeaturePairKey& key, const SquaredRange& squared) {
+  if (key.kind() == ContactKind::EE) {
+    if (are_locally_closest(pair_, key.index_a(), key.index_b())) keys_.push_back(key);
+  } else if (!fold_) {
+    fold_ = {key, squared};
+  } else {
+    keep_nearer(pair_, *fold_, {key, squared});
+  }
 }
 
 void append_below(const SurfacePair& pair, std::span<const VertexNearest> nearest, double threshold,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,17 +15,21 @@ namespace graze {
 
 /// Finds the keys of `ContactDetail::nearest` between leaves of two surfaces. Edges that pierce faces, and
 /// edges that are locally closest below a threshold, are appended to `keys`. What may be nearest to a vertex
-/// is offered to `vertices`, which are complete when all leaves have been added.
+/// is offered to `vertices`, which are complete when all leaves have been added. The fold of a quad and what
+/// is nearest to it are no contact. But the surfaces may be nearest there, so `fold` takes the nearest of
+/// those below the threshold.
 class NearestFeatures {
  public:
   /// All keys have come after `finish`. So have the edges that touch in `touching`, which may be null.
   NearestFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
-                  NearestOfVertices& vertices, std::vector<FeaturePairKey>& keys,
-                  const NearListing& listing = {}, TouchingEdges* touching = nullptr)
+                  NearestOfVertices& vertices, std::optional<NearKey>& fold,
+                  std::vector<FeaturePairKey>& keys, const NearListing& listing = {},
+                  TouchingEdges* touching = nullptr)
       : pair_(pair),
         threshold_(threshold),
         scratch_(scratch),
         vertices_(vertices),
+        fold_(fold),
         keys_(keys),
         listing_(listing),
         touching_(touching) {}
@@ -40,11 +45,13 @@ class NearestFeatures {
   template <typename Use>
   void with_names(const Use& use);
   void take(const FeaturePairKey& key, const SquaredRange& squared);
+  void take_near(const FeaturePairKey& key, const SquaredRange& squared);
 
   const SurfacePair& pair_;
   double threshold_;
   LeafScratch& scratch_;
   NearestOfVertices& vertices_;
+  std::optional<NearKey>& fold_;
   std::vector<FeaturePairKey>& keys_;
   NearListing listing_;
   TouchingEdges* touching_;

@@ -10,7 +10,7 @@ constexpr std::size_t least_slots = 256;
 
 }  // namespace
 
-void keep_nearer(const SurfacePair& pair, VertexNearest& kept, const VertexNearest& offered) {
+void keep_nearer(const SurfacePair& pair, NearKey& kept, const NearKey& offered) {
   if (offered.squared.low > kept.squared.high) return;
   if (offered.key == kept.key) {
     kept.squared.low = std::max(kept.squared.low, offered.squared.low);

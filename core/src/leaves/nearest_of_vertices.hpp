@@ -24,11 +24,15 @@ struct VertexOfPair {
   friend auto operator<=>(const VertexOfPair&, const VertexOfPair&) = default;
 };
 
-/// A vertex, and a feature of the other surface that its closest point may lie in, with their distance.
-struct VertexNearest {
-  VertexOfPair vertex;
+/// Two features and the range of their distance.
+struct NearKey {
   FeaturePairKey key;
   SquaredRange squared;
+};
+
+/// A vertex and a feature of the other surface that its closest point may lie in.
+struct VertexNearest : NearKey {
+  VertexOfPair vertex;
 };
 
 /// Keeps for each vertex the nearest of the keys that it is offered, and of equally near ones the lowest. The
@@ -62,7 +66,7 @@ class NearestOfVertices {
   std::uint32_t last_ = no_entry;     ///< the entry that was met last, which is mostly met again
 };
 
-/// Keeps the nearer of two keys of a vertex in `kept`, and of equally near ones the lower.
-void keep_nearer(const SurfacePair& pair, VertexNearest& kept, const VertexNearest& offered);
+/// Keeps the nearer of two keys in `kept`, and of equally near ones the lower.
+void keep_nearer(const SurfacePair& pair, NearKey& kept, const NearKey& offered);
 
 }  // namespace graze

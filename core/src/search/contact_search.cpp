@@ -25,6 +25,7 @@ SearchProgress ContactSearch::begin(SearchWorker& worker) {
   if (is_limited()) nearest_keys_.begin(pair_.query.contact_limit);
   list_slack_ = 0;
   touching_.clear();
+  fold_.reset();
   if (pair_.query.detail != ContactDetail::regions) {
     const NearList* const near = pair_.front->list_for(*pair_.a, *pair_.b, pair_.query.threshold);
     if (near != nullptr) return begin_listed(*near);
@@ -45,7 +46,7 @@ SearchProgress ContactSearch::next_stage(SearchWorker& worker) {
       return finish_measuring(worker);
     case Stage::listed:
     case Stage::contacts:
-      if (has_nearest_to_choose()) return begin_nearest();
+      if (has_nearest_to_choose()) return begin_nearest(worker);
       break;
     case Stage::vertices:
     case Stage::nearest:

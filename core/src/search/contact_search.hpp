@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -97,7 +98,9 @@ class ContactSearch {
   [[nodiscard]] NearestFeatures nearest_features_in(SearchSlice& slice, SearchWorker& worker);
   [[nodiscard]] bool has_nearest_to_choose() const;
   void keep_nearest(SearchSlice& slice, SearchWorker& worker);
-  SearchProgress begin_nearest();
+  SearchProgress begin_nearest(SearchWorker& worker);
+  void find_nearest_fold(SearchWorker& worker);
+  SearchProgress finish_at_fold(SearchWorker& worker);
   void run_nearest(SearchSlice& slice, SearchWorker& worker);
 
   // A limit of contacts. Slices hand their keys over to one list of the nearest:
@@ -120,14 +123,17 @@ class ContactSearch {
   [[nodiscard]] std::span<const FeaturePairKey> keys_of(const SearchSlice& slice) const;
   [[nodiscard]] std::span<Contact> contacts_of(const SearchSlice& slice) const;
   [[nodiscard]] FeaturePairKey lowest_measured(SearchWorker& worker) const;
+  [[nodiscard]] FeaturePairKey lower_of(SearchWorker& worker, const FeaturePairKey& left,
+                                        const FeaturePairKey& right) const;
 
   SearchedPair& pair_;
   SearchSlices& slices_;
   NearBlocks& near_blocks_;
   Stage stage_ = Stage::reach;
-  bool is_from_front_ = false;  ///< the pairs of leaves come from the last query's front, not from a walk
-  double list_slack_ = 0;       ///< `PairQuery::list_slack` where a new near list is made, otherwise 0
-  TouchingEdges touching_;      ///< of all slices, where the pair has a solid
+  bool is_from_front_ = false;   ///< the pairs of leaves come from the last query's front, not from a walk
+  double list_slack_ = 0;        ///< `PairQuery::list_slack` where a new near list is made, otherwise 0
+  TouchingEdges touching_;       ///< of all slices, where the pair has a solid
+  std::optional<NearKey> fold_;  ///< the nearest where one feature is a fold, for `ContactDetail::nearest`
   std::vector<FeaturePairKey> keys_;
   NearestKeys nearest_keys_;                           ///< of all slices, where contacts are limited
   FeaturePairKey lowest_;                              ///< the nearest of all, where contacts are limited

@@ -36,6 +36,7 @@ SearchProgress ContactSearch::finish_keys(SearchWorker& worker) {
   if (is_listing()) keep_list(worker);
   if (pair_.query.has_solid())
     for (const SearchSlice& slice : slices_.all()) touching_.add(slice.contacts.touching);
+  find_nearest_fold(worker);
   if (is_limited()) return finish_nearest(worker);
   if (slices_.size() > 1) return begin_ordering();
   keys_.clear();
@@ -156,6 +157,7 @@ SearchProgress ContactSearch::begin_measuring(SearchWorker& worker) {
 /// Asks for the closest points where these may be in reach, or where something is inside a solid.
 SearchProgress ContactSearch::finish_without_contacts(SearchWorker& worker) {
   if (pair_.query.has_solid()) SolidSearch(pair_, worker, &touching_).widen_reach();
+  if (fold_) return finish_at_fold(worker);
   if (pair_.query.reach > pair_.query.threshold) return SearchProgress::no_contact;
   pair_.answer->contacts.clear();
   return SearchProgress::answered;
@@ -186,10 +188,22 @@ void ContactSearch::run_measured(SearchSlice& slice, SearchWorker& worker) {
 }
 
 SearchProgress ContactSearch::finish_measuring(SearchWorker& worker) {
-  set_distance(*pair_.answer, worker.pair, is_limited() ? lowest_ : lowest_measured(worker));
+  FeaturePairKey lowest = is_limited() ? lowest_ : lowest_measured(worker);
+  if (fold_) lowest = lower_of(worker, lowest, fold_->key);
+  set_distance(*pair_.answer, worker.pair, lowest);
   pair_.answer->in_contact = pair_.answer->listed = true;
   slices_.clear();
   return SearchProgress::answered;
+}
+
+/// The nearer of two keys, and of equally near ones the lower.
+FeaturePairKey ContactSearch::lower_of(SearchWorker& worker, const FeaturePairKey& left,
+                                       const FeaturePairKey& right) const {
+  worker.scratch.lowest.clear();
+  ClosestSet closest(worker.pair, Ties::lowest, worker.scratch.lowest);
+  closest.offer(left);
+  closest.offer(right);
+  return closest.front();
 }
 
 /// The lowest key at the least distance, among contacts that have been measured.

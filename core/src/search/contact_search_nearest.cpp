@@ -17,7 +17,7 @@ NearestFeatures ContactSearch::nearest_features_in(SearchSlice& slice, SearchWor
   worker.scratch.nearest_of_vertices.clear();
   return {
       worker.pair,         pair_.query.threshold, worker.scratch.features, worker.scratch.nearest_of_vertices,
-      slice.contacts.keys, listing_in(slice),     touching_in(slice)};
+      slice.contacts.fold, slice.contacts.keys,   listing_in(slice),       touching_in(slice)};
 }
 
 /// Whether the nearest of each vertex is yet to be chosen out of what several slices have found.
@@ -36,8 +36,28 @@ void ContactSearch::keep_nearest(SearchSlice& slice, SearchWorker& worker) {
             [](const VertexNearest& left, const VertexNearest& right) { return left.vertex < right.vertex; });
 }
 
+/// Finds the nearest of all folds. Slices kept theirs.
+void ContactSearch::find_nearest_fold(SearchWorker& worker) {
+  for (const SearchSlice& slice : slices_.all()) {
+    if (!slice.contacts.fold) continue;
+    if (fold_)
+      keep_nearer(worker.pair, *fold_, *slice.contacts.fold);
+    else
+      fold_ = slice.contacts.fold;
+  }
+}
+
+/// Answers for surfaces in contact at a fold alone: there is no contact to list.
+SearchProgress ContactSearch::finish_at_fold(SearchWorker& worker) {
+  set_distance(*pair_.answer, worker.pair, fold_->key);
+  pair_.answer->in_contact = pair_.answer->listed = true;
+  pair_.answer->contacts.clear();
+  return SearchProgress::answered;
+}
+
 /// Gives each of the first slices a range of all vertices: those of a, then those of b.
-SearchProgress ContactSearch::begin_nearest() {
+SearchProgress ContactSearch::begin_nearest(SearchWorker& worker) {
+  if (stage_ == Stage::listed) ++worker.meter.counters().pairs_by_list;
   stage_ = Stage::nearest;
   const std::size_t vertices = std::size_t{pair_.a->mesh().vertex_count()} + pair_.b->mesh().vertex_count();
   const std::size_t parts = std::min(slices_.size(), most_that_choose);

@@ -34,6 +34,7 @@ SearchSlice& SearchSlices::add() {
   slice.found.clear();
   slice.contacts.near.clear();
   slice.contacts.keys.clear();
+  slice.contacts.fold.reset();
   slice.contacts.of_vertices.clear();
   slice.contacts.touching.clear();
   slice.contacts.near_is_too_long = false;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct FoundContacts {
   std::vector<FeaturePair> near;
   bool near_is_too_long = false;  ///< and was forgotten
   std::vector<FeaturePairKey> keys;
-  std::vector<BinRun> runs;                ///< of `keys`, where there are many slices
-  TouchingEdges touching;                  ///< collected where the pair has a solid
+  std::vector<BinRun> runs;     ///< of `keys`, where there are many slices
+  TouchingEdges touching;       ///< collected where the pair has a solid
+  std::optional<NearKey> fold;  ///< the nearest where one feature is a fold, for `ContactDetail::nearest`
   std::vector<VertexNearest> of_vertices;  ///< what is nearest to each vertex, by vertices
   std::size_t first = 0;                   ///< the index of the first contact of a range of keys
   double nearest = 0;                      ///< the least distance of the contacts that were measured

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "core/base/growth_policy.hpp"
@@ -98,8 +99,9 @@ bool SolidSearch::find_touching(double apart) {
   worker_.begin_leaves(found);
   scratch_.keys.clear();
   worker_.scratch.nearest_of_vertices.clear();
+  std::optional<NearKey> no_fold;
   NearestFeatures features(worker_.pair, 0, worker_.scratch.features, worker_.scratch.nearest_of_vertices,
-                           scratch_.keys, {}, &scratch_.touching);
+                           no_fold, scratch_.keys, {}, &scratch_.touching);
   for (const LeafPair& leaves : found.leaves)
     features.add(worker_.leaf_pairs.leaf_a(leaves.pair), worker_.leaf_pairs.leaf_b(leaves.pair));
   features.finish();

@@ -30,7 +30,7 @@ class NearestOnSurface {
         surface_(vertex.is_of_a() ? pair.b : pair.a),
         point_((vertex.is_of_a() ? pair.a : pair.b).position(vertex.index())),
         slack_(surface_.motion_since_face_refit()),
-        nearest_{vertex, {}, {}} {
+        nearest_{{}, vertex} {
     if (last == nullptr || last->vertex.is_of_a() != vertex.is_of_a()) return;
     const FeaturePiece piece = vertex.is_of_a() ? last->key.b() : last->key.a();
     shrink_limit(squared_range(point_, simplex_of(surface_, piece).point[0]));
@@ -80,7 +80,7 @@ class NearestOnSurface {
   void offer(std::uint32_t face) {
     if (lower_squared(point_, box_of(face)) > limit_) return;
     pair_.check_time();
-    VertexNearest offered{nearest_.vertex, {}, {}};
+    VertexNearest offered{{}, nearest_.vertex};
     const FeaturePiece vertex = vertex_piece(nearest_.vertex.index());
     const FeaturePiece piece = nearest_piece_of_face(point_, surface_, face, pair_.count, offered.squared);
     offered.key =

@@ -14,9 +14,11 @@
 #include "bench/growth_figures.hpp"
 #include "bench/run.hpp"
 #include "bench/slow_motion.hpp"
+#include "bench/surface_details.hpp"
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
 #include "option_checks.hpp"
+#include "output/result_table.hpp"
 #include "output/text.hpp"
 #include "output/text_file.hpp"
 #include "output_path.hpp"
@@ -33,6 +35,7 @@ struct BenchOptions {
   bool evict = false;
   bool is_recorded = false;
   bool aims = false;
+  bool details = false;
   std::size_t slow = 1;
   std::vector<std::string> instruction_sets;
   std::string data = GRAZE_SHARED_DATA;
@@ -90,17 +93,32 @@ void check_scenes(const std::vector<std::string>& wanted) {
                            "\"; there are S1 to S10, and G100 to G10000 and V1000 to V100000");
 }
 
-std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
-                                const bench::PeerModule& module) {
-  std::vector<bench::Run> runs;
+/// Calls `use` with each scene that is asked for, and for which there is data.
+template <typename Use>
+void for_each_scene(const BenchOptions& options, const Use& use) {
   for (const std::string_view name : bench::scene_names()) {
     if (!is_asked_for(name, options.scenes)) continue;
     const bench::BenchScene scene =
         bench::in_slow_motion(bench::make_scene(name, options.data), options.slow);
-    if (!scene.missing.empty()) {
+    if (scene.missing.empty())
+      use(scene);
+    else
       print("\nskipped: " + scene.name + ", " + scene.missing + "\n");
-      continue;
-    }
+  }
+}
+
+void compare_details(const BenchOptions& options) {
+  std::vector<bench::BenchScene> scenes;
+  for_each_scene(options, [&](const bench::BenchScene& scene) { scenes.push_back(scene); });
+  const ResultTable table = bench::compare_surface_details(scenes, options.frames);
+  print(markdown_of(table));
+  if (options.csv) write_text_file(*options.csv, csv_of(table));
+}
+
+std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
+                                const bench::PeerModule& module) {
+  std::vector<bench::Run> runs;
+  for_each_scene(options, [&](const bench::BenchScene& scene) {
     for (const std::string& task : options.tasks)
       for (const unsigned threads : options.threads) {
         bench::RunOptions run;
@@ -115,7 +133,7 @@ std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<I
         runs.push_back(bench::run_scene(scene, run, module));
         print(bench::table_of(runs.back()));
       }
-  }
+  });
   return runs;
 }
 
@@ -130,6 +148,7 @@ void run(const BenchOptions& options) {
   check_scenes(options.scenes);
   if (options.csv) check_output_file("--csv", *options.csv);
   if (options.json) check_output_file("--json", *options.json);
+  if (options.details) return compare_details(options);
   const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);
   const bench::PeerModule module;
   const bench::Surroundings surroundings = bench::surroundings(module, sets);
@@ -172,6 +191,8 @@ void add_bench_command(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--aims", options->aims,
                     "End with a table of graze's own aims beside what was measured (docs/performance.md)");
+  command->add_flag("--details", options->details,
+                    "Instead compare the details features and nearest, with and without solids");
   command->add_flag("--recorded", options->is_recorded, "Measure graze once more, with a recorder attached");
   command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
   command->add_option("--slow", options->slow, "Play scenes so many times slower")

@@ -87,6 +87,7 @@ struct LeafFront {
   void forget() {
     forget_leaves();
     forget_list();
+    last_inside = {};
   }
   void forget_list() {
     if (near != nullptr) near->forget();
@@ -98,7 +99,6 @@ struct LeafFront {
     unlisted_lower_bound = -1;
     apart = 0;
     witness = {};
-    last_inside = {};
     touched = false;
   }
   /// The list, where it says all that can be in contact below a threshold now; otherwise null.
