@@ -39,7 +39,8 @@ class RandomCalls {
 
   void add(Scene& scene) {
     Body body;
-    body.mesh = std::array{plate_mesh(), needle_mesh(), split_plate_mesh()}[below(3)];
+    body.mesh =
+        std::array{plate_mesh(), needle_mesh(), split_plate_mesh()}[static_cast<std::size_t>(below(3))];
     ObjectSettings settings;
     settings.motion = body.motion = static_cast<Motion>(below(3));
     settings.name = chance(2) ? "named " + std::to_string(objects_.size()) : "";
