@@ -269,6 +269,35 @@ TEST_CASE("face groups: a limit of contacts keeps the nearest of the rest") {
   CHECK(cut > 10);
 }
 
+TEST_CASE("face groups: bounds to a tolerance hold, and contacts are exact") {
+  const FloatingPointScope scope;
+  std::size_t loose = 0;
+  for (std::uint64_t seed = 1; seed < 600; seed += 2) {
+    const oracle::RandomScene scene = oracle::random_scene(seed);
+    Random random(seed);
+    const Grouping grouping = random_grouping(random, scene.a, scene.b);
+    const oracle::FacePairs pairs = grouping.pairs(scene.a, scene.b);
+    if (!pairs.are_some()) continue;
+    const Surface a = surface_of({scene.a});
+    const Surface b = surface_of({scene.b});
+    const GroupFilter filter = grouping.filter(a.mesh(), b.mesh());
+    PairQuery query = query_of(ContactDetail::none, scene.threshold);
+    query.mode = AccuracyMode::within;
+    query.tolerance = 0.5;
+    query.groups = &filter;
+    const PairAnswer answer = detect(a, b, query);
+    const Expected expected =
+        expected_of(scene.a, scene.b, scene.threshold, ContactDetail::none, scene.a, scene.b, pairs);
+    INFO("seed " << seed);
+    REQUIRE(answer.in_contact == expected.in_contact);
+    REQUIRE(answer.distance.lower <= expected.distance.distance_down);
+    REQUIRE(answer.distance.upper >= expected.distance.distance_up);
+    REQUIRE(answer.distance.upper - answer.distance.lower <= 0.5 + 0x1p-40);
+    loose += answer.distance.lower < expected.distance.distance_down ? 1U : 0U;
+  }
+  CHECK(loose > 10);
+}
+
 TEST_CASE("face groups: in paper mode vertices that are left out are in no contact") {
   const FloatingPointScope scope;
   // Every pair of regions passes the test of these epsilons, so that all vertices are looked at.
