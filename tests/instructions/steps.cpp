@@ -24,6 +24,7 @@ ContactDetail detail_named(std::string_view name) {
   if (name == "closest") return ContactDetail::closest;
   if (name == "vertices") return ContactDetail::vertices;
   if (name == "features") return ContactDetail::features;
+  if (name == "nearest") return ContactDetail::nearest;
   throw std::runtime_error("no such detail");
 }
 

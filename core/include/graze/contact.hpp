@@ -56,19 +56,24 @@ enum class ContactDetail : std::uint8_t {
   /// Distances and phases only. Distances are between surfaces.
   none,
   /// One contact for each pair in contact: the closest one, of any of the six kinds. Exact ties go to the
-  /// smallest
-  /// kind, feature a, feature b. Distances are between surfaces.
+  /// smallest kind, feature a, feature b. Distances are between surfaces.
   closest,
   /// The paper's answer: for each pair of leaf regions below the threshold, its closest pair of vertices.
-  /// Ties go to
-  /// the lowest vertex of a, then of b. Distances are between vertices.
+  /// Ties go to the lowest vertex of a, then of b. Distances are between vertices.
   regions,
   /// Every pair of vertices below the threshold. Distances are between vertices.
   vertices,
   /// Every vertex-face and edge-edge pair below the threshold, named by its closest features, and every edge
-  /// that
-  /// pierces a face. Each pair of features is listed once. Distances are between surfaces.
+  /// that pierces a face. Each pair of features is listed once. Distances are between surfaces.
   features,
+  /// Of each vertex that is nearer to the other surface than the threshold, its closest point there. Exact
+  /// ties go to the smallest kind, then feature. In addition every pair of edges of `features` that is locally
+  /// closest, and every edge that pierces a face. They are fewer than those of `features`, and enough to push
+  /// objects apart. Distances are between surfaces.
+  ///
+  /// Two edges are locally closest if, on no face beside either of them, the way from the closest point,
+  /// square to the edge, leads nearer to the other point. Edges that cross are.
+  nearest,
 };
 
 /// @cond internal

@@ -11,11 +11,6 @@ namespace graze {
 /// Which of the keys at the least distance are kept.
 enum class Ties : std::uint8_t { lowest, all };
 
-/// Whether an edge pierces a face, which is contact at every threshold; a fold that does is no edge.
-inline bool is_edge_through_face(const FeaturePairKey& key) {
-  return key.meeting() == Meeting::pierced && key.kind() == ContactKind::EF;
-}
-
 /// The keys at the least distance among some, and a bound on that distance.
 struct Closest {
   KeySet keys;

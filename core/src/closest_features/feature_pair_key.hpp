@@ -133,6 +133,11 @@ class FeaturePairKey {
   std::uint64_t low_ = 0;
 };
 
+/// Whether an edge pierces a face, which is contact at every threshold; a fold that does is no edge.
+inline bool is_edge_through_face(const FeaturePairKey& key) {
+  return key.meeting() == Meeting::pierced && key.kind() == ContactKind::EF;
+}
+
 /// Two simplices whose affine hulls are as far apart as the features of a key are. They are the pieces; of
 /// parallel ones the lower is reduced to one of its points.
 struct Hulls {
@@ -162,6 +167,13 @@ inline bool is_closer_than(const SurfacePair& pair, const FeaturePairKey& key, d
     }
   }
   return decide_closer_than(pair, key, limit);
+}
+
+/// The same, where a range of the distance is known that mostly tells.
+inline bool is_closer_than(const SurfacePair& pair, const FeaturePairKey& key, const SquaredRange& squared,
+                           double limit) {
+  if (squared.is_below(limit)) return true;
+  return !squared.is_beyond(limit) && is_closer_than(pair, key, limit);
 }
 
 /// At least the distance, by a relative error of some 2^-40 at most.

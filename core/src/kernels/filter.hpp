@@ -120,6 +120,8 @@ struct FeaturePairs {
   // Filled in by the kernel.
   float bound[lanes];  ///< of the distance, from below; minus infinity where a size is not to be trusted
   std::int32_t voronoi[lanes];  ///< where the closest points certainly are, or `unsure_voronoi`
+  /// The distance from above, of a point and a triangle where the Voronoi region is known.
+  float upper[lanes];
 };
 /// A number of `VoronoiRegion`; for two segments four times one of `Along` plus another; or this.
 inline constexpr std::int32_t unsure_voronoi = -1;

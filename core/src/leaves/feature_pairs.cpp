@@ -1,30 +1,11 @@
 #include "leaves/feature_pairs.hpp"
 
+#include "leaves/below_threshold.hpp"
+
 namespace graze {
-namespace {
-
-/// The range of a query for contacts: pairs below the threshold, and piercing at every threshold. Pairs that
-/// come to be so within the slack are listed.
-struct BelowThreshold {
-  double threshold;
-  const NearListing& listing;
-
-  [[nodiscard]] double limit() const { return threshold + listing.slack; }
-  [[nodiscard]] double keys_only_below() const { return threshold; }
-  [[nodiscard]] static bool may_pierce() { return true; }
-  [[nodiscard]] double touching() const { return listing.slack; }
-  [[nodiscard]] bool is_listing() const { return listing.is_wanted(); }
-  void found(const FeatureRef& a, const FeatureRef& b) const { listing.add(a, b); }
-  [[nodiscard]] bool keep(double lower) const { return lower < limit() || lower == 0; }
-  void left_out(double /*limit*/) const {}
-};
-
-}  // namespace
 
 bool CloseFeatures::is_contact(const FeaturePairKey& key, const SquaredRange& squared) const {
-  if (key.meeting() == Meeting::pierced && key.kind() == ContactKind::EF) return true;
-  if (squared.is_below(threshold_)) return true;
-  return !squared.is_beyond(threshold_) && is_closer_than(pair_, key, threshold_);
+  return is_edge_through_face(key) || is_closer_than(pair_, key, squared, threshold_);
 }
 
 void CloseFeatures::add_if_contact(const FeaturePairKey& key, const SquaredRange& squared) {
@@ -37,7 +18,7 @@ void CloseFeatures::add_if_contact(const FeaturePairKey& key, const SquaredRange
 }
 
 void CloseFeatures::add(const LeafOf& leaf_a, const LeafOf& leaf_b) {
-  BelowThreshold range{threshold_, listing_};
+  BelowThreshold<false> range{threshold_, listing_};
   if (scratch_.select_near(pair_, leaf_a, leaf_b, range)) add_selected();
 }
 
@@ -56,7 +37,7 @@ void CloseFeatures::finish() {
 /// Calls `use` with what gives the keys to `take`.
 template <typename Use>
 void CloseFeatures::with_names(const Use& use) {
-  BelowThreshold range{threshold_, listing_};
+  BelowThreshold<false> range{threshold_, listing_};
   const auto sink = [&](const FeaturePairKey& key, const SquaredRange& squared) {
     add_if_contact(key, squared);
   };

@@ -73,6 +73,9 @@ struct FloatFilterScratch {
 struct KnownInFloat {
   bool is_bounded = false;  ///< that it may be near; otherwise it has not been tested
   std::int32_t voronoi = kernels::unsure_voronoi;
+  // The distance in the frame from below and above, of a vertex and a triangle whose Voronoi region is known.
+  float lower = 0;
+  float upper = 0;
 };
 
 /// Pairs of features whose distance float is to bound from below, which is done several at once.
@@ -126,9 +129,9 @@ class FloatBatch {
     for (std::size_t last = kernels::lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       if (last == kernels::lanes || refs_[lane] != refs_[last])
-        visit(
-            refs_[lane].first, refs_[lane].second,
-            KnownInFloat{pairs_.bound[lane] > -std::numeric_limits<float>::infinity(), pairs_.voronoi[lane]});
+        visit(refs_[lane].first, refs_[lane].second,
+              KnownInFloat{pairs_.bound[lane] > -std::numeric_limits<float>::infinity(), pairs_.voronoi[lane],
+                           pairs_.bound[lane], pairs_.upper[lane]});
       last = lane;
     }
     return discarded;

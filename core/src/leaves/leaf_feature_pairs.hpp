@@ -24,6 +24,10 @@ namespace graze {
 /// `range.found(a, b)` for each pair that is not further than these, at times twice. It calls
 /// `range.left_out(limit)` when something further than that was discarded. It asks `range.keep(lower)` about
 /// features that are too large for float, with a bound from double.
+///
+/// Where `Range::nearest_only` holds, the keys of a vertex and a face come with the range of their distance.
+/// Keys of two edges are left out where a closest point is an end. So is everything about folds that is no
+/// vertex: a vertex above a fold is above its face.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
  public:
@@ -47,17 +51,21 @@ class LeafFeaturePairs {
     if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
       near_vertices(a.vertices, b.triangles, faces, batches_.vertex_a, handle_vertex_a());
       touching(a.edges, b.triangles, faces, batches_.through_b, handle_through_b());
-      touching(a.folds, b.triangles, faces, batches_.through_b, handle_through_b());
+      if constexpr (!Range::nearest_only)
+        touching(a.folds, b.triangles, faces, batches_.through_b, handle_through_b());
     }
     if (const kernels::Block faces = boxes_of(a.triangles); faces.count > 0) {
       near_vertices(b.vertices, a.triangles, faces, batches_.vertex_b, handle_vertex_b());
       touching(b.edges, a.triangles, faces, batches_.through_a, handle_through_a());
-      touching(b.folds, a.triangles, faces, batches_.through_a, handle_through_a());
+      if constexpr (!Range::nearest_only)
+        touching(b.folds, a.triangles, faces, batches_.through_a, handle_through_a());
     }
     near_segments(a.edges, b.edges);
-    near_segments(a.edges, b.folds);
-    near_segments(a.folds, b.edges);
-    near_segments(a.folds, b.folds);
+    if constexpr (!Range::nearest_only) {
+      near_segments(a.edges, b.folds);
+      near_segments(a.folds, b.edges);
+      near_segments(a.folds, b.folds);
+    }
   }
 
   /// Features that an earlier search has listed.
@@ -246,7 +254,7 @@ class LeafFeaturePairs {
       if (!pair_.may(vertex, face)) return;
       range_.found(vertex, face);
       if (known.voronoi != kernels::unsure_voronoi && is_triangle(pair_.b, face))
-        return accept_in_float(vertex_piece(vertex.index), piece_in(pair_.b, face, known));
+        return accept_in_float(vertex_piece(vertex.index), piece_in(pair_.b, face, known), range_of(known));
       if (may_be_near(pair_.a, vertex, pair_.b, face, known))
         scratch_.naming.add_vertex_and_face(pair_, vertex.index, face.index, sink_);
     };
@@ -256,7 +264,7 @@ class LeafFeaturePairs {
       if (!pair_.may(face, vertex)) return;
       range_.found(face, vertex);
       if (known.voronoi != kernels::unsure_voronoi && is_triangle(pair_.a, face))
-        return accept_in_float(piece_in(pair_.a, face, known), vertex_piece(vertex.index));
+        return accept_in_float(piece_in(pair_.a, face, known), vertex_piece(vertex.index), range_of(known));
       if (may_be_near(pair_.b, vertex, pair_.a, face, known))
         scratch_.naming.add_face_and_vertex(pair_, face.index, vertex.index, sink_);
     };
@@ -268,8 +276,9 @@ class LeafFeaturePairs {
       const bool are_edges = a.kind == FeatureRefKind::edge && b.kind == FeatureRefKind::edge;
       if (known.voronoi != kernels::unsure_voronoi && are_edges) {
         const auto voronoi = static_cast<std::size_t>(known.voronoi);
+        if (Range::nearest_only && voronoi != inside_both) return;
         return accept_in_float(piece_of_edge(pair_.a.mesh(), a.index, voronoi >> 2U),
-                               piece_of_edge(pair_.b.mesh(), b.index, voronoi & 3U));
+                               piece_of_edge(pair_.b.mesh(), b.index, voronoi & 3U), SquaredRange{0, 0});
       }
       if (!may_be_near(pair_.a, a, pair_.b, b, known)) return;
       if (are_edges)
@@ -315,10 +324,21 @@ class LeafFeaturePairs {
   static FeaturePiece piece_in(const Surface& surface, const FeatureRef& face, const KnownInFloat& known) {
     return piece_of_triangle(surface.mesh(), face.index, static_cast<std::size_t>(known.voronoi));
   }
-  /// Accepts a pair that is certainly nearer than the distance asked for. How near it is does not matter.
-  void accept_in_float(const FeaturePiece& a, const FeaturePiece& b) {
+  /// The number of `KnownInFloat::voronoi` of two segments whose closest points are inside both.
+  static constexpr std::size_t inside_both = 5 * static_cast<std::size_t>(Along::inside);
+
+  /// Accepts a pair that is certainly nearer than the distance asked for.
+  void accept_in_float(const FeaturePiece& a, const FeaturePiece& b, const SquaredRange& squared) {
     ++pair_.count.named_in_float;
-    sink_(FeaturePairKey::of(a, b), SquaredRange{0, 0});
+    sink_(FeaturePairKey::of(a, b), squared);
+  }
+  /// The distance of a vertex and a triangle that float is certain of. Only for the nearest it matters how
+  /// near they are.
+  [[nodiscard]] SquaredRange range_of(const KnownInFloat& known) const {
+    if constexpr (!Range::nearest_only) return {0, 0};
+    const double lower = std::max(0.0, static_cast<double>(known.lower)) / batches_.frame.scale();
+    const double upper = static_cast<double>(known.upper) / batches_.frame.scale();
+    return {lower * lower * (1 - 0x1p-50) - 0x1p-1000, upper * upper * (1 + 0x1p-50) + 0x1p-1000};
   }
 
   /// Whether a pair that float has left may be near. Features that are too large for float have not been

@@ -209,6 +209,36 @@ const IndexedMesh::Rows& IndexedMesh::faces_of_edges() const {
   });
 }
 
+namespace {
+
+/// The corner of a triangle that is not an end of an edge, if the others are its ends.
+std::optional<std::uint32_t> corner_across(const std::array<std::uint32_t, 3>& triangle,
+                                           const std::array<std::uint32_t, 2>& ends) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [low, high] = std::minmax(triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
+    if (low == ends[0] && high == ends[1] && triangle[i] != low && triangle[i] != high) return triangle[i];
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const IndexedMesh::Rows& IndexedMesh::corners_across_edges() const {
+  return edge_across_.get([this] {
+    Rows rows;
+    fill_rows(edge_count(), rows.values, rows.begin, [&](const auto& add) {
+      for (std::uint32_t index = 0; index < face_count(); ++index)
+        for_each_once(face_edges(index), [&](std::uint32_t edge) {
+          const auto corner = face(index);
+          for (std::size_t last = 2; edge != no_edge && last < corner.size(); ++last)
+            if (const auto across = corner_across({corner[0], corner[last - 1], corner[last]}, edges_[edge]))
+              add(edge, *across);
+        });
+    });
+    return rows;
+  });
+}
+
 const IndexedMesh::Rows& IndexedMesh::fans() const {
   return fans_.get([this] {
     Rows rows;
@@ -241,6 +271,7 @@ void IndexedMesh::prepare_for(Use use) const {
     static_cast<void>(faces_of_vertices());
   }
   if (use == Use::normals) static_cast<void>(faces_of_edges());
+  if (use == Use::sides_of_edges) static_cast<void>(corners_across_edges());
   if (use == Use::neighbours) static_cast<void>(neighbours());
   if (use == Use::poses) static_cast<void>(rest_reach());
 }
@@ -258,7 +289,7 @@ std::size_t IndexedMesh::byte_count() const {
   };
   return sizeof(IndexedMesh) + bytes_of(rest_) + bytes_of(corners_) + bytes_of(face_begin_) +
          bytes_of(face_edges_) + bytes_of(edges_) + bytes_of(used_) + regions_.byte_count() +
-         bytes_made(neighbours_, vertex_faces_, edge_faces_, fans_, blocks_, rest_reach_);
+         bytes_made(neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_, blocks_, rest_reach_);
 }
 
 }  // namespace graze

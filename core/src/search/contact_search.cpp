@@ -44,7 +44,10 @@ SearchProgress ContactSearch::next_stage(SearchWorker& worker) {
       return finish_measuring(worker);
     case Stage::listed:
     case Stage::contacts:
+      if (has_nearest_to_choose()) return begin_nearest();
+      break;
     case Stage::vertices:
+    case Stage::nearest:
       break;
   }
   return finish_keys(worker);
@@ -75,7 +78,11 @@ void ContactSearch::run(std::size_t index, SearchWorker& worker) {
     case Stage::vertices:
       run_vertices(slices_[index], worker);
       break;
+    case Stage::nearest:
+      run_nearest(slices_[index], worker);
+      break;
   }
+  if (has_nearest_to_choose()) return;
   bin_keys(slices_[index], worker);
 }
 
@@ -90,6 +97,7 @@ void ContactSearch::reserve_as(const ContactSearch& other) {
   FoundContacts& first = slices_.first().contacts;
   const FoundContacts& other_first = other.slices_.first().contacts;
   graze::reserve_as(first.near, other_first.near);
+  graze::reserve_as(first.of_vertices, other_first.of_vertices);
   // The two lists of keys are swapped with each other.
   const std::size_t keys = std::max(other.keys_.capacity(), other_first.keys.capacity());
   keys_.reserve(keys);
@@ -114,7 +122,7 @@ std::size_t ContactSearch::byte_count() const {
 /// Whether a pair of leaves this far apart can have a contact, or features to be listed, before the surfaces
 /// have moved by `slack`. Surfaces pierce each other at every threshold.
 auto ContactSearch::may_touch() const {
-  const bool may_pierce = pair_.query.detail == ContactDetail::features;
+  const bool may_pierce = lists_piercings(pair_.query.detail);
   return [wanted = wanted(), may_pierce](double lower, double slack) {
     const double nearest = std::max(0.0, lower - slack);
     return nearest < wanted || (may_pierce && nearest == 0);
@@ -167,9 +175,19 @@ void ContactSearch::cut_leaves() {
 
 void ContactSearch::run_contacts(SearchSlice& slice, SearchWorker& worker) {
   worker.begin_leaves(slices_.found());
-  const double threshold = pair_.query.threshold;
-  CloseFeatures features(worker.pair, threshold, worker.scratch.features, slice.contacts.keys,
+  if (pair_.query.detail == ContactDetail::nearest) {
+    NearestFeatures features = nearest_features_in(slice, worker);
+    test_leaves(slice, worker, features);
+    return keep_nearest(slice, worker);
+  }
+  CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys,
                          listing_in(slice));
+  test_leaves(slice, worker, features);
+}
+
+template <typename Features>
+void ContactSearch::test_leaves(SearchSlice& slice, SearchWorker& worker, Features& features) {
+  const double threshold = pair_.query.threshold;
   const auto may_touch_now = may_touch();
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = slices_.found().leaves[i];
@@ -185,10 +203,10 @@ void ContactSearch::run_contacts(SearchSlice& slice, SearchWorker& worker) {
     ++worker.meter.counters().leaf_pairs_tested;
     const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
     const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
-    if (pair_.query.detail == ContactDetail::features)
-      features.add(a, b);
-    else
+    if (pair_.query.detail == ContactDetail::regions)
       add_closest_vertices(a, b, slice, worker);
+    else
+      features.add(a, b);
   }
   features.finish();
 }

@@ -8,6 +8,7 @@
 #include "closest_features/feature_pair_key.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "leaves/leaf_features.hpp"
+#include "leaves/nearest_features.hpp"
 #include "measure/nearest_keys.hpp"
 #include "pair/near_listing.hpp"
 #include "search/search_progress.hpp"
@@ -47,6 +48,7 @@ class ContactSearch {
     reach,     ///< pairs of leaves that may be in contact
     contacts,  ///< the keys of all contacts in them
     vertices,  ///< the keys of all pairs of vertices in blocks that may be near
+    nearest,   ///< the nearest keys of each vertex, out of what slices have found
     ordered,   ///< all keys sorted, each once: one of the stretches that bins were cut into
     measured,  ///< the contacts themselves
   };
@@ -67,6 +69,8 @@ class ContactSearch {
   SearchProgress begin_contacts(SearchWorker& worker);
   void cut_leaves();
   void run_contacts(SearchSlice& slice, SearchWorker& worker);
+  template <typename Features>
+  void test_leaves(SearchSlice& slice, SearchWorker& worker, Features& features);
   void add_closest_vertices(const LeafOf& a, const LeafOf& b, SearchSlice& slice, SearchWorker& worker) const;
   SearchProgress begin_vertices(SearchWorker& worker);
   void run_vertices(SearchSlice& slice, SearchWorker& worker);
@@ -81,7 +85,16 @@ class ContactSearch {
   [[nodiscard]] double wanted() const { return pair_.query.threshold + list_slack_; }
   [[nodiscard]] NearListing listing_in(SearchSlice& slice) const;
   void run_listed(SearchSlice& slice, SearchWorker& worker);
+  template <typename Features>
+  void test_listed(SearchSlice& slice, SearchWorker& worker, Features& features);
   void keep_list(SearchWorker& worker);
+
+  // The nearest of each vertex. Each slice finds its own, then each takes some vertices out of all slices:
+  [[nodiscard]] NearestFeatures nearest_features_in(SearchSlice& slice, SearchWorker& worker);
+  [[nodiscard]] bool has_nearest_to_choose() const;
+  void keep_nearest(SearchSlice& slice, SearchWorker& worker);
+  SearchProgress begin_nearest();
+  void run_nearest(SearchSlice& slice, SearchWorker& worker);
 
   // A limit of contacts. Slices hand their keys over to one list of the nearest:
   [[nodiscard]] bool is_limited() const { return pair_.query.contact_limit > 0; }

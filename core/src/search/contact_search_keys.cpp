@@ -127,8 +127,7 @@ void ContactSearch::order(Stretch& stretch, SearchWorker& worker) {
 std::size_t ContactSearch::sort_keys(std::span<FeaturePairKey> keys, SearchWorker& worker) const {
   worker.scratch.order.make_room(keys.size(), worker.pair.time);
   worker.scratch.order.sort(keys);
-  return pair_.query.detail == ContactDetail::features ? keep_nearest_of_each(worker.pair, keys)
-                                                       : keys.size();
+  return lists_piercings(pair_.query.detail) ? keep_nearest_of_each(worker.pair, keys) : keys.size();
 }
 
 SearchProgress ContactSearch::begin_measuring(SearchWorker& worker) {

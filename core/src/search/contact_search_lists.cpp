@@ -52,7 +52,18 @@ void ContactSearch::run_listed(SearchSlice& slice, SearchWorker& worker) {
     return;
   }
   worker.begin_listed();
+  if (pair_.query.detail == ContactDetail::nearest) {
+    NearestFeatures features = nearest_features_in(slice, worker);
+    test_listed(slice, worker, features);
+    return keep_nearest(slice, worker);
+  }
   CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys);
+  test_listed(slice, worker, features);
+}
+
+template <typename Features>
+void ContactSearch::test_listed(SearchSlice& slice, SearchWorker& worker, Features& features) {
+  const auto listed = std::span(pair_.front->near->pairs).subspan(slice.begin, slice.end - slice.begin);
   const std::size_t each = is_limited() ? listed_each : std::max<std::size_t>(1, listed.size());
   for (std::size_t begin = 0; begin < listed.size(); begin += each) {
     features.add_listed(listed.subspan(begin, std::min(each, listed.size() - begin)));

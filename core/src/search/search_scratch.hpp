@@ -6,6 +6,7 @@
 #include "closest_features/key_bins.hpp"
 #include "closest_features/key_order.hpp"
 #include "leaves/leaf_feature_pairs.hpp"
+#include "leaves/nearest_of_vertices.hpp"
 #include "measure/measure_batch.hpp"
 #include "measure/nearest_keys.hpp"
 #include "measure/parallel.hpp"
@@ -20,6 +21,7 @@ struct SearchScratch {
   LeafPairScratch leaf_pairs;
   NearVerticesScratch vertices;
   LeafScratch features;
+  NearestOfVertices nearest_of_vertices;
   Closest nearest_of_leaves;
   PaperScratch paper;
   Closest lowest;
@@ -31,8 +33,9 @@ struct SearchScratch {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_leaves, self.paper,
-                    self.lowest, self.parallel, self.binning, self.order, self.measure, self.nearest_keys);
+    return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_vertices,
+                    self.nearest_of_leaves, self.paper, self.lowest, self.parallel, self.binning, self.order,
+                    self.measure, self.nearest_keys);
   }
 };
 

@@ -34,6 +34,7 @@ SearchSlice& SearchSlices::add() {
   slice.found.clear();
   slice.contacts.near.clear();
   slice.contacts.keys.clear();
+  slice.contacts.of_vertices.clear();
   slice.contacts.near_is_too_long = false;
   slice.closest.clear();
   return slice;
@@ -119,7 +120,7 @@ std::size_t SearchSlices::byte_count() const {
   std::size_t bytes = bytes_of(slices_) + bytes_of(roots_) + bytes_of(found_.leaves);
   for (const SearchSlice& slice : slices_)
     bytes += bytes_of(slice.found.leaves) + bytes_of(slice.contacts.near) + bytes_of(slice.contacts.keys) +
-             bytes_of(slice.contacts.runs) + bytes_of(slice.closest.closest);
+             bytes_of(slice.contacts.of_vertices) + bytes_of(slice.contacts.runs) + bytes_of(slice.closest.closest);
   return bytes;
 }
 

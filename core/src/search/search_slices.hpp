@@ -8,6 +8,7 @@
 #include "closest_features/feature_pair_key.hpp"
 #include "closest_features/key_bins.hpp"
 #include "core/mesh/pair_room.hpp"
+#include "leaves/nearest_of_vertices.hpp"
 #include "search/search_worker.hpp"
 #include "search/searched_pair.hpp"
 #include "walk/closest_range.hpp"
@@ -20,9 +21,10 @@ struct FoundContacts {
   std::vector<FeaturePair> near;
   bool near_is_too_long = false;  ///< and was forgotten
   std::vector<FeaturePairKey> keys;
-  std::vector<BinRun> runs;  ///< of `keys`, where there are many slices
-  std::size_t first = 0;     ///< the index of the first contact of a range of keys
-  double nearest = 0;        ///< the least distance of the contacts that were measured
+  std::vector<BinRun> runs;            ///< of `keys`, where there are many slices
+  std::vector<VertexNearest> of_vertices;  ///< what is nearest to each vertex, by vertices
+  std::size_t first = 0;               ///< the index of the first contact of a range of keys
+  double nearest = 0;                  ///< the least distance of the contacts that were measured
 };
 
 /// A part of a stage, which one thread runs. It reads what the stage has in common, and writes its own

@@ -98,6 +98,7 @@ class ClosestRange {
   }
   /// Whether an edge may pierce a face.
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }
+  static constexpr bool nearest_only = false;
   [[nodiscard]] static double touching() { return 0; }
   [[nodiscard]] static bool is_listing() { return false; }
   static void found(const FeatureRef& /*a*/, const FeatureRef& /*b*/) {}

@@ -21,6 +21,7 @@ constexpr std::array<std::pair<std::string_view, ContactDetail>, 5> details{{
     {"regions", ContactDetail::regions},
     {"vertices", ContactDetail::vertices},
     {"features", ContactDetail::features},
+    {"nearest", ContactDetail::nearest},
 }};
 
 ContactDetail read_detail(const JsonPath& json) {

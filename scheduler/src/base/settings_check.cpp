@@ -40,7 +40,7 @@ std::optional<std::string> not_an_enumerator(const char* what, Enumeration value
 }  // namespace
 
 std::optional<std::string> problem_of(const SceneSettings& settings) {
-  if (auto problem = not_an_enumerator("scene: detail", settings.detail, ContactDetail::features))
+  if (auto problem = not_an_enumerator("scene: detail", settings.detail, ContactDetail::nearest))
     return problem;
   if (auto problem = not_an_enumerator("scene: arena", settings.arena, ArenaPolicy::callers)) return problem;
   if (!is_distance(settings.contact_distance))

@@ -44,7 +44,7 @@ inline constexpr auto last_of<BindPolicy> = underlying(BindPolicy::when_told);
 template <>
 inline constexpr auto last_of<ArenaPolicy> = underlying(ArenaPolicy::callers);
 template <>
-inline constexpr auto last_of<ContactDetail> = underlying(ContactDetail::features);
+inline constexpr auto last_of<ContactDetail> = underlying(ContactDetail::nearest);
 template <>
 inline constexpr auto last_of<AccuracyMode> = underlying(AccuracyMode::paper);
 template <>

@@ -20,6 +20,7 @@ void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneS
   if (detail != ContactDetail::none)
     mesh.prepare_for(is_about_vertices(detail) ? IndexedMesh::Use::normals_of_points
                                                : IndexedMesh::Use::normals);
+  if (detail == ContactDetail::nearest) mesh.prepare_for(IndexedMesh::Use::sides_of_edges);
   if (object.motion != Motion::deformable) mesh.prepare_for(IndexedMesh::Use::poses);
 }
 

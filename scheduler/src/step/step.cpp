@@ -21,7 +21,7 @@ Overloaded(Visitors...) -> Overloaded<Visitors...>;
 constexpr std::size_t features_of_contact = 4;
 
 PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
-  const bool has_lists = detail == ContactDetail::features || detail == ContactDetail::vertices;
+  const bool has_lists = lists_piercings(detail) || detail == ContactDetail::vertices;
   const std::size_t contacts = capacity.contacts / capacity.near_pairs + 1;
   return {leaf_pairs_of_front, has_lists ? features_of_contact * contacts : 0};
 }

@@ -59,6 +59,11 @@ class GRAZE_API IndexedMesh {
   [[nodiscard]] std::span<const std::uint32_t> edge_faces(std::uint32_t edge) const {
     return faces_of_edges().row(edge);
   }
+  /// The corners across from `edge`, one for each triangle that has it, if its corners are three vertices. A
+  /// quad counts as two triangles.
+  [[nodiscard]] std::span<const std::uint32_t> edge_across(std::uint32_t edge) const {
+    return corners_across_edges().row(edge);
+  }
   /// The vertices around `vertex` as a fan of triangles. Each two that follow one another make a triangle
   /// with `vertex`, in the sense of its face. `vertex` itself stands between two that make none, which gives
   /// a triangle without area. A quad counts as two triangles. Triangles that have no area at any position
@@ -79,6 +84,7 @@ class GRAZE_API IndexedMesh {
     blocks,             ///< `block_order`, `stretch_groups`
     normals_of_points,  ///< `vertex_fans`, `vertex_faces`
     normals,            ///< these and `edge_faces`
+    sides_of_edges,     ///< `edge_across`
     neighbours,         ///< `vertex_neighbours`
     poses,              ///< `rest_reach`
   };
@@ -132,6 +138,7 @@ class GRAZE_API IndexedMesh {
   [[nodiscard]] const Rows& neighbours() const;
   [[nodiscard]] const Rows& faces_of_vertices() const;
   [[nodiscard]] const Rows& faces_of_edges() const;
+  [[nodiscard]] const Rows& corners_across_edges() const;
   [[nodiscard]] const Rows& fans() const;
   [[nodiscard]] const Blocks& blocks() const;
 
@@ -145,7 +152,7 @@ class GRAZE_API IndexedMesh {
   std::vector<std::array<std::uint32_t, 2>> edges_;
   std::vector<std::uint8_t> used_;  ///< by vertex; empty if all vertices are used
   RegionTree regions_;
-  MadeOnce<Rows> neighbours_, vertex_faces_, edge_faces_, fans_;
+  MadeOnce<Rows> neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_;
   MadeOnce<Blocks> blocks_;
   MadeOnce<RestReach> rest_reach_;
 };

@@ -57,6 +57,10 @@ struct PairQuery {
 constexpr bool is_about_vertices(ContactDetail detail) {
   return detail == ContactDetail::regions || detail == ContactDetail::vertices;
 }
+/// Whether edges that pierce faces are contacts of `detail`, at every threshold.
+constexpr bool lists_piercings(ContactDetail detail) {
+  return detail == ContactDetail::features || detail == ContactDetail::nearest;
+}
 /// Whether a query asks for blocks of vertices.
 constexpr bool wants_blocks(ContactDetail detail, AccuracyMode mode) {
   return detail == ContactDetail::vertices && mode != AccuracyMode::paper;

@@ -1,0 +1,64 @@
+#include "closest_features/locally_closest.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+namespace graze {
+namespace {
+
+/// The volumes that two edges and a way span. Their signs say on which side of both edges the way leads.
+class VolumesOverEdges {
+ public:
+  VolumesOverEdges(const SurfacePair& pair, std::uint32_t edge_a, std::uint32_t edge_b)
+      : count_(pair.count),
+        a_(ends_of(pair.a, edge_a)),
+        b_(ends_of(pair.b, edge_b)),
+        normal_((a_[1] - a_[0]).cross(b_[1] - b_[0])),
+        // Each of the six products of a volume is at most this times a coordinate of the way. Its error is
+        // below eight units of 2^-53.
+        error_(largest(a_[1] - a_[0]) * largest(b_[1] - b_[0]) * 0x1p-46) {}
+
+  [[nodiscard]] int sign_to(const Eigen::Vector3d& to, const Eigen::Vector3d& from) const {
+    const Eigen::Vector3d way = to - from;
+    const double volume = normal_.dot(way);
+    if (std::abs(volume) > error_ * largest(way) + 0x1p-1000) return volume > 0 ? 1 : -1;
+    return decide_sign(count_, [&]<typename Number>() {
+      return dot(cross(difference<Number>(a_[1], a_[0]), difference<Number>(b_[1], b_[0])),
+                 difference<Number>(to, from));
+    });
+  }
+  [[nodiscard]] const Eigen::Vector3d& on_a() const { return a_[0]; }
+  [[nodiscard]] const Eigen::Vector3d& on_b() const { return b_[0]; }
+
+ private:
+  static std::array<Eigen::Vector3d, 2> ends_of(const Surface& surface, std::uint32_t edge) {
+    const auto [first, second] = surface.mesh().edge(edge);
+    return {surface.position(first), surface.position(second)};
+  }
+  static double largest(const Eigen::Vector3d& vector) { return vector.cwiseAbs().maxCoeff(); }
+
+  DecisionCount& count_;
+  std::array<Eigen::Vector3d, 2> a_;
+  std::array<Eigen::Vector3d, 2> b_;
+  Eigen::Vector3d normal_;
+  double error_;
+};
+
+}  // namespace
+
+// The way d between the closest points is square to both edges, so it is along their cross product. The way
+// from an edge to the corner across is the inward direction plus a part along the edge. That part has no
+// product with d.
+bool are_locally_closest(const SurfacePair& pair, std::uint32_t edge_a, std::uint32_t edge_b) {
+  const VolumesOverEdges volumes(pair, edge_a, edge_b);
+  const int gap = volumes.sign_to(volumes.on_b(), volumes.on_a());
+  if (gap == 0) return true;
+  for (const std::uint32_t corner : pair.a.mesh().edge_across(edge_a))
+    if (volumes.sign_to(pair.a.position(corner), volumes.on_a()) * gap > 0) return false;
+  for (const std::uint32_t corner : pair.b.mesh().edge_across(edge_b))
+    if (volumes.sign_to(pair.b.position(corner), volumes.on_b()) * gap < 0) return false;
+  return true;
+}
+
+}  // namespace graze

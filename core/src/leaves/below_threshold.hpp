@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/pair/near_list.hpp"
+#include "pair/near_listing.hpp"
+
+namespace graze {
+
+/// The range of a query for contacts: pairs below the threshold, and piercing at every threshold. Pairs that
+/// come to be so within the slack are listed. `nearest`: of each vertex the nearest is wanted alone.
+template <bool nearest>
+struct BelowThreshold {
+  static constexpr bool nearest_only = nearest;
+
+  double threshold;
+  const NearListing& listing;
+
+  [[nodiscard]] double limit() const { return threshold + listing.slack; }
+  [[nodiscard]] double keys_only_below() const { return threshold; }
+  [[nodiscard]] static bool may_pierce() { return true; }
+  [[nodiscard]] double touching() const { return listing.slack; }
+  [[nodiscard]] bool is_listing() const { return listing.is_wanted(); }
+  void found(const FeatureRef& a, const FeatureRef& b) const { listing.add(a, b); }
+  [[nodiscard]] bool keep(double lower) const { return lower < limit() || lower == 0; }
+  void left_out(double /*limit*/) const {}
+};
+
+}  // namespace graze
