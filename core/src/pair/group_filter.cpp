@@ -18,12 +18,27 @@ GroupFilter::GroupFilter(std::shared_ptr<const FaceGroups> a, std::shared_ptr<co
       b_(or_all_in_one(std::move(b))),
       looked_at_(GroupSet().size(), ~GroupSet()),
       partners_(a_->sets().size()) {
-  find_partners();
-  find_some_faces();
+  find_all();
+}
+
+void GroupFilter::set_groups_of_a(std::shared_ptr<const FaceGroups> groups) {
+  groups = or_all_in_one(std::move(groups));
+  partners_.resize(groups->sets().size());
+  a_ = std::move(groups);
+  find_all();
+}
+
+void GroupFilter::set_groups_of_b(std::shared_ptr<const FaceGroups> groups) {
+  b_ = or_all_in_one(std::move(groups));
+  find_all();
 }
 
 void GroupFilter::set_ignored(std::uint8_t group_a, std::uint8_t group_b, bool ignored) {
   looked_at_[group_a].set(group_b, !ignored);
+  find_all();
+}
+
+void GroupFilter::find_all() {
   find_partners();
   find_some_faces();
 }

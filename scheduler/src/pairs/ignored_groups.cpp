@@ -17,6 +17,15 @@ void IgnoredGroups::set(const Object& a, std::uint8_t group_a, const Object& b, 
   known.version = ++version_;
 }
 
+void IgnoredGroups::regroup(const Object& object) {
+  for (auto& [serials, known] : pairs_) {
+    if (serials.first != object.serial && serials.second != object.serial) continue;
+    if (serials.first == object.serial) known.filter.set_groups_of_a(object.face_groups);
+    if (serials.second == object.serial) known.filter.set_groups_of_b(object.face_groups);
+    known.version = ++version_;
+  }
+}
+
 void IgnoredGroups::forget(std::uint64_t serial) {
   std::erase_if(
       pairs_, [&](const auto& known) { return known.first.first == serial || known.first.second == serial; });

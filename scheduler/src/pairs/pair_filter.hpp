@@ -44,6 +44,11 @@ class PairFilter {
     ++ignored_version_;
     groups_.set(a, group_a, b, group_b, ignored);
   }
+  /// Takes up the groups that the faces of an object have now, as after its mesh was replaced.
+  void regroup(const Object& object) {
+    ++ignored_version_;
+    groups_.regroup(object);
+  }
   /// Forgets the ignored pairs and groups of a removed object.
   void forget(const Object& object);
 

@@ -23,6 +23,10 @@ class GRAZE_API GroupFilter {
   /// Ignores nothing yet. A null pointer stands for a mesh whose faces are all in group 0.
   GroupFilter(std::shared_ptr<const FaceGroups> a, std::shared_ptr<const FaceGroups> b);
 
+  /// Gives the faces of a or of b other groups, as those of another mesh. What is ignored stays. A null
+  /// pointer means what it means to the constructor.
+  void set_groups_of_a(std::shared_ptr<const FaceGroups> groups);
+  void set_groups_of_b(std::shared_ptr<const FaceGroups> groups);
   /// Sets whether faces of `group_a` of a are ignored against those of `group_b` of b. Takes no memory.
   void set_ignored(std::uint8_t group_a, std::uint8_t group_b, bool ignored);
   /// Calls `visit(group_a, group_b)` with all groups that are ignored, ascending.
@@ -64,6 +68,7 @@ class GRAZE_API GroupFilter {
   [[nodiscard]] bool may_sets(std::uint32_t a, std::uint32_t b) const {
     return (partners_[a] & b_->sets()[b]).any();
   }
+  void find_all();
   void find_partners();
   void find_some_faces();
 
