@@ -164,6 +164,7 @@ void ClosestSearch::merge_slices(SearchWorker& worker) {
     for (const FeaturePairKey& key : slice.closest.closest.keys.keys()) set.offer(key);
     closest_.closest.pierced = closest_.closest.pierced || slice.closest.closest.pierced;
     closest_.lower = std::min(closest_.lower, slice.closest.lower);
+    set.at_most(slice.closest.closest.upper);
   }
   set.merge_runs();
 }

@@ -7,6 +7,7 @@
 #include "core/pair/pair_query.hpp"
 #include "leaves/leaf_feature_pairs.hpp"
 #include "leaves/leaf_vertex_pairs.hpp"
+#include "pair/bounds.hpp"
 #include "walk/leaf_pairs.hpp"
 
 namespace graze {
@@ -72,10 +73,15 @@ class ClosestRange {
   /// Nothing further than this is nearest.
   [[nodiscard]] double upper() const { return set_.upper(); }
   void offer(const FeaturePairKey& key) { set_.offer(key); }
+  /// Offers the middle vertices of two regions of which some features may be looked at. If the middle
+  /// vertices may not, the regions' boxes bound the distance.
   void offer_middles(const RegionPair& regions) {
     const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;
     const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
-    if (pair_.may_vertices(a, b)) offer_apart(a, b);
+    if (pair_.may_vertices(a, b))
+      offer_apart(a, b);
+    else if (!is_about_vertices(query_.detail))
+      at_most(RegionBounds(pair_.a, pair_.b, RefitOf::faces).upper(regions));
   }
   /// Offers two vertices of the surfaces before the search begins: the roots' middle vertices, or corners of
   /// faces that may be looked at.
