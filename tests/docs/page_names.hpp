@@ -43,6 +43,7 @@ extern std::vector<graze::ObjectId> ids;
 extern std::vector<Eigen::Isometry3d> poses;
 extern std::vector<graze::PositionView> views;
 extern std::vector<Eigen::Vector3d> positions, points, rest, rest_positions, cloth_positions;
+extern std::vector<std::uint32_t> faces_at_the_seam;
 extern std::vector<std::array<std::uint32_t, 3>> triangles;
 extern std::vector<std::array<std::uint32_t, 4>> quads;
 extern std::vector<Particle> particles;

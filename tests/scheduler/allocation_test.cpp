@@ -289,6 +289,40 @@ TEST_CASE("a large pair takes no memory after the first periods") {
   check_none_thrown();
 }
 
+TEST_CASE("no allocation: groups of faces that are ignored and watched in turn") {
+  if (is_skipped()) return;
+  const auto detail = GENERATE(ContactDetail::closest, ContactDetail::vertices, ContactDetail::features);
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(static_cast<int>(detail), threads);
+  SceneSettings settings = settings_of(0.125, 0.5, detail);
+  settings.threads = threads;
+  Scene scene(settings);
+  const auto mesh = mesh_of(models::sheet(8, 8, 1, 1));
+  ObjectSettings grouped = motion_of(Motion::rigid);
+  for (std::uint32_t face = 0; face < mesh->face_count(); ++face)
+    grouped.face_groups.push_back(static_cast<std::uint8_t>(face % 3));
+  const ObjectId low = scene.add(mesh, grouped);
+  const ObjectId high = scene.add(mesh, grouped);
+  std::size_t least = ~std::size_t{0};
+  std::size_t most = 0;
+  const auto play = [&](std::size_t frames) {
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+      for (std::uint8_t group = 0; group < 3; ++group)
+        frame % 4 < 2 ? scene.ignore(low, group, high, 1) : scene.watch(low, group, high, 1);
+      scene.set_pose(high, lift_pose(frame % 3 == 0 ? 0.25 : 0.0625));
+      const std::size_t contacts = scene.step()->contacts().size();
+      least = std::min(least, contacts);
+      most = std::max(most, contacts);
+    }
+  };
+  play(60);
+  AllocationCount::begin();
+  play(60);
+  AllocationCount::end();
+  CHECK(most > least);
+  check_none_thrown();
+}
+
 TEST_CASE("a reader that holds eight reports at random makes no step take memory") {
   if (is_skipped()) return;
   const auto threads = GENERATE(1U, 2U);

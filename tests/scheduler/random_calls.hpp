@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <graze/graze.hpp>
 #include <limits>
@@ -38,15 +39,25 @@ class RandomCalls {
 
   void add(Scene& scene) {
     Body body;
-    body.mesh = chance(2) ? plate_mesh() : needle_mesh();
+    body.mesh =
+        std::array{plate_mesh(), needle_mesh(), split_plate_mesh()}[static_cast<std::size_t>(below(3))];
     ObjectSettings settings;
     settings.motion = body.motion = static_cast<Motion>(below(3));
     settings.name = chance(2) ? "named " + std::to_string(objects_.size()) : "";
     settings.kind = static_cast<std::uint32_t>(below(3));
     settings.margin = below(4) / 16.0;
+    if (chance(2))
+      for (std::uint32_t face = 0; face < body.mesh->face_count(); ++face)
+        settings.face_groups.push_back(group());
     body.id = scene.add(body.mesh, settings);
     objects_.push_back(std::move(body));
   }
+  /// The plate as two triangles.
+  static std::shared_ptr<const Mesh> split_plate_mesh() {
+    constexpr std::array<std::array<std::uint32_t, 3>, 2> triangles{{{0, 1, 2}, {0, 2, 3}}};
+    return std::make_shared<const Mesh>(Mesh::from_triangles(plate_mesh()->rest(), triangles));
+  }
+  std::uint8_t group() { return static_cast<std::uint8_t>(below(2)); }
   Positions placed(const Body& body) {
     Positions positions = moved(body.mesh->rest(), offset());
     if (chance(12)) positions[0].x() = std::numeric_limits<double>::quiet_NaN();
@@ -55,7 +66,7 @@ class RandomCalls {
   void make_one(Scene& scene) {
     Body& body = objects_[static_cast<std::size_t>(below(static_cast<int>(objects_.size())))];
     const double promise = chance(3) ? 8 : Scene::any_displacement;
-    switch (below(12)) {
+    switch (below(15)) {
       case 0:
         return scene.set_positions(body.id, placed(body), promise);
       case 1:
@@ -78,9 +89,17 @@ class RandomCalls {
                               static_cast<std::uint32_t>(below(4) == 0 ? 999 : 1), {below(4) / 8.0, 1});
       case 10:
         return chance(3) ? scene.remove(body.id) : scene.positions_changed(body.id, promise);
+      case 11:
+      case 12:
+        return ignore_or_watch_groups(scene, body.id, chance(6) ? body.id : objects_[0].id);
       default:
         return bind(scene, body);
     }
+  }
+  void ignore_or_watch_groups(Scene& scene, ObjectId a, ObjectId b) {
+    const std::uint8_t group_a = group();
+    const std::uint8_t group_b = group();
+    chance(2) ? scene.ignore(a, group_a, b, group_b) : scene.watch(a, group_a, b, group_b);
   }
   void bind(Scene& scene, Body& body) {
     *body.memory = placed(body);

@@ -57,15 +57,18 @@ std::string difference_of(const Contact& contact, const oracle::Named& expected,
 }  // namespace
 
 Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail,
-                     const oracle::Shape& rest_a, const oracle::Shape& rest_b) {
+                     const oracle::Shape& rest_a, const oracle::Shape& rest_b,
+                     const oracle::FacePairs& pairs) {
   const bool about_vertices = detail == ContactDetail::vertices || detail == ContactDetail::regions;
   Expected expected;
-  expected.distance = about_vertices ? oracle::vertex_distance(a, b) : oracle::surface_distance(a, b);
-  if (detail == ContactDetail::features) expected.contacts = oracle::features(a, b, threshold);
-  if (detail == ContactDetail::vertices) expected.contacts = oracle::vertices(a, b, threshold);
-  if (detail == ContactDetail::regions) expected.contacts = oracle::regions(a, b, threshold, rest_a, rest_b);
+  expected.distance =
+      about_vertices ? oracle::vertex_distance(a, b, pairs) : oracle::surface_distance(a, b, pairs);
+  if (detail == ContactDetail::features) expected.contacts = oracle::features(a, b, threshold, pairs);
+  if (detail == ContactDetail::vertices) expected.contacts = oracle::vertices(a, b, threshold, pairs);
+  if (detail == ContactDetail::regions)
+    expected.contacts = oracle::regions(a, b, threshold, rest_a, rest_b, pairs);
   if (detail == ContactDetail::closest)
-    if (const auto closest = oracle::closest(a, b, threshold)) expected.contacts = {*closest};
+    if (const auto closest = oracle::closest(a, b, threshold, pairs)) expected.contacts = {*closest};
   if (detail == ContactDetail::nearest) expected.contacts = oracle::nearest(a, b, threshold);
   expected.in_contact = !expected.contacts.empty();
   // A pair that is near at the fold of a quad only is in contact, but `nearest` lists no folds.

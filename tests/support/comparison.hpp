@@ -37,7 +37,8 @@ struct Expected {
   bool in_contact = false;
 };
 Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail,
-                     const oracle::Shape& rest_a, const oracle::Shape& rest_b);
+                     const oracle::Shape& rest_a, const oracle::Shape& rest_b,
+                     const oracle::FacePairs& pairs = {});
 /// Returns the answer of brute force for a pair of shapes at rest.
 Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail);
 

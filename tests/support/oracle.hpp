@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <graze/contact.hpp>
 #include <optional>
 #include <vector>
@@ -23,6 +24,28 @@ struct Shape {
 /// Each edge's two vertices, lower first, numbered in the order of first appearance along the faces' corners.
 std::vector<std::array<std::uint32_t, 2>> edges_of(const Shape& shape);
 
+/// Which faces of two shapes are looked at against each other. Other features are looked at if some face of
+/// the one and some face of the other are.
+class FacePairs {
+ public:
+  /// All faces are looked at.
+  FacePairs() = default;
+  FacePairs(const Shape& a, const Shape& b,
+            const std::function<bool(std::uint32_t, std::uint32_t)>& are_looked_at);
+
+  [[nodiscard]] bool may(const Feature& a, const Feature& b) const;
+  [[nodiscard]] bool may_vertices(std::uint32_t a, std::uint32_t b) const {
+    return may({FeatureKind::vertex, a}, {FeatureKind::vertex, b});
+  }
+  /// Whether any faces are looked at.
+  [[nodiscard]] bool are_some() const;
+
+ private:
+  std::array<std::vector<std::vector<std::uint32_t>>, 3> a_;  ///< by kind and index: the faces of a feature
+  std::array<std::vector<std::vector<std::uint32_t>>, 3> b_;
+  std::vector<std::vector<bool>> looked_at_;  ///< by face and face; empty if all are
+};
+
 /// One contact. Distance and points are the exact ones rounded to nearest.
 struct Named {
   ContactKind kind = ContactKind::VV;
@@ -36,7 +59,7 @@ struct Named {
 
 /// The contacts of detail `features`, sorted by (kind, a, b), each once. Where an FF contact of distance 0
 /// has several crossings its points are those of a's fold, else of b's fold, nearest the fold's first corner.
-std::vector<Named> features(const Shape& a, const Shape& b, double threshold);
+std::vector<Named> features(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs = {});
 
 /// The contacts of detail `nearest` between surfaces that are no solids, sorted by (kind, a, b), each once:
 ///
@@ -48,12 +71,12 @@ std::vector<Named> features(const Shape& a, const Shape& b, double threshold);
 std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold);
 
 /// Every pair of used vertices closer than `threshold`, sorted.
-std::vector<Named> vertices(const Shape& a, const Shape& b, double threshold);
+std::vector<Named> vertices(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs = {});
 
 /// For each pair of leaf regions of the rest shapes the closest vertex pair at the present positions (ties
 /// lowest a, then b), where it is closer than `threshold`; sorted. Faces are those of `a` and `b`.
 std::vector<Named> regions(const Shape& a, const Shape& b, double threshold, const Shape& rest_a,
-                           const Shape& rest_b);
+                           const Shape& rest_b, const FacePairs& pairs = {});
 
 /// How far two shapes are apart.
 struct Pair {
@@ -62,11 +85,11 @@ struct Pair {
   double distance_up = 0;
   bool pierced = false;  ///< an edge of one passes through a face of the other
 };
-Pair surface_distance(const Shape& a, const Shape& b);
-Pair vertex_distance(const Shape& a, const Shape& b);
+Pair surface_distance(const Shape& a, const Shape& b, const FacePairs& pairs = {});
+Pair vertex_distance(const Shape& a, const Shape& b, const FacePairs& pairs = {});
 
 /// The one contact of detail `closest`; none unless the surfaces are closer than `threshold` or pierced.
-std::optional<Named> closest(const Shape& a, const Shape& b, double threshold);
+std::optional<Named> closest(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs = {});
 
 /// Where a point lies with regard to a closed surface. The number is 1 inside a surface whose normals point
 /// outside.

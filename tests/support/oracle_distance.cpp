@@ -15,7 +15,8 @@ struct Item {
   long double gap_squared;
 };
 
-std::vector<Item> items_within(const ExactShape& a, const ExactShape& b, long double reach_squared) {
+std::vector<Item> items_within(const ExactShape& a, const ExactShape& b, long double reach_squared,
+                               const FacePairs& pairs) {
   std::vector<Item> items;
   const auto add = [&](Item::Kind kind, std::uint32_t of_a, std::uint32_t of_b, const Extent& box_a,
                        const Extent& box_b) {
@@ -24,13 +25,16 @@ std::vector<Item> items_within(const ExactShape& a, const ExactShape& b, long do
   };
   for (const std::uint32_t vertex : a.used)
     for (std::uint32_t face = 0; face < b.faces.size(); ++face)
-      add(Item::Kind::vertex_face, vertex, face, a.point_extents[vertex], b.faces[face].extent);
+      if (pairs.may({FeatureKind::vertex, vertex}, {FeatureKind::face, face}))
+        add(Item::Kind::vertex_face, vertex, face, a.point_extents[vertex], b.faces[face].extent);
   for (const std::uint32_t vertex : b.used)
     for (std::uint32_t face = 0; face < a.faces.size(); ++face)
-      add(Item::Kind::face_vertex, face, vertex, a.faces[face].extent, b.point_extents[vertex]);
+      if (pairs.may({FeatureKind::face, face}, {FeatureKind::vertex, vertex}))
+        add(Item::Kind::face_vertex, face, vertex, a.faces[face].extent, b.point_extents[vertex]);
   for (std::uint32_t i = 0; i < a.segments.size(); ++i)
     for (std::uint32_t j = 0; j < b.segments.size(); ++j)
-      add(Item::Kind::segments, i, j, a.segments[i].extent, b.segments[j].extent);
+      if (pairs.may(a.segments[i].owner, b.segments[j].owner))
+        add(Item::Kind::segments, i, j, a.segments[i].extent, b.segments[j].extent);
   std::sort(items.begin(), items.end(),
             [](const Item& p, const Item& q) { return p.gap_squared < q.gap_squared; });
   return items;
@@ -47,24 +51,37 @@ Rational distance_squared(const Item& item, const ExactShape& a, const ExactShap
   return end_contacts(a, segment_a, b, segment_b)[0].a.distance_squared;
 }
 
-bool passes_through(const ExactShape& shape, std::span<const Segment> segments, const ExactShape& other) {
+/// Whether a segment passes through a face that it may be looked at with.
+template <typename May>
+bool passes_through(const ExactShape& shape, std::span<const Segment> segments, const ExactShape& other,
+                    const May& may) {
   for (const Segment& segment : segments) {
     for (std::uint32_t face = 0; face < other.faces.size(); ++face) {
       if (gap_squared(segment.extent, other.faces[face].extent) > 0) continue;
+      if (!may(segment.owner, Feature{FeatureKind::face, face})) continue;
       if (crossing(shape, segment, other, face)) return true;
     }
   }
   return false;
 }
 
+bool do_pass(const ExactShape& a, std::span<const Segment> segments_a, const ExactShape& b,
+             std::span<const Segment> segments_b, const FacePairs& pairs) {
+  return passes_through(a, segments_a, b,
+                        [&](Feature segment, Feature face) { return pairs.may(segment, face); }) ||
+         passes_through(b, segments_b, a,
+                        [&](Feature segment, Feature face) { return pairs.may(face, segment); });
+}
+
 /// The nearest two vertices by long double, which suffices for a first upper bound.
-std::pair<std::uint32_t, std::uint32_t> roughly_nearest_vertices(const ExactShape& a, const ExactShape& b) {
+std::pair<std::uint32_t, std::uint32_t> roughly_nearest_vertices(const ExactShape& a, const ExactShape& b,
+                                                                 const FacePairs& pairs) {
   std::pair<std::uint32_t, std::uint32_t> nearest{a.used.at(0), b.used.at(0)};
   long double best = std::numeric_limits<long double>::infinity();
   for (const std::uint32_t i : a.used) {
     for (const std::uint32_t j : b.used) {
       const long double gap = gap_squared(a.point_extents[i], b.point_extents[j]);
-      if (gap >= best) continue;
+      if (gap >= best || !pairs.may_vertices(i, j)) continue;
       best = gap;
       nearest = {i, j};
     }
@@ -84,13 +101,14 @@ Pair pair_of(Rational distance_squared, bool pierced) {
   return {std::move(distance_squared), down, up, pierced};
 }
 
-Rational vertex_distance_squared(const ExactShape& a, const ExactShape& b) {
-  const auto [first_a, first_b] = roughly_nearest_vertices(a, b);
+Rational vertex_distance_squared(const ExactShape& a, const ExactShape& b, const FacePairs& pairs) {
+  const auto [first_a, first_b] = roughly_nearest_vertices(a, b, pairs);
   Rational best = squared_length(a.points[first_a] - b.points[first_b]);
   const Limit limit = Limit::up_to(best);
   for (const std::uint32_t i : a.used) {
     for (const std::uint32_t j : b.used) {
-      if (limit.certainly_excludes(a.point_extents[i], b.point_extents[j])) continue;
+      if (limit.certainly_excludes(a.point_extents[i], b.point_extents[j]) || !pairs.may_vertices(i, j))
+        continue;
       best = std::min(best, squared_length(a.points[i] - b.points[j]));
     }
   }
@@ -99,15 +117,15 @@ Rational vertex_distance_squared(const ExactShape& a, const ExactShape& b) {
 
 }  // namespace
 
-bool is_pierced(const ExactShape& a, const ExactShape& b) {
-  return passes_through(a, a.edges(), b) || passes_through(b, b.edges(), a);
+bool is_pierced(const ExactShape& a, const ExactShape& b, const FacePairs& pairs) {
+  return do_pass(a, a.edges(), b, b.edges(), pairs);
 }
 
-Rational smallest_distance_squared(const ExactShape& a, const ExactShape& b) {
-  if (passes_through(a, a.segments, b) || passes_through(b, b.segments, a)) return 0;
-  Rational best = vertex_distance_squared(a, b);
+Rational smallest_distance_squared(const ExactShape& a, const ExactShape& b, const FacePairs& pairs) {
+  if (do_pass(a, a.segments, b, b.segments, pairs)) return 0;
+  Rational best = vertex_distance_squared(a, b, pairs);
   long double reach = reach_squared(best);
-  for (const Item& item : items_within(a, b, reach)) {
+  for (const Item& item : items_within(a, b, reach, pairs)) {
     if (item.gap_squared > reach) break;
     Rational candidate = distance_squared(item, a, b);
     if (candidate >= best) continue;
@@ -117,16 +135,16 @@ Rational smallest_distance_squared(const ExactShape& a, const ExactShape& b) {
   return best;
 }
 
-Pair surface_distance(const Shape& shape_a, const Shape& shape_b) {
+Pair surface_distance(const Shape& shape_a, const Shape& shape_b, const FacePairs& pairs) {
   const ExactShape a(shape_a);
   const ExactShape b(shape_b);
-  return pair_of(smallest_distance_squared(a, b), is_pierced(a, b));
+  return pair_of(smallest_distance_squared(a, b, pairs), is_pierced(a, b, pairs));
 }
 
-Pair vertex_distance(const Shape& shape_a, const Shape& shape_b) {
+Pair vertex_distance(const Shape& shape_a, const Shape& shape_b, const FacePairs& pairs) {
   const ExactShape a(shape_a);
   const ExactShape b(shape_b);
-  return pair_of(vertex_distance_squared(a, b), is_pierced(a, b));
+  return pair_of(vertex_distance_squared(a, b, pairs), is_pierced(a, b, pairs));
 }
 
 }  // namespace graze::oracle

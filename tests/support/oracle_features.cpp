@@ -10,7 +10,8 @@ namespace {
 
 class Collector {
  public:
-  Collector(const ExactShape& a, const ExactShape& b, const Limit& limit) : a_(a), b_(b), limit_(limit) {}
+  Collector(const ExactShape& a, const ExactShape& b, const Limit& limit, const FacePairs& pairs)
+      : a_(a), b_(b), limit_(limit), pairs_(pairs) {}
 
   ExactContacts collect() {
     pierce();
@@ -28,11 +29,13 @@ class Collector {
       place->second = std::move(contact);
   }
 
+  static Feature face_feature(std::uint32_t face) { return {FeatureKind::face, face}; }
   [[nodiscard]] static bool is_crease(const Segment& segment) { return segment.fold || segment.folded_over; }
 
   void pierce() {
     for (const Segment& segment : a_.segments) {
       for (std::uint32_t face = 0; face < b_.faces.size(); ++face) {
+        if (!pairs_.may(segment.owner, face_feature(face))) continue;
         if (const auto t = passes(a_, segment, b_, face)) {
           const Point point = point_at(a_, segment, *t);
           add(segment.owner, {FeatureKind::face, face}, {0, point, point, segment.is_edge()});
@@ -41,6 +44,7 @@ class Collector {
     }
     for (const Segment& segment : b_.segments) {
       for (std::uint32_t face = 0; face < a_.faces.size(); ++face) {
+        if (!pairs_.may(face_feature(face), segment.owner)) continue;
         if (const auto t = passes(b_, segment, a_, face)) {
           const Point point = point_at(b_, segment, *t);
           add({FeatureKind::face, face}, segment.owner, {0, point, point, segment.is_edge()});
@@ -59,6 +63,7 @@ class Collector {
   void vertices_against_faces() {
     for (const std::uint32_t vertex : a_.used) {
       for (std::uint32_t face = 0; face < b_.faces.size(); ++face) {
+        if (!pairs_.may({FeatureKind::vertex, vertex}, face_feature(face))) continue;
         if (limit_.certainly_excludes(a_.point_extents[vertex], b_.faces[face].extent)) continue;
         const Foot foot = foot_on_face(a_.points[vertex], b_, face);
         add({FeatureKind::vertex, vertex}, foot.feature,
@@ -67,6 +72,7 @@ class Collector {
     }
     for (const std::uint32_t vertex : b_.used) {
       for (std::uint32_t face = 0; face < a_.faces.size(); ++face) {
+        if (!pairs_.may(face_feature(face), {FeatureKind::vertex, vertex})) continue;
         if (limit_.certainly_excludes(b_.point_extents[vertex], a_.faces[face].extent)) continue;
         const Foot foot = foot_on_face(b_.points[vertex], a_, face);
         add(foot.feature, {FeatureKind::vertex, vertex},
@@ -78,7 +84,8 @@ class Collector {
   void segments_against_segments() {
     for (const Segment& segment_a : a_.segments) {
       for (const Segment& segment_b : b_.segments) {
-        if (!limit_.certainly_excludes(segment_a.extent, segment_b.extent))
+        if (pairs_.may(segment_a.owner, segment_b.owner) &&
+            !limit_.certainly_excludes(segment_a.extent, segment_b.extent))
           add_segments(segment_a, segment_b);
       }
     }
@@ -103,6 +110,7 @@ class Collector {
   const ExactShape& a_;
   const ExactShape& b_;
   const Limit& limit_;
+  const FacePairs& pairs_;
   ExactContacts contacts_;
 };
 
@@ -115,8 +123,9 @@ Name name_of(Feature a, Feature b) {
   return {kinds[static_cast<std::size_t>(a.kind)][static_cast<std::size_t>(b.kind)], a, b};
 }
 
-ExactContacts collect_features(const ExactShape& a, const ExactShape& b, const Limit& limit) {
-  return Collector(a, b, limit).collect();
+ExactContacts collect_features(const ExactShape& a, const ExactShape& b, const Limit& limit,
+                               const FacePairs& pairs) {
+  return Collector(a, b, limit, pairs).collect();
 }
 
 Named rounded(const Name& name, const ExactContact& contact) {
@@ -137,8 +146,8 @@ std::vector<Named> rounded(const ExactContacts& contacts) {
   return result;
 }
 
-std::vector<Named> features(const Shape& a, const Shape& b, double threshold) {
-  return rounded(collect_features(ExactShape(a), ExactShape(b), Limit::below(threshold)));
+std::vector<Named> features(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs) {
+  return rounded(collect_features(ExactShape(a), ExactShape(b), Limit::below(threshold), pairs));
 }
 
 }  // namespace graze::oracle

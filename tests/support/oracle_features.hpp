@@ -29,7 +29,8 @@ using ExactContacts = std::map<Name, ExactContact>;
 
 /// The contacts of `features` within the limit, and all piercings. The diagonal of a quad that is not flat,
 /// or is flat and folded over, acts like an edge.
-ExactContacts collect_features(const ExactShape& a, const ExactShape& b, const Limit& limit);
+ExactContacts collect_features(const ExactShape& a, const ExactShape& b, const Limit& limit,
+                               const FacePairs& pairs = {});
 
 Named rounded(const Name& name, const ExactContact& contact);
 std::vector<Named> rounded(const ExactContacts& contacts);

@@ -262,7 +262,8 @@ Feature face_feature(std::uint32_t index) {
 
 }  // namespace
 
-ExactContacts collect_parallel(const ExactShape& a, const ExactShape& b, const Rational& distance_squared) {
+ExactContacts collect_parallel(const ExactShape& a, const ExactShape& b, const Rational& distance_squared,
+                               const FacePairs& pairs) {
   const Limit limit = Limit::up_to(distance_squared);
   ExactContacts contacts;
   for (const Segment& edge_a : a.edges()) {
@@ -288,6 +289,7 @@ ExactContacts collect_parallel(const ExactShape& a, const ExactShape& b, const R
           face_over_face(a, face_a, b, face_b, distance_squared));
     }
   }
+  std::erase_if(contacts, [&](const auto& contact) { return !pairs.may(contact.first.a, contact.first.b); });
   return contacts;
 }
 

@@ -88,11 +88,13 @@ std::vector<std::vector<std::uint32_t>> leaves_of(const Shape& rest) {
 
 /// The nearest vertex pair within the limit, ties to the lowest a, then b; `a` and `b` are ascending.
 void add_nearest(const ExactShape& shape_a, const std::vector<std::uint32_t>& a, const ExactShape& shape_b,
-                 const std::vector<std::uint32_t>& b, const Limit& limit, ExactContacts& contacts) {
+                 const std::vector<std::uint32_t>& b, const Limit& limit, const FacePairs& pairs,
+                 ExactContacts& contacts) {
   std::optional<std::pair<Name, ExactContact>> nearest;
   for (const std::uint32_t i : a) {
     for (const std::uint32_t j : b) {
       if (limit.certainly_excludes(shape_a.point_extents[i], shape_b.point_extents[j])) continue;
+      if (!pairs.may_vertices(i, j)) continue;
       Rational candidate = squared_length(shape_a.points[i] - shape_b.points[j]);
       if (!limit.admits(candidate) || (nearest && candidate >= nearest->second.distance_squared)) continue;
       nearest.emplace(name_of({FeatureKind::vertex, i}, {FeatureKind::vertex, j}),
@@ -127,7 +129,7 @@ std::vector<double> level_radii(const std::vector<OracleRegion>& tree,
 }
 
 std::vector<Named> regions(const Shape& shape_a, const Shape& shape_b, double threshold, const Shape& rest_a,
-                           const Shape& rest_b) {
+                           const Shape& rest_b, const FacePairs& pairs) {
   const ExactShape a(shape_a);
   const ExactShape b(shape_b);
   const Limit limit = Limit::below(threshold);
@@ -136,19 +138,20 @@ std::vector<Named> regions(const Shape& shape_a, const Shape& shape_b, double th
   for (const auto& leaf_a : leaves_of(rest_a)) {
     for (const auto& leaf_b : leaves_b) {
       if (limit.certainly_excludes(extent_of(shape_a, leaf_a), extent_of(shape_b, leaf_b))) continue;
-      add_nearest(a, leaf_a, b, leaf_b, limit, contacts);
+      add_nearest(a, leaf_a, b, leaf_b, limit, pairs, contacts);
     }
   }
   return rounded(contacts);
 }
 
-std::vector<Named> vertices(const Shape& shape_a, const Shape& shape_b, double threshold) {
+std::vector<Named> vertices(const Shape& shape_a, const Shape& shape_b, double threshold,
+                            const FacePairs& pairs) {
   const ExactShape a(shape_a);
   const ExactShape b(shape_b);
   const Limit limit = Limit::below(threshold);
   ExactContacts contacts;
   for (const std::uint32_t i : a.used)
-    for (const std::uint32_t j : b.used) add_nearest(a, {i}, b, {j}, limit, contacts);
+    for (const std::uint32_t j : b.used) add_nearest(a, {i}, b, {j}, limit, pairs, contacts);
   return rounded(contacts);
 }
 

@@ -111,6 +111,25 @@ TEST_CASE("objects that are ignored, by entry or by name, are never a pair") {
   CHECK(pairs(R"(, "ignore": [["a", "b"], ["b", "pair/left"]])") == 1);
 }
 
+TEST_CASE("faces that are ignored by their groups are never in a pair") {
+  const TemporaryFolder folder;
+  folder.write("one.obj", triangle_obj);
+  folder.write("two.obj", two_groups_obj);
+  const std::string objects = R"("contact_distance": 0.1, "objects": [
+      {"name": "pair", "mesh": "two.obj", "face_groups": [4]},
+      {"name": "a", "mesh": "one.obj", "face_groups": [255]}, {"name": "b", "mesh": "one.obj"}])";
+  const auto pairs = [&](const std::string& ignored) {
+    Player player = play(folder, objects + ignored);
+    player.advance(0);
+    return player.scene().step()->pairs().size();
+  };
+  CHECK(pairs("") == 3);  // left-a, left-b, a-b
+  CHECK(pairs(R"(, "ignore": [["a", 0, "b", 0]])") == 3);
+  CHECK(pairs(R"(, "ignore": [["a", 255, "b", 0]])") == 2);
+  CHECK(pairs(R"(, "ignore": [["b", 0, "pair", 4], ["pair/left", 4, "a", 255]])") == 1);
+  CHECK(pairs(R"(, "ignore": [["a", 255, "a", 255], ["pair", 4, "pair", 4]])") == 3);
+}
+
 TEST_CASE("a scene that does not fit its files is refused by file and place") {
   const TemporaryFolder folder;
   folder.write("one.obj", triangle_obj);
@@ -136,6 +155,8 @@ TEST_CASE("a scene that does not fit its files is refused by file and place") {
              Contains("ignore[0]: no object is called \"none\"; the scene has "));
   CHECK_THAT(error_of(folder, R"("objects": [{"mesh": "one.obj", "name": "a"}], "ignore": [["a", "a"]])"),
              Contains("ignore[0]: names one object twice"));
+  CHECK_THAT(object(R"("mesh": "one.obj", "face_groups": [0, 1])"),
+             Contains("objects[0]: object 'thing': face_groups has 2 groups for 1 faces"));
   CHECK_THAT(error_of(folder, R"("accuracy": {"paper": [1]}, "objects": [{"mesh": "one.obj"}])"),
              Contains("scene.json: "));
 }

@@ -151,6 +151,13 @@ const std::vector<BadScene> bad_scenes = {
      "rules[0].epsilon: expected an array, got 3"},
     {scene_with(R"("ignore": ["a", "b"])", ""), R"(ignore[0]: expected an array, got "a")"},
     {scene_with(R"("ignore": [["a"]])", ""), R"(ignore[0]: expected two names, got ["a"])"},
+    {scene_with(R"("ignore": [["a", 1, "b"]])", ""), R"(ignore[0]: expected two names, got ["a",1,"b"])"},
+    {scene_with(R"("ignore": [["a", 1, "b", 256]])", ""),
+     "ignore[0][3]: expected a whole number from 0 to 255"},
+    {scene_with(R"("ignore": [["a", "b", 1, 2]])", ""), "ignore[0][1]: expected a whole number"},
+    {scene_with("", R"("face_groups": 3)"), "objects[0].face_groups: expected an array, got 3"},
+    {scene_with("", R"("face_groups": [0, -1])"),
+     "objects[0].face_groups[1]: expected a whole number from 0 to 255"},
 };
 
 }  // namespace
@@ -178,12 +185,12 @@ TEST_CASE("a scene file with every key is read as it says") {
       {"name": "liver", "mesh": "meshes/liver.obj", "node": 2, "positions": "liver_####.ply",
        "transform": {"translate": [1, 2, 3], "rotate_degrees": [10, 20, 30], "scale": 0.5}},
       {"name": "tool", "mesh": "/tools/tool.stl", "node": "blade", "motion": "rigid", "layer": 4,
-       "collides_with": 3, "group": 9, "margin": 0.001, "kind": 255, "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
+       "collides_with": 3, "group": 9, "margin": 0.001, "kind": 255, "face_groups": [0, 255, 7], "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
        "poses": [{"frame": 0}, {"frame": 100, "translate": [0, 0, 0]}, {"frame": 101, "rotate_degrees": [1, 2, 3]}]},
       {"mesh": "fox.glb", "animation": "Run"},
       {"mesh": "floor.obj", "motion": "fixed"}],
     "rules": [{"kinds": [0, 255], "contact_distance": 0.5, "range": "infinity", "epsilon": [3, 2]}, {"kinds": [1, 1]}],
-    "ignore": [["liver", "tool"]]})");
+    "ignore": [["liver", "tool"], ["liver", 0, "tool", 255]]})");
   const SceneDescription scene = read_scene_file(path);
 
   CHECK(scene.settings.contact_distance == 0.02);
@@ -212,6 +219,7 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(tool.motion == graze::Motion::rigid);
   CHECK((tool.layer == 4 && tool.collides_with == 3 && tool.group == 9 && tool.margin == 0.001 &&
          tool.kind == 255));
+  CHECK(tool.face_groups == std::vector<std::uint8_t>{0, 255, 7});
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's
   CHECK(tool.poses[0].translate == Eigen::Vector3d(0, 0, 1));
   CHECK(tool.poses[0].rotation == rotation_from_degrees({0, 90, 0}));
@@ -227,8 +235,11 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(scene.rules[0].range == std::numeric_limits<double>::infinity());
   CHECK(scene.rules[0].epsilon == std::vector<double>{3, 2});
   CHECK((!scene.rules[1].contact_distance && !scene.rules[1].range && scene.rules[1].epsilon.empty()));
-  REQUIRE(scene.ignore.size() == 1);
+  REQUIRE(scene.ignore.size() == 2);
   CHECK(scene.ignore[0].names == std::array<std::string, 2>{"liver", "tool"});
+  CHECK_FALSE(scene.ignore[0].groups.has_value());
+  CHECK(scene.ignore[1].names == scene.ignore[0].names);
+  CHECK(scene.ignore[1].groups == std::array<std::uint8_t, 2>{0, 255});
 }
 
 TEST_CASE("a contact detail has its word, and a number that is none is unknown") {

@@ -7,6 +7,7 @@
 #include "arithmetic/arithmetic.hpp"
 #include "arithmetic/certain.hpp"
 #include "closest_features/closest_features.hpp"
+#include "core/pair/group_filter.hpp"
 #include "core/surface/surface.hpp"
 #include "pair/time_limit.hpp"
 
@@ -17,11 +18,23 @@ struct SurfacePair {
   const Surface& a;
   const Surface& b;
   DecisionCount& count;
-  TimeLimit* time = nullptr;  ///< null where it may take as long as it does
+  TimeLimit* time = nullptr;            ///< null where it may take as long as it does
+  const GroupFilter* groups = nullptr;  ///< null where all features may be looked at
 
   /// Before so many pieces of work of some hundred nanoseconds each. Throws TimeIsUp.
   void check_time(std::uint32_t pieces = 1) const {
     if (time != nullptr) time->check(pieces);
+  }
+  /// Whether a feature of a and one of b may be looked at against each other.
+  [[nodiscard]] bool may(const FeatureRef& of_a, const FeatureRef& of_b) const {
+    return groups == nullptr || groups->may(of_a, of_b);
+  }
+  [[nodiscard]] bool may_vertices(std::uint32_t of_a, std::uint32_t of_b) const {
+    return groups == nullptr || groups->may_vertices(of_a, of_b);
+  }
+  /// Whether any features of two regions may be looked at against each other.
+  [[nodiscard]] bool may_regions(const RegionPair& regions) const {
+    return groups == nullptr || groups->may_regions(regions);
   }
 };
 

@@ -1,6 +1,7 @@
 #include "closest_features/locally_closest.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,6 +45,34 @@ class VolumesOverEdges {
   double error_;
 };
 
+/// Whether a corner is across from an edge in a triangle of a face.
+bool is_across_in(const IndexedMesh& mesh, std::uint32_t face, std::uint32_t edge, std::uint32_t corner) {
+  const auto corners = mesh.face(face);
+  const auto [low, high] = mesh.edge(edge);
+  for (std::size_t last = 2; last < corners.size(); ++last) {
+    const std::array<std::uint32_t, 3> triangle{corners[0], corners[last - 1], corners[last]};
+    const auto has = [&](std::uint32_t vertex) {
+      return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
+    };
+    if (has(low) && has(high) && has(corner)) return true;
+  }
+  return false;
+}
+
+/// Calls `is_nearer(corner)` with the corners across from an edge in faces for which `may(face)` holds, until
+/// it returns true. Without groups all faces count, and none is asked for.
+template <typename May, typename IsNearer>
+bool any_across(const SurfacePair& pair, const IndexedMesh& mesh, std::uint32_t edge, const May& may,
+                const IsNearer& is_nearer) {
+  for (const std::uint32_t corner : mesh.edge_across(edge)) {
+    if (!is_nearer(corner)) continue;
+    if (pair.groups == nullptr) return true;
+    for (const std::uint32_t face : mesh.edge_faces(edge))
+      if (may(FeatureRef{FeatureRefKind::face, face}) && is_across_in(mesh, face, edge, corner)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 // The way d between the closest points is square to both edges, so it is along their cross product. The way
@@ -53,11 +82,20 @@ bool are_locally_closest(const SurfacePair& pair, std::uint32_t edge_a, std::uin
   const VolumesOverEdges volumes(pair, edge_a, edge_b);
   const int gap = volumes.sign_to(volumes.on_b(), volumes.on_a());
   if (gap == 0) return true;
-  for (const std::uint32_t corner : pair.a.mesh().edge_across(edge_a))
-    if (volumes.sign_to(pair.a.position(corner), volumes.on_a()) * gap > 0) return false;
-  for (const std::uint32_t corner : pair.b.mesh().edge_across(edge_b))
-    if (volumes.sign_to(pair.b.position(corner), volumes.on_b()) * gap < 0) return false;
-  return true;
+  const FeatureRef a{FeatureRefKind::edge, edge_a};
+  const FeatureRef b{FeatureRefKind::edge, edge_b};
+  const auto leads_a_nearer = [&](std::uint32_t corner) {
+    return volumes.sign_to(pair.a.position(corner), volumes.on_a()) * gap > 0;
+  };
+  const auto leads_b_nearer = [&](std::uint32_t corner) {
+    return volumes.sign_to(pair.b.position(corner), volumes.on_b()) * gap < 0;
+  };
+  return !any_across(
+             pair, pair.a.mesh(), edge_a, [&](const FeatureRef& face) { return pair.may(face, b); },
+             leads_a_nearer) &&
+         !any_across(
+             pair, pair.b.mesh(), edge_b, [&](const FeatureRef& face) { return pair.may(a, face); },
+             leads_b_nearer);
 }
 
 }  // namespace graze

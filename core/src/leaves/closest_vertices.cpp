@@ -20,14 +20,17 @@ struct AsNear {
 
 }  // namespace
 
-FeaturePairKey closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b,
-                                LeafScratch& scratch, Closest& closest) {
+std::optional<FeaturePairKey> closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a,
+                                               const LeafOf& leaf_b, LeafScratch& scratch, Closest& closest) {
   closest.clear();
   ClosestSet set(pair, Ties::lowest, closest);
-  set.offer(vertex_pair(leaf_a.region.middle, leaf_b.region.middle));
+  const auto offer = [&](std::uint32_t a, std::uint32_t b) {
+    if (pair.may_vertices(a, b)) set.offer(vertex_pair(a, b));
+  };
+  offer(leaf_a.region.middle, leaf_b.region.middle);
   AsNear range{set};
-  for_each_vertex_pair(pair, leaf_a, leaf_b, scratch, range,
-                       [&](std::uint32_t a, std::uint32_t b) { set.offer(vertex_pair(a, b)); });
+  for_each_vertex_pair(pair, leaf_a, leaf_b, scratch, range, offer);
+  if (closest.keys.empty()) return std::nullopt;
   return set.front();
 }
 

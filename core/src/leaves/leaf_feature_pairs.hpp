@@ -16,7 +16,7 @@ namespace graze {
 /// a face. They are also every fold's contacts with edges, folds and faces. Pairs certainly too far for the
 /// range are left out, but never a piercing. A key may come several times. Pairs go from boxes to float and
 /// from there to double, several at once. So keys may come later than the features; all have come after
-/// `finish`.
+/// `finish`. Features that the pair's groups leave out are not tested against each other.
 ///
 /// From the distance `range.limit()` on a pair is of no interest. It may shrink meanwhile. Below the distance
 /// `range.keys_only_below()` only the keys of pairs are wanted. Edges are tested for piercing faces where
@@ -230,7 +230,9 @@ class LeafFeaturePairs {
     const bool is_through_a = &batch == &batches_.through_a;
     batch.ask([&](auto& pairs) { return kernels::filter().bound_over_planes(pairs, touching); },
               [&](const FeatureRef& segment, const FeatureRef& face) {
-                is_through_a ? range_.found(face, segment) : range_.found(segment, face);
+                const FeatureRef& a = is_through_a ? face : segment;
+                const FeatureRef& b = is_through_a ? segment : face;
+                if (pair_.may(a, b)) range_.found(a, b);
               });
   }
   template <typename Batch, typename Kernel, typename Handler>
@@ -245,6 +247,7 @@ class LeafFeaturePairs {
 
   auto handle_vertex_a() {
     return [this](const FeatureRef& vertex, const FeatureRef& face, const KnownInFloat& known) {
+      if (!pair_.may(vertex, face)) return;
       range_.found(vertex, face);
       if (known.voronoi != kernels::unsure_voronoi && is_triangle(pair_.b, face))
         return accept_in_float(vertex_piece(vertex.index), piece_in(pair_.b, face, known), range_of(known));
@@ -254,6 +257,7 @@ class LeafFeaturePairs {
   }
   auto handle_vertex_b() {
     return [this](const FeatureRef& vertex, const FeatureRef& face, const KnownInFloat& known) {
+      if (!pair_.may(face, vertex)) return;
       range_.found(face, vertex);
       if (known.voronoi != kernels::unsure_voronoi && is_triangle(pair_.a, face))
         return accept_in_float(piece_in(pair_.a, face, known), vertex_piece(vertex.index), range_of(known));
@@ -263,6 +267,7 @@ class LeafFeaturePairs {
   }
   auto handle_segments() {
     return [this](const FeatureRef& a, const FeatureRef& b, const KnownInFloat& known) {
+      if (!pair_.may(a, b)) return;
       range_.found(a, b);
       const bool are_edges = a.kind == FeatureRefKind::edge && b.kind == FeatureRefKind::edge;
       if (known.voronoi != kernels::unsure_voronoi && are_edges) {
@@ -280,7 +285,7 @@ class LeafFeaturePairs {
   }
   auto handle_through_b() {
     return [this](const FeatureRef& segment, const FeatureRef& face, const KnownInFloat& known) {
-      if (!may_touch(pair_.a, segment, pair_.b, face, known)) return;
+      if (!pair_.may(segment, face) || !may_touch(pair_.a, segment, pair_.b, face, known)) return;
       range_.may_touch(segment, true);
       pair_.check_time();
       if (!is_segment(pair_.a, segment)) return;
@@ -291,7 +296,7 @@ class LeafFeaturePairs {
   }
   auto handle_through_a() {
     return [this](const FeatureRef& segment, const FeatureRef& face, const KnownInFloat& known) {
-      if (!may_touch(pair_.b, segment, pair_.a, face, known)) return;
+      if (!pair_.may(face, segment) || !may_touch(pair_.b, segment, pair_.a, face, known)) return;
       range_.may_touch(segment, false);
       pair_.check_time();
       if (!is_segment(pair_.b, segment)) return;

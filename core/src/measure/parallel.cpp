@@ -65,6 +65,10 @@ bool are_certainly_apart(const Holder& a, const Holder& b) {
   return true;
 }
 
+FeatureRef ref_of(const Feature& feature) {
+  return {feature.kind == FeatureKind::edge ? FeatureRefKind::edge : FeatureRefKind::face, feature.index};
+}
+
 /// The flat pieces of an edge or face that can be parallel to another's, and which of their sides is the
 /// fold.
 struct SidedPiece {
@@ -183,9 +187,11 @@ class ParallelContacts {
     return mesh.edge_faces(feature.index);
   }
 
-  /// Whether two features have a stretch or an area of closest points at the least distance.
+  /// Whether two edges or faces have a stretch or an area of closest points at the least distance, and may be
+  /// looked at.
   bool is_parallel(const TwoFeatures& features) {
     const auto& [a, b] = features;
+    if (!pair_.may(ref_of(a), ref_of(b))) return false;
     if (a.kind != FeatureKind::face || b.kind != FeatureKind::face) return decide_parallel(features);
     ParallelScratch::Known& known =
         scratch_.known[(a.index * std::size_t{0x9e3779b1} + b.index) % known_count];

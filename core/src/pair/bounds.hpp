@@ -47,6 +47,12 @@ class RegionBounds {
   [[nodiscard]] double lower(const RegionPair& pair) const {
     return less_motion(lower_distance(box_a(pair), box_b(pair)), motion_);
   }
+  /// At least the distance of any point of one region and any of the other, of all that the boxes hold.
+  [[nodiscard]] double upper(const RegionPair& pair) const {
+    const Eigen::Vector3d way =
+        (box_b(pair).max - box_a(pair).min).cwiseMax(box_a(pair).max - box_b(pair).min);
+    return (upper_distance(Eigen::Vector3d::Zero(), way) + motion_) * round_up;
+  }
   /// A bound for vertices that also uses the spheres about the middle vertices (eq. 2). The spheres leave out
   /// next to nothing that boxes do not. They are worth their refit only where the paper's regions are
   /// reported.

@@ -43,6 +43,7 @@ class Paper {
 
   PaperFound run() {
     scratch_.closest.clear();
+    if (pair_.groups != nullptr) offer_some(*pair_.groups);
     scratch_.dmv.front.assign(1, RegionPair{});
     found_.complete = dmv(
         pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
@@ -60,10 +61,16 @@ class Paper {
   }
 
  private:
+  /// Offers two vertices that may be looked at, since DV may meet none.
+  void offer_some(const GroupFilter& groups) {
+    const auto& [a, b] = groups.some_faces();
+    nearest_.offer(
+        FeaturePairKey::of(vertex_piece(pair_.a.mesh().face(a)[0]), vertex_piece(pair_.b.mesh().face(b)[0])));
+  }
   /// Eq. 4: expand when the middle vertices are closer than the level's epsilon; the pair of roots always.
   bool expand(const RegionPair& regions, const Region& a, const Region& b) {
     if (std::max(a.level, b.level) == 0) return true;
-    nearest_.offer(middles_of(a, b));
+    if (pair_.may_vertices(a.middle, b.middle)) nearest_.offer(middles_of(a, b));
     if (passes_as_in_paper(pair_, query_, a, b)) return true;
     found_.lower = std::min(found_.lower, bounds_.lower_with_spheres(regions));
     return false;
@@ -73,7 +80,9 @@ class Paper {
   /// shrinks.
   void dv(const LeafOf& leaf_a, const LeafOf& leaf_b) {
     ++meter_.counters().leaf_pairs_tested;
-    FeaturePairKey key = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaves, scratch_.leaf_closest);
+    const auto closest = closest_vertices(pair_, leaf_a, leaf_b, scratch_.leaves, scratch_.leaf_closest);
+    if (!closest) return;
+    FeaturePairKey key = *closest;
     nearest_.offer(key);
     found_.lower = std::min(found_.lower, lower_distance(pair_.a.position(key.a().feature.index),
                                                          pair_.b.position(key.b().feature.index)));
@@ -88,6 +97,7 @@ class Paper {
     const VerticesBelow range{query_.threshold};
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch_.leaves, range,
                          [&](std::uint32_t a, std::uint32_t b) {
+                           if (!pair_.may_vertices(a, b)) return;
                            const auto key = FeaturePairKey::of(vertex_piece(a), vertex_piece(b));
                            if (is_closer_than(pair_, key, query_.threshold)) keys_.push_back(key);
                          });
@@ -101,7 +111,8 @@ class Paper {
     const std::uint32_t a = key.a().feature.index;
     const std::uint32_t b = key.b().feature.index;
     const auto offer = [&](std::uint32_t to_a, std::uint32_t to_b) {
-      if (lower_distance(pair_.a.position(to_a), pair_.b.position(to_b)) <= around.upper())
+      if (pair_.may_vertices(to_a, to_b) &&
+          lower_distance(pair_.a.position(to_a), pair_.b.position(to_b)) <= around.upper())
         around.offer(FeaturePairKey::of(vertex_piece(to_a), vertex_piece(to_b)));
     };
     for (const std::uint32_t to_a : pair_.a.mesh().vertex_neighbours(a)) {

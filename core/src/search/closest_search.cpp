@@ -81,7 +81,7 @@ Ties ClosestSearch::ties() const {
 SearchProgress ClosestSearch::begin_vertices(SearchWorker& worker) {
   closest_.clear();
   ClosestRange range(worker.pair, pair_.query, Ties::lowest, closest_);
-  range.offer_middles({});
+  range.offer_some();
   range.at_most(upper_distance(worker.pair, pair_.front->witness, true));
   NearVertices vertices(worker.pair, range.limit(), near_blocks_, worker.scratch.vertices);
   vertices.find_blocks();
@@ -94,7 +94,7 @@ SearchProgress ClosestSearch::begin_surfaces(SearchWorker& worker) {
   choose_source();
   closest_.clear();
   ClosestRange range(worker.pair, pair_.query, ties(), closest_);
-  range.offer_middles({});
+  range.offer_some();
   const double of_roots = closest_.closest.upper;
   range.at_most(upper_distance(worker.pair, pair_.front->witness, about_vertices()));
   is_bounded_ = closest_.closest.upper < of_roots;
@@ -164,6 +164,7 @@ void ClosestSearch::merge_slices(SearchWorker& worker) {
     for (const FeaturePairKey& key : slice.closest.closest.keys.keys()) set.offer(key);
     closest_.closest.pierced = closest_.closest.pierced || slice.closest.closest.pierced;
     closest_.lower = std::min(closest_.lower, slice.closest.lower);
+    set.at_most(slice.closest.closest.upper);
   }
   set.merge_runs();
 }

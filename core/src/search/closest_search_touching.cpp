@@ -44,7 +44,7 @@ SearchProgress ClosestSearch::begin_touching(SearchWorker& worker) {
 /// One thread does not test all leaf pairs of a large pair, since its surfaces may touch no more.
 SearchProgress ClosestSearch::test_front(SearchWorker& worker) {
   ClosestRange range(worker.pair, pair_.query, ties(), closest_);
-  validate(*pair_.front, *pair_.a, *pair_.b);
+  if (pair_.query.groups == nullptr) validate(*pair_.front, *pair_.a, *pair_.b);
   const double motion = pair_.front->motion_now(*pair_.a, *pair_.b);
   if (!pair_.front->leaves.empty()) worker.begin_leaves(pair_.front->leaves.front().pair);
   std::size_t asked = 0;

@@ -219,8 +219,8 @@ void ContactSearch::test_leaves(SearchSlice& slice, SearchWorker& worker, Featur
 void ContactSearch::add_closest_vertices(const LeafOf& a, const LeafOf& b, SearchSlice& slice,
                                          SearchWorker& worker) const {
   SearchScratch& scratch = worker.scratch;
-  const FeaturePairKey key = closest_vertices(worker.pair, a, b, scratch.features, scratch.nearest_of_leaves);
-  if (is_closer_than(worker.pair, key, pair_.query.threshold)) slice.contacts.keys.push_back(key);
+  const auto key = closest_vertices(worker.pair, a, b, scratch.features, scratch.nearest_of_leaves);
+  if (key && is_closer_than(worker.pair, *key, pair_.query.threshold)) slice.contacts.keys.push_back(*key);
 }
 
 // ---- Contacts between vertices

@@ -1,21 +1,32 @@
 #include "core/search/pair_detector.hpp"
 
+#include <array>
+
+#include "core/pair/group_filter.hpp"
 #include "pair/bounds.hpp"
 #include "search/pair_detector_scratch.hpp"
 
 namespace graze {
 namespace {
 
-/// Bounds that need no search: the objects' boxes, and the middle vertices of the whole objects.
-void set_outer_bounds(const Surface& a, const Surface& b, PairAnswer& answer) {
+/// A vertex of each surface that may be looked at: the middle vertex of the whole, or the corner of a face.
+std::array<std::uint32_t, 2> some_vertices(const Surface& a, const Surface& b, const GroupFilter* groups) {
   const std::uint32_t middle_a = a.mesh().regions().region(0).middle;
   const std::uint32_t middle_b = b.mesh().regions().region(0).middle;
+  if (groups == nullptr || groups->may_vertices(middle_a, middle_b)) return {middle_a, middle_b};
+  const auto& [face_a, face_b] = groups->some_faces();
+  return {a.mesh().face(face_a)[0], b.mesh().face(face_b)[0]};
+}
+
+/// Bounds that need no search: the objects' boxes, and two of their vertices.
+void set_outer_bounds(const Surface& a, const Surface& b, const GroupFilter* groups, PairAnswer& answer) {
+  const auto [vertex_a, vertex_b] = some_vertices(a, b, groups);
   answer.distance = {lower_distance(a.box(), b.box()),
-                     upper_distance(a.position(middle_a), b.position(middle_b))};
-  answer.witness = {{FeatureKind::vertex, middle_a},
-                    {FeatureKind::vertex, middle_b},
-                    a.position(middle_a),
-                    b.position(middle_b)};
+                     upper_distance(a.position(vertex_a), b.position(vertex_b))};
+  answer.witness = {{FeatureKind::vertex, vertex_a},
+                    {FeatureKind::vertex, vertex_b},
+                    a.position(vertex_a),
+                    b.position(vertex_b)};
 }
 
 }  // namespace
@@ -51,7 +62,7 @@ void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQu
   answer.contacts.clear();
   answer.region_distances.clear();
   answer.region_distances_left_out = 0;
-  set_outer_bounds(a, b, answer);
+  set_outer_bounds(a, b, query.groups, answer);
   answer.listed = answer.distance.lower < query.reach || answer.distance.lower == 0;
 }
 

@@ -59,7 +59,8 @@ void SearchSlices::add_range(std::size_t begin, std::size_t end, std::size_t eac
 }
 
 void SearchSlices::cut_front() {
-  if (!is_about_vertices(pair_.query.detail)) validate(*pair_.front, *pair_.a, *pair_.b);
+  if (!is_about_vertices(pair_.query.detail) && pair_.query.groups == nullptr)
+    validate(*pair_.front, *pair_.a, *pair_.b);
   clear();
   add_range(0, pair_.front->leaves.size(), front_pairs_each);
 }

@@ -13,7 +13,7 @@ class SearchWorker {
   SearchWorker(const SearchedPair& searched, SearchScratch& given, PairCounters& counters)
       : scratch(given),
         time(searched.query.deadline, decisions_),
-        pair{*searched.a, *searched.b, decisions_, time.is_set() ? &time : nullptr},
+        pair{*searched.a, *searched.b, decisions_, time.is_set() ? &time : nullptr, searched.query.groups},
         meter(searched.query, counters, pair.time),
         leaf_pairs(pair, searched.query, given.leaf_pairs, meter) {
     scratch.features.begin();

@@ -156,8 +156,9 @@ void NearVertices::for_each_near(std::uint32_t block_of_a, const Visit& visit) {
       const std::uint32_t near_b = scratch_.near_b.room[i];
       const std::uint32_t slot = some[near_b / block_size];
       const auto vertices_b = of_b_.vertices(near_.is_linear_scan ? near_.b.room[slot] : slot);
-      visit(FeaturePairKey::of(vertex_piece(vertices_a[scratch_.near_a.room[i]]),
-                               vertex_piece(vertices_b[near_b % block_size])));
+      const std::uint32_t of_a = vertices_a[scratch_.near_a.room[i]];
+      const std::uint32_t of_b = vertices_b[near_b % block_size];
+      if (pair_.may_vertices(of_a, of_b)) visit(FeaturePairKey::of(vertex_piece(of_a), vertex_piece(of_b)));
     }
   }
 }
@@ -197,7 +198,8 @@ bool NearVertices::offer(WorkMeter& meter, ClosestRange& nearest) {
     if (!meter.spend()) return false;
     set_limit(std::min(most, above(nearest.limit())));
     find_beside(block);
-    if (is_first && scratch_.beside.count > most_blocks_beside)
+    const bool may_all = pair_.groups == nullptr;
+    if (may_all && is_first && scratch_.beside.count > most_blocks_beside)
       set_limit(std::min(limit_, in_float_ ? upper_distance_beside(block, near_.floats)
                                            : upper_distance_beside(block, near_.doubles)));
     for_each_near(block, [&](const FeaturePairKey& key) {

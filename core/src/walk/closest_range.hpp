@@ -7,6 +7,7 @@
 #include "core/pair/pair_query.hpp"
 #include "leaves/leaf_feature_pairs.hpp"
 #include "leaves/leaf_vertex_pairs.hpp"
+#include "pair/bounds.hpp"
 #include "walk/leaf_pairs.hpp"
 
 namespace graze {
@@ -72,9 +73,25 @@ class ClosestRange {
   /// Nothing further than this is nearest.
   [[nodiscard]] double upper() const { return set_.upper(); }
   void offer(const FeaturePairKey& key) { set_.offer(key); }
+  /// Offers the middle vertices of two regions of which some features may be looked at. If the middle
+  /// vertices may not, the regions' boxes bound the distance.
   void offer_middles(const RegionPair& regions) {
     const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;
     const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
+    if (pair_.may_vertices(a, b))
+      offer_apart(a, b);
+    else if (!is_about_vertices(query_.detail))
+      at_most(RegionBounds(pair_.a, pair_.b, RefitOf::faces).upper(regions));
+  }
+  /// Offers two vertices of the surfaces before the search begins: the roots' middle vertices, or corners of
+  /// faces that may be looked at.
+  void offer_some() {
+    if (pair_.groups == nullptr) return offer_middles({});
+    const auto& [a, b] = pair_.groups->some_faces();
+    offer_apart(pair_.a.mesh().face(a)[0], pair_.b.mesh().face(b)[0]);
+  }
+  /// Offers two vertices that are apart.
+  void offer_apart(std::uint32_t a, std::uint32_t b) {
     // Not at 0: whether a walk came by must not show in the witness.
     const double upper = upper_distance(pair_.a.position(a), pair_.b.position(b));
     if (may_be_apart(upper) && upper < set_.upper())
@@ -110,7 +127,7 @@ class ClosestRange {
   }
   void offer_vertices(const LeafOf& leaf_a, const LeafOf& leaf_b, LeafScratch& scratch) {
     for_each_vertex_pair(pair_, leaf_a, leaf_b, scratch, *this, [&](std::uint32_t a, std::uint32_t b) {
-      set_.offer(FeaturePairKey::of(vertex_piece(a), vertex_piece(b)));
+      if (pair_.may_vertices(a, b)) set_.offer(FeaturePairKey::of(vertex_piece(a), vertex_piece(b)));
     });
   }
 

@@ -113,7 +113,8 @@ class LeafPairs {
   /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds. That says whether
   /// a pair at least `lower` apart may come to matter before the surfaces have moved by `slack`. `meet(pair)`
   /// is called for every pair of regions. The walk stops where a level has more than `most` pairs: those are
-  /// then `front()`. Returns false when the budget ran out.
+  /// then `front()`. Regions whose groups leave nothing to be
+  /// looked at are passed over. Returns false when the budget ran out.
   template <typename Keep, typename Meet>
   bool walk(std::span<const RegionPair> start, const Keep& keep, const Meet& meet, LeafPairList& found,
             std::size_t most = std::numeric_limits<std::size_t>::max()) {
@@ -126,11 +127,13 @@ class LeafPairs {
     return dmv(
         pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
         [&](const RegionPair& regions, const Region& a, const Region& b) {
+          if (!pair_.may_regions(regions)) return Expansion{};
           meet(regions);
           return keeps(bounds_.lower(regions)) ? expansion_of(regions, a, b) : Expansion{};
         },
         [&](const RegionPair& regions) { return keeps(bounds_.lower(regions)); },
         [&](const RegionPair& leaves, const Region&, const Region&) {
+          if (!pair_.may_regions(leaves)) return;
           meet(leaves);
           const double lower = bounds_.lower(leaves);
           if (keeps(lower)) found.leaves.push_back({std::max(lower, lower_of_leaves(leaves)), leaves, 0, 0});

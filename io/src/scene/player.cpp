@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/player.hpp>
@@ -62,6 +63,8 @@ struct Player::State {
   void add(LoadedSceneObject& loaded, const ObjectDescription& entry);
   void set_rule(const RuleDescription& rule, const SceneSettings& settings);
   void ignore(const IgnoreDescription& ignored, const SceneDescription& description);
+  void ignore_groups(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second,
+                     const std::array<std::uint8_t, 2>& groups);
   [[nodiscard]] std::vector<std::size_t> named(const std::string& name, const std::string& where,
                                                const SceneDescription& description) const;
   void advance_object(std::size_t index, std::uint32_t frame);
@@ -120,11 +123,19 @@ std::vector<std::size_t> Player::State::named(const std::string& name, const std
 void Player::State::ignore(const IgnoreDescription& ignored, const SceneDescription& description) {
   const auto first = named(ignored.names[0], ignored.place, description);
   const auto second = named(ignored.names[1], ignored.place, description);
+  if (ignored.groups) return ignore_groups(first, second, *ignored.groups);
   if (first == second && first.size() == 1)
     throw InputError(ignored.place + ": names one object twice; name two objects");
   for (const std::size_t a : first)
     for (const std::size_t b : second)
       if (a != b) scene.ignore(objects[a].id, objects[b].id);
+}
+
+void Player::State::ignore_groups(const std::vector<std::size_t>& first,
+                                  const std::vector<std::size_t>& second,
+                                  const std::array<std::uint8_t, 2>& groups) {
+  for (const std::size_t a : first)
+    for (const std::size_t b : second) scene.ignore(objects[a].id, groups[0], objects[b].id, groups[1]);
 }
 
 void Player::State::advance_object(std::size_t index, std::uint32_t frame) {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint32_t any_number = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t largest_kind = 255;
+constexpr std::uint32_t largest_face_group = 255;
 
 constexpr std::array<std::pair<std::string_view, ContactDetail>, 6> details{{
     {"none", ContactDetail::none},
@@ -104,6 +105,10 @@ void read_frame(const JsonPath& json, ObjectDescription& object) {
   }
 }
 
+std::uint8_t read_face_group(const JsonPath& json) {
+  return static_cast<std::uint8_t>(json.whole_number(0, largest_face_group));
+}
+
 /// Refuses keys that do not go with the object's motion.
 void check_motion(const ObjectDescription& object, const JsonPath& json) {
   const bool has_source = !object.positions.empty() || object.animation.has_value();
@@ -118,7 +123,7 @@ void check_motion(const ObjectDescription& object, const JsonPath& json) {
 
 ObjectDescription read_object(const JsonPath& json, const std::filesystem::path& folder) {
   json.expect_keys({"name", "mesh", "node", "up", "unit", "motion", "positions", "animation", "transform",
-                    "poses", "layer", "collides_with", "group", "margin", "kind", "solid"});
+                    "poses", "layer", "collides_with", "group", "margin", "kind", "solid", "face_groups"});
   ObjectDescription object;
   object.place = json.where();
   object.mesh = folder / json.require("mesh", "name the object's mesh file").text();
@@ -135,6 +140,9 @@ ObjectDescription read_object(const JsonPath& json, const std::filesystem::path&
   if (const auto margin = json.find("margin")) object.margin = margin->number_not_negative();
   if (const auto solid = json.find("solid")) object.solid = solid->truth();
   if (const auto kind = json.find("kind")) object.kind = kind->whole_number(0, largest_kind);
+  if (const auto groups = json.find("face_groups"))
+    for (std::size_t i = 0; i < groups->array_size("write a number for each face, such as [0, 0, 1]"); ++i)
+      object.face_groups.push_back(read_face_group(groups->item(i)));
   if (!object.positions.empty() || object.animation) object.motion = Motion::deformable;
   if (const auto motion = json.find("motion")) object.motion = read_motion(*motion);
   check_motion(object, json);
@@ -155,8 +163,13 @@ RuleDescription read_rule(const JsonPath& json) {
 }
 
 IgnoreDescription read_ignore(const JsonPath& json) {
-  if (json.array_size(R"(write ["name", "name"])") != 2) json.fail("two names", R"(write ["name", "name"])");
-  return {{json.item(0).text(), json.item(1).text()}, json.where()};
+  constexpr std::string_view remedy = R"(write ["name", "name"] or ["name", group, "name", group])";
+  const std::size_t size = json.array_size(remedy);
+  if (size == 2) return {{json.item(0).text(), json.item(1).text()}, std::nullopt, json.where()};
+  if (size != 4) json.fail("two names", remedy);
+  return {{json.item(0).text(), json.item(2).text()},
+          std::array{read_face_group(json.item(1)), read_face_group(json.item(3))},
+          json.where()};
 }
 
 void read_settings(const JsonPath& json, SceneSettings& settings) {

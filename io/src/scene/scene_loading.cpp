@@ -148,6 +148,7 @@ void Loader::load_object(std::size_t entry_index, const MeshFile& file, std::siz
   object.settings.layer = entry.layer;
   object.settings.collides_with = entry.collides_with;
   object.settings.group = entry.group;
+  object.settings.face_groups = entry.face_groups;
   object.settings.margin = entry.margin;
   object.settings.solid = entry.solid;
   object.settings.kind = entry.kind;

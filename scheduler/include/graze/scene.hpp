@@ -92,8 +92,9 @@ class GRAZE_API Scene {
   /// Adds an object, which stands at the rest shape of its mesh until a call moves it. Any number of objects
   /// and scenes may share one mesh.
   ///
-  /// Throws Error if `mesh` is null, if the margin is negative or not finite, if the kind is above 255, if the
-  /// motion is no enumerator, or if a solid's surface is not closed.
+  /// Throws Error if `mesh` is null, if the margin is negative or not finite, if the kind is above 255, or if
+  /// the motion is no enumerator. Also throws Error if a solid's surface is not closed, or if the settings have
+  /// groups of faces, but not one for each face.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings = {});
   /// Removes an object and ends its binding. A pair of it that was in contact is listed once more as `ended`.
   /// The id stays valid as a key in that row, and is never given again.
@@ -223,6 +224,21 @@ class GRAZE_API Scene {
   void ignore(ObjectId a, ObjectId b);
   /// Puts a pair back that ignore() took out. The order of the two objects does not matter.
   void watch(ObjectId a, ObjectId b);
+  /// Takes faces of `group_a` of `a` and faces of `group_b` of `b` out: they are not looked at against each
+  /// other, until watch() puts them back. ObjectSettings::face_groups says which faces are in a group. A
+  /// group may have no faces.
+  ///
+  /// A vertex, an edge or a face of one object is then looked at with those faces of the other that at least
+  /// one of its own faces may be looked at with. Distances, witnesses, contacts and piercing are those of the
+  /// rest. If nothing is left to be looked at, the pair is treated as one that ignore() took out whole.
+  /// Region distances (SceneSettings::region_distances) do not follow groups.
+  ///
+  /// This is for surfaces that are joined: give the faces at a seam a group, and ignore the groups of both
+  /// sides. `a` and `b` may be one object. That has no effect yet, since no object is looked at against
+  /// itself. Calls about groups and calls about whole pairs do not undo each other. Any thread may call it.
+  void ignore(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b);
+  /// Puts faces back that ignore() took out by the same two groups. Any thread may call it.
+  void watch(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b);
 
   /// Gives thresholds to every pair of an object of `kind_a` and one of `kind_b`, in either order. They
   /// replace the scene's own. Kinds are 0 to 255, see ObjectSettings::kind.

@@ -59,6 +59,10 @@ struct ObjectSettings {
   bool solid = false;
   /// Any number of the caller's. Reports give it back in PairReport::user_data_a and PairReport::user_data_b.
   std::uint64_t user_data = 0;
+  /// The group of each face, 0 to 255, in the order of the mesh's faces. It has one number for each face, or
+  /// is empty: then all faces are in group 0. A form of Scene::ignore() takes out the faces of one group
+  /// against those of another.
+  std::vector<std::uint8_t> face_groups = {};
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the

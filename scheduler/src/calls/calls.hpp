@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <graze/object_id.hpp>
 #include <graze/position_view.hpp>
 #include <graze/report.hpp>
@@ -11,6 +12,7 @@
 #include <variant>
 
 #include "base/spare_positions.hpp"
+#include "core/mesh/face_groups.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {
@@ -21,6 +23,7 @@ struct AddObject {
   ObjectId object;
   std::unique_ptr<Surface> surface;  ///< made on the caller's thread
   ObjectSettings settings;
+  std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0
 };
 struct RemoveObject {
   ObjectId object;
@@ -61,6 +64,14 @@ struct IgnorePair {
   ObjectId b;
   bool ignored;
 };
+/// Faces of one group of a that are ignored or watched against faces of one group of b.
+struct IgnoreGroups {
+  ObjectId a;
+  std::uint8_t group_a;
+  ObjectId b;
+  std::uint8_t group_b;
+  bool ignored;
+};
 struct SetRule {
   std::uint32_t kind_a;
   std::uint32_t kind_b;
@@ -71,7 +82,8 @@ struct Reserve {
 };
 
 /// Any call. An applied call is replaced by an empty RemoveObject, which holds no memory.
-using Call = std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions,
-                          UnbindPositions, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
+using Call =
+    std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions, UnbindPositions,
+                 PositionsChanged, IgnorePair, IgnoreGroups, SetRule, Reserve, Diagnostic>;
 
 }  // namespace graze

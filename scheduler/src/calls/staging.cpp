@@ -30,6 +30,23 @@ void add_stale(CallQueue::Chain& calls, ObjectId object, const char* what) {
                   std::to_string(object.generation) + " names no object of this scene");
 }
 
+/// The name of a call that takes a pair out or puts it back.
+const char* name_of_call(bool ignored) {
+  return ignored ? "ignore" : "watch";
+}
+
+/// Returns the groups of a mesh's faces, or null if all are in group 0. Throws Error if they are not one for
+/// each face.
+std::shared_ptr<const FaceGroups> face_groups_of(const IndexedMesh& mesh, const ObjectSettings& settings) {
+  const std::vector<std::uint8_t>& groups = settings.face_groups;
+  if (groups.empty()) return nullptr;
+  if (groups.size() != mesh.face_count())
+    throw Error("object '" + settings.name + "': face_groups has " + std::to_string(groups.size()) +
+                " groups for " + std::to_string(mesh.face_count()) +
+                " faces; give one for each face, or none");
+  return std::make_shared<const FaceGroups>(mesh, groups);
+}
+
 /// Returns whether a view can be the positions of an object, and adds a diagnostic if not.
 bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const PositionView& view,
                 const char* what) {
@@ -144,7 +161,7 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
     if (const auto problem = why_not_closed(indexed(*mesh)))
       throw Error("object '" + settings.name + "': a solid has a closed surface; " + *problem);
   const FloatingPointScope scope;
-  AddObject call{{}, std::make_unique<Surface>(mesh), settings};
+  AddObject call{{}, std::make_unique<Surface>(mesh), settings, face_groups_of(indexed(*mesh), settings)};
   const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
   try {
@@ -366,13 +383,27 @@ void Staging::set_ignored(ObjectId a, ObjectId b, bool ignored) {
   make_or_lose(a, LostCalls::any, [&] { add_ignored(calls, a, b, ignored); });
 }
 
+void Staging::set_ignored(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b, bool ignored) {
+  Calls calls(queue_);
+  make_or_lose(a, LostCalls::any, [&] {
+    if (check_both(calls, a, b, ignored)) calls.add(IgnoreGroups{a, group_a, b, group_b, ignored});
+  });
+}
+
+bool Staging::check_both(Calls& calls, ObjectId a, ObjectId b, bool ignored) {
+  for (const ObjectId object : {a, b}) {
+    if (contains(object)) continue;
+    add_stale(calls, object, name_of_call(ignored));
+    return false;
+  }
+  return true;
+}
+
 void Staging::add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored) {
-  const char* const what = ignored ? "ignore" : "watch";
-  for (const ObjectId object : {a, b})
-    if (!contains(object)) return add_stale(calls, object, what);
+  if (!check_both(calls, a, b, ignored)) return;
   if (a == b)
     return add_problem(calls, a, DiagnosticKind::bad_pair,
-                       std::string(what) + ": " + name(a) + " makes no pair with itself");
+                       std::string(name_of_call(ignored)) + ": " + name(a) + " makes no pair with itself");
   calls.add(IgnorePair{a, b, ignored});
 }
 

@@ -54,6 +54,7 @@ class Staging {
   void positions_changed(std::span<const ObjectId> objects, double max_displacement);
   void positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements);
   void set_ignored(ObjectId a, ObjectId b, bool ignored);
+  void set_ignored(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b, bool ignored);
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
   void reserve(const SceneCapacity& capacity);
 
@@ -152,6 +153,8 @@ class Staging {
   void add_unbinding(Calls& calls, ObjectId object);
   void try_change(Calls& calls, ObjectId object, double max_displacement) noexcept;
   void add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored);
+  /// Returns whether both ids name objects, and adds a diagnostic if not.
+  bool check_both(Calls& calls, ObjectId a, ObjectId b, bool ignored);
 
   /// Returns whether there are as many `things` as objects, and adds a diagnostic if not.
   bool check_sizes(Calls& calls, std::size_t objects, std::size_t things, const char* what,

@@ -94,6 +94,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.epsilon = job.thresholds.epsilon;
   query.threshold = job.thresholds.threshold;
   query.reach = job.thresholds.reach;
+  query.groups = job.groups.filter;
   query.region_distance_reach = query.reach;
   query.region_distance_limit = settings_.region_distances == 0
                                     ? 0

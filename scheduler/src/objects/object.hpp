@@ -15,6 +15,7 @@
 #include "base/access.hpp"
 #include "base/spare_positions.hpp"
 #include "core/base/box.hpp"
+#include "core/mesh/face_groups.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/surface/surface.hpp"
 
@@ -133,9 +134,10 @@ struct Object {
   ObjectId id;
   std::uint64_t serial = 0;  ///< ascends in the order of addition; never reused
   ObjectSettings settings;
-  std::unique_ptr<Surface> owned_surface;  ///< use the accessors below
-  const IndexedMesh* mesh = nullptr;       ///< the surface's
-  bool in_parts = false;                   ///< it is large, so several tasks read and refit it
+  std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0
+  std::unique_ptr<Surface> owned_surface;         ///< use the accessors below
+  const IndexedMesh* mesh = nullptr;              ///< the surface's
+  bool in_parts = false;                          ///< it is large, so several tasks read and refit it
 
   // The input of the next read. Posed objects have the first two, and deformable objects the others.
   std::optional<Pose> pose;

@@ -68,6 +68,7 @@ void ObjectStore::apply(AddObject& call) {
   object->id = call.object;
   object->serial = next_serial_++;
   object->settings = std::move(call.settings);
+  object->face_groups = std::move(call.face_groups);
   object->owned_surface = std::move(call.surface);
   object->box = object->seen.box = object->surface().box();
   object->version = object->surface().version();
@@ -194,7 +195,8 @@ void ObjectStore::reserve(std::size_t count) {
 }
 
 void ObjectStore::count_bytes(Object& object) {
-  const std::size_t bytes = object.surface().byte_count();
+  const std::size_t bytes =
+      object.surface().byte_count() + (object.face_groups == nullptr ? 0 : object.face_groups->byte_count());
   surface_bytes_ += bytes - std::exchange(object.counted_bytes, bytes);
 }
 

@@ -73,6 +73,7 @@ void PairFilter::set_ignored(const Object& a, const Object& b, bool ignored) {
 /// Defers the removal, since it visits every ignored pair. It happens once enough removed objects have
 /// gathered.
 void PairFilter::forget(const Object& object) {
+  if (!groups_.is_empty()) groups_.forget(object.serial);
   if (ignored_.size() == 0) return;
   forgotten_.push_back(object.serial);
   if (forgotten_.size() > ignored_.capacity()) drop_forgotten();
@@ -93,6 +94,8 @@ PairVerdict PairFilter::verdict(const ObjectSummary& a, const ObjectSummary& b) 
   if ((a.layer & b.collides_with) == 0 || (b.layer & a.collides_with) == 0) return PairVerdict::layer;
   if (a.group != 0 && a.group == b.group) return PairVerdict::group;
   if (ignored_.size() > 0 && ignored_.contains(std::minmax(a.serial, b.serial))) return PairVerdict::ignored;
+  if (!groups_.is_empty() && groups_.ignores_all(std::min(a.serial, b.serial), std::max(a.serial, b.serial)))
+    return PairVerdict::ignored;
   return PairVerdict::tested;
 }
 
@@ -102,7 +105,7 @@ PairThresholds PairFilter::thresholds(const ObjectSummary& a, const ObjectSummar
 }
 
 std::size_t PairFilter::byte_count() const {
-  return ignored_.byte_count() + forgotten_.capacity() * sizeof(std::uint64_t) +
+  return ignored_.byte_count() + groups_.byte_count() + forgotten_.capacity() * sizeof(std::uint64_t) +
          rules_.capacity() * sizeof(PairRule) + distances_.capacity() * sizeof(Distances) +
          rule_of_.capacity() * sizeof(std::uint16_t);
 }

@@ -9,6 +9,7 @@
 #include "broad_phase/broad_phase.hpp"
 #include "objects/object.hpp"
 #include "objects/object_summary.hpp"
+#include "pairs/ignored_groups.hpp"
 #include "pairs/pair_set.hpp"
 
 namespace graze {
@@ -26,7 +27,7 @@ enum class PairVerdict : std::uint8_t {
   fixed,    ///< both are fixed
   layer,    ///< one's layer is not in the other's mask
   group,    ///< both are in one group
-  ignored,  ///< by Scene::ignore
+  ignored,  ///< by Scene::ignore, as a whole or all groups of its faces
 };
 
 /// Decides which pairs are tested and up to which distance. Stepping thread only, except for the const
@@ -37,7 +38,18 @@ class PairFilter {
 
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule);
   void set_ignored(const Object& a, const Object& b, bool ignored);
-  /// Forgets the ignored pairs of a removed object.
+  /// Takes out or puts back faces of `group_a` of a against those of `group_b` of b.
+  void set_ignored(const Object& a, std::uint8_t group_a, const Object& b, std::uint8_t group_b,
+                   bool ignored) {
+    ++ignored_version_;
+    groups_.set(a, group_a, b, group_b, ignored);
+  }
+  /// Takes up the groups that the faces of an object have now, as after its mesh was replaced.
+  void regroup(const Object& object) {
+    ++ignored_version_;
+    groups_.regroup(object);
+  }
+  /// Forgets the ignored pairs and groups of a removed object.
   void forget(const Object& object);
 
   /// Calls `visit(kind_a, kind_b, rule)` with every rule, and the lower kind first.
@@ -55,6 +67,8 @@ class PairFilter {
     ignored_.visit([&](const PairSet::Pair& pair) { visit(pair.first, pair.second); });
   }
 
+  [[nodiscard]] const IgnoredGroups& ignored_groups() const { return groups_; }
+
   [[nodiscard]] PairVerdict verdict(const ObjectSummary& a, const ObjectSummary& b) const;
   [[nodiscard]] PairThresholds thresholds(const ObjectSummary& a, const ObjectSummary& b) const;
   /// PairThresholds::reach.
@@ -64,7 +78,11 @@ class PairFilter {
   }
   /// A number that changes with every rule.
   [[nodiscard]] std::uint64_t rules_version() const { return rules_version_; }
-  /// A number that changes with every rule, and with every pair that becomes ignored or watched.
+  /// The ignored groups of faces of a pair. The slot of a is the lower.
+  [[nodiscard]] PairGroups groups(const ObjectSummary& a, const ObjectSummary& b) const {
+    return groups_.is_empty() ? PairGroups() : groups_.of(a.serial, b.serial);
+  }
+  /// A number that changes with every rule, and with every pair or group that becomes ignored or watched.
   [[nodiscard]] std::uint64_t version() const { return rules_version_ + ignored_version_; }
   [[nodiscard]] const BroadPhase::HalfReaches& half_reaches() const { return half_reaches_; }
 
@@ -94,7 +112,8 @@ class PairFilter {
   std::uint64_t rules_version_ = 0;
   std::uint64_t ignored_version_ = 0;
   BroadPhase::HalfReaches half_reaches_{};
-  PairSet ignored_;                       ///< by serials, the lower first
+  PairSet ignored_;  ///< by serials, the lower first
+  IgnoredGroups groups_;
   std::vector<std::uint64_t> forgotten_;  ///< serials that `ignored_` may still name
 };
 

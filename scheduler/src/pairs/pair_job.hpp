@@ -32,6 +32,7 @@ struct PairJob {
   const PairReport* last = nullptr;  ///< the row in the previous report; null if there was none
   PairMemory* memory = nullptr;      ///< tasks use `memory_to_write`
   PairThresholds thresholds;
+  PairGroups groups;
 
   [[nodiscard]] PairMemory& memory_to_write() const {
     require_write(StepData::pairs, this);

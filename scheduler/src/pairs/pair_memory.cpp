@@ -28,7 +28,7 @@ PairMemories::Index PairMemories::acquire() {
 void PairMemories::release(Index index) {
   PairMemory& memory = memories_[index];
   memory.front.forget();
-  memory.version_a = memory.version_b = 0;
+  memory.version_a = memory.version_b = memory.groups_version = 0;
   free_.push_back(index);
 }
 

@@ -16,6 +16,8 @@ struct PairMemory {
   std::uint64_t version_a = 0;
   std::uint64_t version_b = 0;
   std::uint64_t rules_version = 0;
+  /// PairGroups::version of the groups with which the front was made.
+  std::uint64_t groups_version = 0;
 };
 
 /// The number of leaf pairs that a front has reserved room for; SceneCapacity states it.

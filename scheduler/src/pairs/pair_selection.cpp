@@ -242,7 +242,8 @@ void PairSelection::validate(const Given& given) {
     if (known.fate == Fate::tested) {
       const PairMemory& memory = memories_[known.memory];
       holds = holds && memory.version_a == a.version && memory.version_b == b.version &&
-              memory.rules_version == given.filter.rules_version();
+              memory.rules_version == given.filter.rules_version() &&
+              memory.groups_version == given.filter.groups(a, b).version;
     }
     if (!holds) throw std::logic_error("graze validator: a pair rests of which something has changed");
   }

@@ -159,8 +159,10 @@ PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previ
   job.a = store_.objects()[first_of(selected.pair)].get();
   job.b = store_.objects()[second_of(selected.pair)].get();
   if (selected.listed != SelectedPair::none) job.last = &previous.pairs()[listed_[selected.listed].row];
-  job.thresholds =
-      filter_.thresholds(summaries_[first_of(selected.pair)], summaries_[second_of(selected.pair)]);
+  const ObjectSummary& a = summaries_[first_of(selected.pair)];
+  const ObjectSummary& b = summaries_[second_of(selected.pair)];
+  job.thresholds = filter_.thresholds(a, b);
+  job.groups = filter_.groups(a, b);
   return job;
 }
 
@@ -181,6 +183,12 @@ bool PairTable::says_something(PairJob& job) const {
 
 void PairTable::add(PairJob job, const SelectedPair& selected) {
   job.memory = &selection_.memory_of(selected);
+  if (job.memory->groups_version != job.groups.version) {
+    // The answer holds no more, and the front lacks what those groups left out.
+    job.memory->front.forget();
+    job.memory->version_a = job.memory->version_b = 0;
+    job.memory->groups_version = job.groups.version;
+  }
   if (job.task == PairJob::Task::detect && is_unchanged(job)) {
     job.task = PairJob::Task::unchanged;
     if (may_rest_ && selected.kind == SelectedPair::Kind::tested) selection_.let_rest(selected);

@@ -62,7 +62,9 @@ std::size_t content_size(const ObjectStore& store) {
   constexpr std::size_t bytes_of_others = 512;
   std::size_t size = 0;
   for (const auto& object : store.objects())
-    if (object != nullptr) size += bytes_of_others + 3 * sizeof(double) * object->mesh->vertex_count();
+    if (object != nullptr)
+      size += bytes_of_others + 3 * sizeof(double) * object->mesh->vertex_count() +
+              object->settings.face_groups.size();
   return size;
 }
 
@@ -93,6 +95,12 @@ void FrameCapture::see_content(const PairFilter& filter) noexcept {
       const Object* const b = store_->find_serial(serial_b);
       if (a != nullptr && b != nullptr) add_record(IgnorePair{a->id, b->id, true});
     });
+    filter.ignored_groups().visit(
+        [&](std::uint64_t serial_a, std::uint8_t group_a, std::uint64_t serial_b, std::uint8_t group_b) {
+          const Object* const a = store_->find_serial(serial_a);
+          const Object* const b = store_->find_serial(serial_b);
+          if (a != nullptr && b != nullptr) add_record(IgnoreGroups{a->id, group_a, b->id, group_b, true});
+        });
   });
 }
 

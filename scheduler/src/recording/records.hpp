@@ -54,7 +54,7 @@ struct UnbindRecord {
 /// Any record. The number of a kind in a recording is its place here, so kinds are added at the end.
 using Record =
     std::variant<AddRecord, RemoveObject, SetPose, RefusePose, PositionsRecord, BindRecord, MemoryRecord,
-                 UnbindRecord, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
+                 UnbindRecord, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic, IgnoreGroups>;
 
 /// `Type`, or a constant of it.
 template <typename Candidate, typename Type>
@@ -65,7 +65,7 @@ concept Is = std::same_as<std::remove_const_t<Candidate>, Type>;
 template <Is<ObjectSettings> T>
 auto fields(T& r) {
   return std::tie(r.name, r.motion, r.layer, r.collides_with, r.group, r.margin, r.kind, r.user_data,
-                  r.solid);
+                  r.solid, r.face_groups);
 }
 template <Is<PairRule> T>
 auto fields(T& r) {
@@ -123,6 +123,10 @@ auto fields(T& r) {
 template <Is<IgnorePair> T>
 auto fields(T& r) {
   return std::tie(r.a, r.b, r.ignored);
+}
+template <Is<IgnoreGroups> T>
+auto fields(T& r) {
+  return std::tie(r.a, r.group_a, r.b, r.group_b, r.ignored);
 }
 template <Is<SetRule> T>
 auto fields(T& r) {

@@ -94,6 +94,9 @@ void SceneModel::take(const RemoveObject& record) {
   std::erase_if(ignored_, [&](const auto& pair) {
     return pair.first == record.object || pair.second == record.object;
   });
+  std::erase_if(ignored_groups_, [&](const auto& groups) {
+    return groups.first.object == record.object || groups.second.object == record.object;
+  });
 }
 
 void SceneModel::take(const SetPose& record) {
@@ -144,6 +147,15 @@ void SceneModel::take(const IgnorePair& record) {
     ignored_.insert(ordered(record.a, record.b));
   else
     ignored_.erase(ordered(record.a, record.b));
+}
+
+void SceneModel::take(const IgnoreGroups& record) {
+  const std::pair<GroupOf, GroupOf> groups =
+      std::minmax(GroupOf{record.a, record.group_a}, GroupOf{record.b, record.group_b});
+  if (record.ignored)
+    ignored_groups_.insert(groups);
+  else
+    ignored_groups_.erase(groups);
 }
 
 void SceneModel::take(const SetRule& record) {

@@ -65,12 +65,22 @@ class SceneModel {
     for (const auto& [serial, id] : by_serial_) rebuild_object(id, objects_.at(id), visit);
     for (const auto& [kinds, rule] : rules_) visit(Record(SetRule{kinds.first, kinds.second, rule}));
     for (const auto& [a, b] : ignored_) visit(Record(IgnorePair{a, b, true}));
+    for (const auto& [a, b] : ignored_groups_)
+      visit(Record(IgnoreGroups{a.object, a.group, b.object, b.group, true}));
   }
 
   [[nodiscard]] const ModelObject* find(ObjectId id) const;
   void clear() { *this = SceneModel(); }
 
  private:
+  /// A group of an object's faces.
+  struct GroupOf {
+    ObjectId object;
+    std::uint8_t group = 0;
+
+    friend auto operator<=>(const GroupOf&, const GroupOf&) = default;
+  };
+
   template <typename Visit>
   static void rebuild_object(ObjectId id, const ModelObject& object, const Visit& visit) {
     visit(Record(AddRecord{id, object.serial, object.mesh, object.settings}));
@@ -98,6 +108,7 @@ class SceneModel {
   void take(const UnbindRecord& record);
   void take(const PositionsChanged&) {}
   void take(const IgnorePair& record);
+  void take(const IgnoreGroups& record);
   void take(const SetRule& record);
   void take(const Reserve&) {}
   void take(const Diagnostic&) {}
@@ -106,6 +117,7 @@ class SceneModel {
   std::map<std::uint64_t, ObjectId> by_serial_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, PairRule> rules_;  ///< by kinds, the lower first
   std::set<std::pair<ObjectId, ObjectId>> ignored_;
+  std::set<std::pair<GroupOf, GroupOf>> ignored_groups_;
 };
 
 }  // namespace graze

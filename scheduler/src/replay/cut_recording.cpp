@@ -90,6 +90,9 @@ class RecordingCut {
   [[nodiscard]] bool tells_of_kept(const IgnorePair& record) const {
     return is_kept(record.a) && is_kept(record.b);
   }
+  [[nodiscard]] bool tells_of_kept(const IgnoreGroups& record) const {
+    return is_kept(record.a) && is_kept(record.b);
+  }
   [[nodiscard]] static bool tells_of_kept(const SetRule&) { return true; }
   [[nodiscard]] static bool tells_of_kept(const Reserve&) { return true; }
 

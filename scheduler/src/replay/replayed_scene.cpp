@@ -166,6 +166,13 @@ void ReplayedScene::take(const IgnorePair& record) {
   if (a != nullptr && b != nullptr) staging_.repeat(IgnorePair{a->object.id, b->object.id, record.ignored});
 }
 
+void ReplayedScene::take(const IgnoreGroups& record) {
+  const Object* const a = find(record.a);
+  const Object* const b = find(record.b);
+  if (a != nullptr && b != nullptr)
+    staging_.repeat(IgnoreGroups{a->object.id, record.group_a, b->object.id, record.group_b, record.ignored});
+}
+
 void ReplayedScene::take(const Diagnostic& record) {
   staging_.repeat(Diagnostic{id_of(record.object), record.kind, record.message});
 }

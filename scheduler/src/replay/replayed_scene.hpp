@@ -58,6 +58,7 @@ class ReplayedScene {
   void take(const UnbindRecord& record);
   void take(const PositionsChanged& record);
   void take(const IgnorePair& record);
+  void take(const IgnoreGroups& record);
   void take(const SetRule& record) { scene_.set_rule(record.kind_a, record.kind_b, record.rule); }
   void take(const Reserve&) {}  // memory is no part of an answer
   void take(const Diagnostic& record);

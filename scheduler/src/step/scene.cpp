@@ -122,6 +122,12 @@ void Scene::ignore(ObjectId a, ObjectId b) {
 void Scene::watch(ObjectId a, ObjectId b) {
   state_->staging.set_ignored(a, b, false);
 }
+void Scene::ignore(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b) {
+  state_->staging.set_ignored(a, group_a, b, group_b, true);
+}
+void Scene::watch(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b) {
+  state_->staging.set_ignored(a, group_a, b, group_b, false);
+}
 void Scene::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
   state_->staging.set_rule(kind_a, kind_b, rule);
 }

@@ -108,6 +108,7 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* captu
                            if (a != nullptr && b != nullptr)
                              pairs_.filter().set_ignored(*a, *b, pair.ignored);
                          },
+                         [&](IgnoreGroups& groups) { set_ignored(groups); },
                          [&](RemoveObject& removed) {
                            if (const Object* const object = store_.find(removed.object))
                              pairs_.filter().forget(*object);
@@ -138,6 +139,14 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* captu
   capture->begin_step(store_, pairs_.filter());
   staging_.visit_collected([&](auto& call) { capture->see(call, [&] { apply(call); }); });
   capture->see_content(pairs_.filter());
+}
+
+void Step::set_ignored(const IgnoreGroups& groups) {
+  can_repeat_report_ = false;
+  const Object* const a = store_.find(groups.a);
+  const Object* const b = store_.find(groups.b);
+  if (a != nullptr && b != nullptr)
+    pairs_.filter().set_ignored(*a, groups.group_a, *b, groups.group_b, groups.ignored);
 }
 
 void Step::reserve(const SceneCapacity& capacity) {

@@ -32,6 +32,7 @@ class Step {
   using Clock = std::chrono::steady_clock;
 
   void apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* capture);
+  void set_ignored(const IgnoreGroups& groups);
   void reserve_for_pairs(const SceneCapacity& capacity);
   void prepare_surface(Surface& surface, Motion motion);
   void prepare_copy(Object& object);

@@ -68,6 +68,8 @@ struct ObjectDescription {
   bool solid = false;
   /// The kind of the object, see ObjectSettings::kind.
   std::uint32_t kind = 0;
+  /// The groups of the faces of each object of this entry, see ObjectSettings::face_groups.
+  std::vector<std::uint8_t> face_groups;
   /// How errors name this entry, such as `scene.json: objects[2]`.
   std::string place;
 };
@@ -88,6 +90,8 @@ struct RuleDescription {
 struct IgnoreDescription {
   /// Two names. The name of an entry stands for all of its objects. Other names are those of single objects.
   std::array<std::string, 2> names;
+  /// The groups of faces that are not looked at together, see Scene::ignore(). No value means whole objects.
+  std::optional<std::array<std::uint8_t, 2>> groups;
   /// How errors name this entry.
   std::string place;
 };

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "core/pair/group_filter.hpp"
+#include "objects/object.hpp"
+
+namespace graze {
+
+/// The groups of faces of one pair that are not looked at against each other.
+struct PairGroups {
+  /// The filter that its searches use. Null where all features are looked at, or none.
+  const GroupFilter* filter = nullptr;
+  /// A number that changes whenever the filter may have. 0 for a pair of which no groups were ever ignored.
+  std::uint64_t version = 0;
+};
+
+/// The groups of faces that Scene::ignore() took out, for each pair of objects. A pair stays known until one
+/// of its objects is removed, so that a call about known groups takes no memory. Stepping thread only, except
+/// for the const members.
+class IgnoredGroups {
+ public:
+  /// Takes two groups out or puts them back. `a` and `b` may be one object.
+  void set(const Object& a, std::uint8_t group_a, const Object& b, std::uint8_t group_b, bool ignored);
+  /// Takes up the groups that the faces of an object have now, as after its mesh was replaced. What is
+  /// ignored stays.
+  void regroup(const Object& object);
+  /// Forgets the pairs of a removed object.
+  void forget(std::uint64_t serial);
+
+  [[nodiscard]] bool is_empty() const { return pairs_.empty(); }
+  /// Whether all faces of the one are ignored against all of the other. The lower serial comes first, here
+  /// and below.
+  [[nodiscard]] bool ignores_all(std::uint64_t serial_a, std::uint64_t serial_b) const;
+  [[nodiscard]] PairGroups of(std::uint64_t serial_a, std::uint64_t serial_b) const;
+  /// Calls `visit(serial_a, group_a, serial_b, group_b)` with all groups that are ignored, ascending. A pair
+  /// of groups of one object comes once.
+  template <typename Visit>
+  void visit(const Visit& visit) const {
+    for (const auto& [serials, known] : pairs_) {
+      const auto [a, b] = serials;
+      known.filter.visit_ignored([&](std::uint8_t group_a, std::uint8_t group_b) {
+        if (a != b || group_a <= group_b) visit(a, group_a, b, group_b);
+      });
+    }
+  }
+  [[nodiscard]] std::size_t byte_count() const;
+
+ private:
+  using Serials = std::pair<std::uint64_t, std::uint64_t>;
+  struct Known {
+    GroupFilter filter;
+    std::uint64_t version = 0;
+  };
+
+  std::map<Serials, Known> pairs_;  ///< a map, since jobs refer to its filters
+  std::uint64_t version_ = 0;       ///< of the last change
+};
+
+}  // namespace graze
