@@ -55,7 +55,7 @@ class RandomCalls {
   void make_one(Scene& scene) {
     Body& body = objects_[static_cast<std::size_t>(below(static_cast<int>(objects_.size())))];
     const double promise = chance(3) ? 8 : Scene::any_displacement;
-    switch (below(12)) {
+    switch (below(13)) {
       case 0:
         return scene.set_positions(body.id, placed(body), promise);
       case 1:
@@ -78,9 +78,21 @@ class RandomCalls {
                               static_cast<std::uint32_t>(below(4) == 0 ? 999 : 1), {below(4) / 8.0, 1});
       case 10:
         return chance(3) ? scene.remove(body.id) : scene.positions_changed(body.id, promise);
+      case 11:
+        return replace(scene, body);
       default:
         return bind(scene, body);
     }
+  }
+  void replace(Scene& scene, Body& body) {
+    auto mesh = chance(2) ? plate_mesh() : needle_mesh();
+    std::vector<std::uint32_t> new_of_old;
+    for (std::uint32_t vertex = 0; vertex < body.mesh->vertex_count(); ++vertex)
+      new_of_old.push_back(vertex < mesh->vertex_count() ? vertex : Mesh::no_vertex);
+    scene.replace_mesh(body.id, mesh, new_of_old);
+    body.mesh = std::move(mesh);
+    body.memory->clear();
+    body.floats->clear();
   }
   void bind(Scene& scene, Body& body) {
     *body.memory = placed(body);

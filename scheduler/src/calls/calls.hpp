@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <graze/object_id.hpp>
 #include <graze/position_view.hpp>
 #include <graze/report.hpp>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "base/spare_positions.hpp"
 #include "core/surface/surface.hpp"
@@ -25,6 +27,13 @@ struct AddObject {
 struct RemoveObject {
   ObjectId object;
 };
+/// Another mesh in the place of an object's. Its lists fit each other and both meshes.
+struct ReplaceMesh {
+  ObjectId object;
+  std::unique_ptr<Surface> surface;       ///< of the new mesh, made on the caller's thread
+  std::vector<std::uint32_t> new_of_old;  ///< the new vertex of each old one, or Mesh::no_vertex
+  std::vector<std::uint8_t> face_groups;  ///< of the new faces, or empty: all are in group 0
+};
 struct SetPose {
   ObjectId object;
   std::array<double, 12> rows;
@@ -38,6 +47,7 @@ struct SetPositions {
   SparePositions::Loan positions;
   Box box;  ///< of these
   double max_displacement = std::numeric_limits<double>::infinity();
+  std::uint64_t mesh_number = 0;  ///< of the mesh that they were checked against (NamedMesh)
 };
 struct BindPositions {
   ObjectId object;
@@ -71,7 +81,8 @@ struct Reserve {
 };
 
 /// Any call. An applied call is replaced by an empty RemoveObject, which holds no memory.
-using Call = std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions,
-                          UnbindPositions, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic>;
+using Call =
+    std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions, UnbindPositions,
+                 PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic, ReplaceMesh>;
 
 }  // namespace graze

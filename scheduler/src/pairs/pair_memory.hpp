@@ -16,6 +16,12 @@ struct PairMemory {
   std::uint64_t version_a = 0;
   std::uint64_t version_b = 0;
   std::uint64_t rules_version = 0;
+
+  /// Forgets all of it and keeps its room.
+  void forget() {
+    front.forget();
+    version_a = version_b = 0;
+  }
 };
 
 /// The number of leaf pairs that a front has reserved room for; SceneCapacity states it.

@@ -181,6 +181,7 @@ bool PairTable::says_something(PairJob& job) const {
 
 void PairTable::add(PairJob job, const SelectedPair& selected) {
   job.memory = &selection_.memory_of(selected);
+  if (store_.some_replaced() && job.speaks_of_replaced()) job.memory->forget();
   if (job.task == PairJob::Task::detect && is_unchanged(job)) {
     job.task = PairJob::Task::unchanged;
     if (may_rest_ && selected.kind == SelectedPair::Kind::tested) selection_.let_rest(selected);
