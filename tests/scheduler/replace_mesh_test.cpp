@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <functional>
 #include <graze/error.hpp>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <set>
 #include <string>
+#include <thread>
 #include <tuple>
 
 #include "scheduler/report_text.hpp"
@@ -389,11 +393,13 @@ TEST_CASE("a replaced mesh: bindings end, bad input is forgotten, poses stay") {
 }
 
 TEST_CASE("a replaced mesh: a stale row has the contacts whose features survive") {
-  Scene scene(settings_of(0.1, 1));
+  SceneSettings settings = settings_of(0.1, 4);
+  settings.region_distances = 10;
+  Scene scene(settings);
   const ObjectId floor = scene.add(two_quads());
   const ObjectId left = scene.add(tip_at(-1, 0.05));
   const ObjectId right = scene.add(tip_at(1, 0.05));
-  scene.step();
+  CHECK(!scene.step()->region_distances().empty());
   const auto other = std::make_shared<const Mesh>(
       Mesh::from_quads(Positions{{9, 9, 9}, {0, 1, 0}, {-2, 1, 0}, {0, -1, 0}, {-2, -1, 0}},
                        std::vector<std::array<std::uint32_t, 4>>{{4, 3, 1, 2}}));
@@ -401,6 +407,7 @@ TEST_CASE("a replaced mesh: a stale row has the contacts whose features survive"
   Positions bad(5, Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()));
   scene.bind_positions(floor, PositionView(bad));
   const ReportHandle report = scene.step();
+  CHECK(report->region_distances().empty());
   const PairReport* const kept = find_pair(*report, floor, left);
   CHECK((kept->stale && kept->phase == PairPhase::touching && kept->contact_count == 1));
   CHECK(report->contacts(*kept)[0].feature_a == Feature{FeatureKind::face, 0});
@@ -416,6 +423,42 @@ TEST_CASE("a replaced mesh: a stale row has the contacts whose features survive"
   scene.bind_positions(floor, PositionView(bad));
   const ReportHandle again = scene.step();
   CHECK(find_pair(*again, floor, right)->witness.feature_a == Feature{FeatureKind::face, Mesh::no_vertex});
+}
+
+TEST_CASE("replaced meshes: positions and bindings of other threads come before or after") {
+  const std::array meshes{two_quads(), tip_at(0, 0.05)};
+  Scene scene(settings_of(0.1, 1));
+  const ObjectId floor = scene.add(two_quads());
+  const ObjectId object = scene.add(meshes[0]);
+  constexpr std::size_t rounds = 400;
+  std::deque<Positions> memory;  // of all bindings, until no step runs any more
+  std::thread replaces([&] {
+    for (std::size_t i = 1; i <= rounds; ++i)
+      scene.replace_mesh(object, meshes[i % 2], Map(meshes[(i + 1) % 2]->vertex_count(), 0));
+  });
+  std::thread copies([&] {
+    for (std::size_t i = 0; i < rounds; ++i)
+      scene.set_positions(object, lifted(*scene.mesh(object), 0.01 * static_cast<double>(i % 9)));
+  });
+  std::thread binds([&] {
+    for (std::size_t i = 0; i < rounds; ++i) {
+      memory.push_back(lifted(*scene.mesh(object), 0.05));
+      scene.bind_positions(object, PositionView(memory.back()));
+      if (i % 3 == 0) scene.unbind_positions(object);
+    }
+  });
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < rounds; ++i) {
+    const ReportHandle report = scene.step();
+    if (inconsistency_of(*report) != "") ++wrong;
+    for (const DiagnosticKind kind : kinds_of(*report))
+      if (kind != DiagnosticKind::wrong_count) ++wrong;
+  }
+  for (std::thread* const thread : {&replaces, &copies, &binds}) thread->join();
+  CHECK(wrong == 0);
+  CHECK(scene.mesh(object) == meshes[0]);
+  scene.set_positions(object, lifted(*meshes[0], 0.03125));
+  CHECK(find_pair(*scene.step(), floor, object)->distance.upper == 0.03125);
 }
 
 TEST_CASE("replace_mesh: bad input throws, and a stale id is told") {

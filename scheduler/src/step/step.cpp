@@ -220,7 +220,8 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   const bool repeats = !job.is_tested();
   std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
   if (!row) return;
-  if (repeats && store_.some_replaced()) row->witness = mapped_witness(job);
+  const bool is_of_old_mesh = repeats && store_.some_replaced() && job.speaks_of_replaced();
+  if (is_of_old_mesh) row->witness = mapped_witness(job);
   if (repeats && !job.allowed) row->phase = PairPhase::ended;
   if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again_;
   const bool in_contact = is_contact(row->phase);
@@ -231,7 +232,8 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   if (settings_.max_contacts && answer.contacts_left_out > 0) row->contacts_cut = true;
   if (row->contacts_cut) row->complete = false;
   repeats ? contacts_.add_again(contacts) : contacts_.add(contacts, last);
-  const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
+  auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
+  if (is_of_old_mesh) regions = {};
   builder.add(*row, contacts.size(), regions);
   pairs_.add_row(job);
   statistics.region_distances += regions.size();
