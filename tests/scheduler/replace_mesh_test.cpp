@@ -393,13 +393,11 @@ TEST_CASE("a replaced mesh: bindings end, bad input is forgotten, poses stay") {
 }
 
 TEST_CASE("a replaced mesh: a stale row has the contacts whose features survive") {
-  SceneSettings settings = settings_of(0.1, 4);
-  settings.region_distances = 10;
-  Scene scene(settings);
+  Scene scene(settings_of(0.1, 1));
   const ObjectId floor = scene.add(two_quads());
   const ObjectId left = scene.add(tip_at(-1, 0.05));
   const ObjectId right = scene.add(tip_at(1, 0.05));
-  CHECK(!scene.step()->region_distances().empty());
+  scene.step();
   const auto other = std::make_shared<const Mesh>(
       Mesh::from_quads(Positions{{9, 9, 9}, {0, 1, 0}, {-2, 1, 0}, {0, -1, 0}, {-2, -1, 0}},
                        std::vector<std::array<std::uint32_t, 4>>{{4, 3, 1, 2}}));
@@ -407,7 +405,6 @@ TEST_CASE("a replaced mesh: a stale row has the contacts whose features survive"
   Positions bad(5, Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()));
   scene.bind_positions(floor, PositionView(bad));
   const ReportHandle report = scene.step();
-  CHECK(report->region_distances().empty());
   const PairReport* const kept = find_pair(*report, floor, left);
   CHECK((kept->stale && kept->phase == PairPhase::touching && kept->contact_count == 1));
   CHECK(report->contacts(*kept)[0].feature_a == Feature{FeatureKind::face, 0});
@@ -423,6 +420,25 @@ TEST_CASE("a replaced mesh: a stale row has the contacts whose features survive"
   scene.bind_positions(floor, PositionView(bad));
   const ReportHandle again = scene.step();
   CHECK(find_pair(*again, floor, right)->witness.feature_a == Feature{FeatureKind::face, Mesh::no_vertex});
+}
+
+TEST_CASE("a replaced mesh: a stale row has no region distances, which are of the old mesh") {
+  SceneSettings settings = settings_of(0.1, 4);
+  settings.region_distances = 100;
+  Scene scene(settings);
+  const auto sheet = mesh_of(models::sheet(8, 8, 2, 2));
+  const ObjectId floor = scene.add(sheet);
+  scene.add(mesh_of(models::sphere(8, 5)));
+  CHECK(!scene.step()->region_distances().empty());
+  scene.replace_mesh(floor, sheet, identity(sheet->vertex_count()));
+  const Positions bad(sheet->vertex_count(),
+                      Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()));
+  scene.bind_positions(floor, PositionView(bad));
+  const ReportHandle report = scene.step();
+  CHECK(only_pair(*report).stale);
+  CHECK(report->region_distances().empty());
+  scene.set_positions(floor, PositionView(sheet->rest()));
+  CHECK(!scene.step()->region_distances().empty());
 }
 
 TEST_CASE("replaced meshes: positions and bindings of other threads come before or after") {
