@@ -412,14 +412,14 @@ TEST_CASE("a replaced mesh: a stale row has the contacts whose features survive"
   CHECK(kept->witness.feature_a == Feature{FeatureKind::face, 0});
   const PairReport* const gone = find_pair(*report, floor, right);
   CHECK((gone->stale && gone->phase == PairPhase::touching && gone->contact_count == 0));
-  CHECK(gone->witness.feature_a == Feature{FeatureKind::face, Mesh::no_vertex});
+  CHECK(gone->witness.feature_a == Feature{FeatureKind::vertex, Mesh::no_vertex});
   // Once more, while the last row names no feature.
   scene.replace_mesh(floor, two_quads(), Map(5, 0));
   scene.bind_positions(floor, PositionView(bad));
   scene.replace_mesh(floor, other, Map(6, 0));
   scene.bind_positions(floor, PositionView(bad));
   const ReportHandle again = scene.step();
-  CHECK(find_pair(*again, floor, right)->witness.feature_a == Feature{FeatureKind::face, Mesh::no_vertex});
+  CHECK(find_pair(*again, floor, right)->witness.feature_a == Feature{FeatureKind::vertex, Mesh::no_vertex});
 }
 
 TEST_CASE("a replaced mesh: a stale row has no region distances, which are of the old mesh") {

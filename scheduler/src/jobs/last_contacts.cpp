@@ -51,7 +51,7 @@ std::span<const Contact> LastContacts::of(std::size_t job) const {
 Witness mapped_witness(const PairJob& job) {
   Witness witness = job.last->witness;
   const auto map = [](const Object& object, Feature& feature) {
-    feature = mapped_feature(object, feature).value_or(Feature{feature.kind, Mesh::no_vertex});
+    feature = mapped_feature(object, feature).value_or(Feature{FeatureKind::vertex, Mesh::no_vertex});
   };
   map(*job.a, witness.feature_a);
   map(*job.b, witness.feature_b);

@@ -38,8 +38,8 @@ class LastContacts {
   std::vector<Contact> contacts_;
 };
 
-/// The witness of a pair's last row, by the features of the meshes now. The index of a feature that is gone
-/// is Mesh::no_vertex.
+/// The witness of a pair's last row, by the features of the meshes now. For a feature that is gone it names
+/// the vertex Mesh::no_vertex.
 [[nodiscard]] Witness mapped_witness(const PairJob& job);
 
 }  // namespace graze
