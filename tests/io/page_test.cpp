@@ -338,6 +338,38 @@ TEST_CASE("page: an object that is there in no frame of the page") {
   CHECK(!decoded.shape(0, 1));
 }
 
+TEST_CASE("page: an object with another mesh is another object of the page, also within a block") {
+  const TemporaryFolder folder;
+  graze::SceneSettings settings;
+  settings.range = 10;
+  graze::Scene scene(settings);
+  const auto coarse = grid(2);
+  const auto fine = grid(3);
+  const graze::ObjectId floor = scene.add(coarse);
+  const graze::ObjectId lid = scene.add(coarse);
+  io::PageWriter page(folder / "view.grazeview", {}, {});
+  page.add_object(floor, {"floor", coarse, graze::Motion::deformable, 0});
+  page.add_object(lid, {"lid", coarse, graze::Motion::deformable, 0});
+  page.frame(0, *scene.step());
+  scene.replace_mesh(floor, fine, std::vector<std::uint32_t>(9, graze::Mesh::no_vertex));
+  page.remove_object(floor);
+  page.add_object(floor, {"floor", fine, graze::Motion::deformable, 0});
+  page.frame(1, *scene.step());
+  page.close();
+  const DecodedPage decoded(folder / "view.grazeview");
+  CHECK(decoded.block() == 2);
+  REQUIRE(decoded.head().at("objects").size() == 3);
+  CHECK(decoded.head().at("objects").at(0).at("last") == 0);
+  CHECK(decoded.head().at("objects").at(2).at("first") == 1);
+  CHECK(decoded.shape(2, 1).value().positions.size() == 16);
+  for (std::uint64_t frame = 0; frame < 2; ++frame) {
+    const DecodedReport report(decoded, frame);
+    REQUIRE(report.pair_end() - report.pair_begin() == 1);
+    CHECK(report.word("pair_a", report.pair_begin()) == 2 * frame);
+    CHECK(report.word("pair_b", report.pair_begin()) == 1);
+  }
+}
+
 TEST_CASE("page: frames that did not change share their rows, and take no positions") {
   const TemporaryFolder folder;
   const PlayedScene& scene = played_scene();

@@ -39,11 +39,23 @@ Given given_in(FailureStory story, std::size_t body) {
       return Given::told;
     case FailureStory::posed:
       return body == 0 ? Given::fixed : Given::posed;
+    case FailureStory::replaced:
+      return body % 2 == 0 ? Given::copied : Given::posed;
     case FailureStory::large:
       return body == 0 ? Given::copied : Given::bound;
     default:
       return static_cast<Given>(body % 4);
   }
+}
+
+/// The same mesh without its first face.
+std::shared_ptr<const Mesh> without_a_face(const Mesh& mesh) {
+  std::vector<std::uint32_t> corners, counts;
+  for (std::uint32_t face = 1; face < mesh.face_count(); ++face) {
+    corners.insert(corners.end(), mesh.face(face).begin(), mesh.face(face).end());
+    counts.push_back(static_cast<std::uint32_t>(mesh.face(face).size()));
+  }
+  return std::make_shared<const Mesh>(Mesh::from_polygons(mesh.rest(), corners, counts));
 }
 
 }  // namespace
@@ -57,6 +69,9 @@ void FailureScene::add_body(const std::shared_ptr<const Mesh>& mesh, Given given
   const auto number = static_cast<double>(bodies_.size());
   Body body;
   body.mesh = mesh;
+  if (story_ == FailureStory::replaced) body.next_mesh = without_a_face(*mesh);
+  for (std::uint32_t vertex = 0; vertex < mesh->vertex_count(); ++vertex)
+    body.same_vertices.push_back(vertex);
   body.given = given;
   body.is_float = bodies_.size() % 2 == 1;
   const Eigen::Vector3d centre(spread * std::sin(2.1 * number), spread * std::cos(1.3 * number),
@@ -151,6 +166,12 @@ void FailurePlay::add(std::size_t body) {
   if (told.given == Given::told) scene_->bind_positions(*told_[body].id, memory(body), BindPolicy::when_told);
 }
 
+void FailurePlay::replace(std::size_t body) {
+  const FailureScene::Body& told = story_.bodies()[body];
+  scene_->replace_mesh(*told_[body].id, told.next_mesh, told.same_vertices);
+  told_[body].is_replaced = true;
+}
+
 PositionView FailurePlay::memory(std::size_t body) const {
   return told_[body].floats ? PositionView(*told_[body].floats) : PositionView(*told_[body].doubles);
 }
@@ -206,6 +227,12 @@ void FailurePlay::tell(std::size_t frame) {
       add(body);
       place(body, frame);
       if (!batch_.empty()) scene_->set_poses(batch_, batch_poses_);
+    }
+  for (std::size_t body = 0; body < told_.size(); ++body)
+    if (told_[body].id && !told_[body].is_replaced &&
+        story_.mesh(body, frame) != story_.bodies()[body].mesh) {
+      replace(body);
+      place(body, frame);
     }
 }
 
@@ -309,7 +336,7 @@ FreshReport::FreshReport(const FailureScene& story, SceneSettings settings, std:
                                       : told.given == Given::fixed ? Motion::fixed
                                                                    : Motion::deformable);
     object.kind = body < 3 ? FailureScene::ruled_kind : 0;
-    ids[body] = scene.add(told.mesh, object);
+    ids[body] = scene.add(story.mesh(body, frame), object);
     bodies.push_back(body);
     if (told.given == Given::posed || told.given == Given::fixed)
       scene.set_pose(ids[body], told.poses[frame]);

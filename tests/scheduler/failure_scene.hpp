@@ -24,8 +24,9 @@ enum class FailureStory {
   large,        ///< two surfaces that are cut into slices, and distances of regions
   async,        ///< steps on another thread, calls meanwhile
   budgets,      ///< that do not run out
+  replaced,     ///< copied and posed bodies get other meshes, each with a face less
 };
-inline constexpr std::size_t story_count = 10;
+inline constexpr std::size_t story_count = 11;
 
 /// Bodies that move through each other, and what happens to them. All that is told was calculated before, so
 /// that only graze takes memory while a frame is played.
@@ -35,6 +36,8 @@ class FailureScene {
   enum class Given { copied, bound, told, posed, fixed };
   struct Body {
     std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const Mesh> next_mesh;  ///< the one that replaces it; null if none does
+    std::vector<std::uint32_t> same_vertices;
     Given given = Given::copied;
     bool is_float = false;
     std::vector<Eigen::Isometry3d> poses;              ///< by frame
@@ -54,6 +57,11 @@ class FailureScene {
   [[nodiscard]] bool is_there(std::size_t body, std::size_t frame) const;
   [[nodiscard]] bool has_filters(std::size_t frame) const {
     return story_ == FailureStory::filters && frame >= event_;
+  }
+  /// The mesh of a body from a frame on.
+  [[nodiscard]] const std::shared_ptr<const Mesh>& mesh(std::size_t body, std::size_t frame) const {
+    const Body& told = bodies_[body];
+    return told.next_mesh != nullptr && frame >= event_ ? told.next_mesh : told.mesh;
   }
   /// How a body is moved from a frame on.
   [[nodiscard]] Given given(std::size_t body, std::size_t frame) const;
@@ -88,12 +96,14 @@ class FailurePlay {
  private:
   struct Told {
     std::optional<ObjectId> id;
+    bool is_replaced = false;
     // The bound memory: one of the two is in use.
     std::unique_ptr<Positions> doubles;
     std::unique_ptr<std::vector<Eigen::Vector3f>> floats;
     std::unique_ptr<Positions> next_doubles;  ///< for another binding
   };
   void add(std::size_t body);
+  void replace(std::size_t body);
   void tell_event();
   void tell_filters(std::size_t frame);
   void write(std::size_t body, std::size_t frame);

@@ -1,6 +1,6 @@
 // A step that cannot get its memory throws, leaves the last report published, and the next step says what a
 // scene built afresh says; calls for which there is no memory throw or leave a diagnostic. Every allocation
-// of a frame fails in turn, in ten small scenes.
+// of a frame fails in turn, in eleven small scenes.
 //
 // By default each configuration takes every so many places only (GRAZE_FAILURE_STRIDE), from another one on
 // than the others; with 1 in the environment variable of that name each takes all.
@@ -250,6 +250,10 @@ TEST_CASE("memory failure: a pair of large surfaces, and distances of regions") 
 
 TEST_CASE("memory failure: step_async") {
   fail_in(FailureStory::async);
+}
+
+TEST_CASE("memory failure: meshes are replaced") {
+  fail_in(FailureStory::replaced);
 }
 
 TEST_CASE("memory failure: budgets") {

@@ -66,7 +66,7 @@ class RandomCalls {
   void make_one(Scene& scene) {
     Body& body = objects_[static_cast<std::size_t>(below(static_cast<int>(objects_.size())))];
     const double promise = chance(3) ? 8 : Scene::any_displacement;
-    switch (below(15)) {
+    switch (below(16)) {
       case 0:
         return scene.set_positions(body.id, placed(body), promise);
       case 1:
@@ -92,6 +92,8 @@ class RandomCalls {
       case 11:
       case 12:
         return ignore_or_watch_groups(scene, body.id, chance(6) ? body.id : objects_[0].id);
+      case 13:
+        return replace(scene, body);
       default:
         return bind(scene, body);
     }
@@ -100,6 +102,16 @@ class RandomCalls {
     const std::uint8_t group_a = group();
     const std::uint8_t group_b = group();
     chance(2) ? scene.ignore(a, group_a, b, group_b) : scene.watch(a, group_a, b, group_b);
+  }
+  void replace(Scene& scene, Body& body) {
+    auto mesh = chance(2) ? plate_mesh() : needle_mesh();
+    std::vector<std::uint32_t> new_of_old;
+    for (std::uint32_t vertex = 0; vertex < body.mesh->vertex_count(); ++vertex)
+      new_of_old.push_back(vertex < mesh->vertex_count() ? vertex : Mesh::no_vertex);
+    scene.replace_mesh(body.id, mesh, new_of_old);
+    body.mesh = std::move(mesh);
+    body.memory->clear();
+    body.floats->clear();
   }
   void bind(Scene& scene, Body& body) {
     *body.memory = placed(body);

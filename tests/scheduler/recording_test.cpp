@@ -373,6 +373,37 @@ TEST_CASE("recording: a ring keeps the last frames within its budget, and is wri
   CHECK(first_difference(told.path()) == "");
 }
 
+TEST_CASE("recording: replaced meshes are in a ring and in a part") {
+  const TemporaryFile file;
+  const TemporaryFile part;
+  SceneSettings settings = settings_of(0.5, 100);
+  settings.threads = 1;
+  NeedleOverPlate stage(settings);
+  Recorder recorder(stage.scene, RingSettings{.byte_budget = 1 << 20, .frames = 10}, patient(5));
+  std::vector<std::string> texts;
+  for (int frame = 0; frame < 43; ++frame) {
+    const auto needle = std::make_shared<const Mesh>(Mesh::from_triangles(
+        lifted(*needle_mesh(), frame / 128.0), std::vector<std::array<std::uint32_t, 3>>{{2, 0, 1}}));
+    if (frame % 3 == 0) stage.scene.replace_mesh(stage.needle, needle, std::vector<std::uint32_t>{2, 0, 1});
+    if (frame % 4 == 0)
+      stage.scene.replace_mesh(stage.plate, plate_mesh(), std::vector<std::uint32_t>{0, 1, 2, 3});
+    texts.push_back(whole_text(*stage.scene.step()));
+  }
+  recorder.close();
+  recorder.write(file.path());
+  CHECK(first_difference(file.path()) == "");
+  const Recording recording(file.path());
+  CHECK(recording.frame_count() >= 10);
+  CHECK(recording.mesh_count() < 20);
+  cut_recording(recording, {.first_frame = 3, .last_frame = 8}, part.path());
+  CHECK(first_difference(part.path()) == "");
+  CHECK(Recording(part.path()).frame_count() == 6);
+  Replay replay(recording);
+  std::size_t at = texts.size() - recording.frame_count();
+  const auto without_phase = [](const std::string& text) { return text.substr(text.find(' ', 1)); };
+  while (replay.step()) CHECK(without_phase(whole_text(*replay.report())) == without_phase(texts[at++]));
+}
+
 TEST_CASE("recording: wrong settings, a second recorder and a bad file are refused") {
   Scene scene;
   const TemporaryFile file;

@@ -79,6 +79,8 @@ class GRAZE_API Mesh {
 
   /// Stands in face_edges() where two consecutive corners are the same vertex.
   static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
+  /// Stands for no vertex: for an old vertex that a new mesh does not have, in Scene::replace_mesh().
+  static constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
   /// @name Making a mesh
   /// @{

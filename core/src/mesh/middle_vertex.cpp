@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "arithmetic/arithmetic.hpp"
@@ -61,6 +62,7 @@ class LosslessSum {
 struct ScaledWay {
   std::uint32_t vertex = 0;
   std::array<LosslessSum, 3> axes;
+  std::optional<Exact> square = std::nullopt;  ///< of its length, once it was asked for
 
   /// The magnitudes along the axes, ascending; false where they need more than two doubles.
   [[nodiscard]] bool magnitudes(std::array<std::array<double, 2>, 3>& all) const {
@@ -83,19 +85,20 @@ struct ScaledWay {
   }
 };
 
-/// Without any rounding, of sums that lost nothing.
-Exact exact_square(const ScaledWay& way) {
+/// The square of the length without any rounding, of sums that lost nothing.
+const Exact& exact_square(ScaledWay& way) {
+  if (way.square) return *way.square;
   Exact sum(0.0);
   for (const LosslessSum& axis : way.axes) {
     const auto [first, second, third] = axis.terms();
     const Exact along = Exact(first) + Exact(second) + Exact(third);
     sum = sum + along * along;
   }
-  return sum;
+  return way.square.emplace(std::move(sum));
 }
 
 /// The order of two vertices' distances from the average, of sums that lost nothing.
-int order_of(const ScaledWay& left, const ScaledWay& right) {
+int order_of(ScaledWay& left, ScaledWay& right) {
   std::array<std::array<double, 2>, 3> of_left, of_right;
   // Regular meshes are full of ties, and in most of them the ways are mirrored or turned.
   if (left.magnitudes(of_left) && right.magnitudes(of_right) && of_left == of_right) return 0;
@@ -128,24 +131,30 @@ class ScaledDistance {
   Vector<Number> sum_;
 };
 
-/// The nearest to the average, asked of all vertices: of many that may be it.
-std::uint32_t nearest_of_all(std::span<const Eigen::Vector3d> positions,
-                             std::span<const std::uint32_t> vertices) {
+/// The nearest of some vertices to the average of all, where sums lose digits.
+std::uint32_t nearest_of(std::span<const std::uint32_t> candidates,
+                         std::span<const Eigen::Vector3d> positions,
+                         std::span<const std::uint32_t> vertices) {
   const ScaledDistance<Ball> approximate(positions, vertices);
   std::optional<ScaledDistance<Exact>> exact;  // most regions never need it
-  std::uint32_t best = vertices.front();
+  std::optional<Exact> best_exact;             // of `best`, once it was asked for
+  std::uint32_t best = candidates.front();
   Ball best_squared = approximate.squared(best);
-  for (const std::uint32_t vertex : vertices) {
+  for (const std::uint32_t vertex : candidates.subspan(1)) {
     const Ball squared = approximate.squared(vertex);
+    std::optional<Exact> exact_squared;
     bool unsure = false;
     int order = sign(squared - best_squared, unsure);
     if (unsure) {
       if (!exact) exact.emplace(positions, vertices);
-      order = (exact->squared(vertex) - exact->squared(best)).sign();
+      if (!best_exact) best_exact = exact->squared(best);
+      exact_squared = exact->squared(vertex);
+      order = (*exact_squared - *best_exact).sign();
     }
     if (order > 0 || (order == 0 && vertex >= best)) continue;
     best = vertex;
     best_squared = squared;
+    best_exact = std::move(exact_squared);
   }
   return best;
 }
@@ -180,10 +189,8 @@ std::vector<std::uint32_t> candidates_of(std::span<const Eigen::Vector3d> positi
 
 std::uint32_t middle_vertex(std::span<const Eigen::Vector3d> positions,
                             std::span<const std::uint32_t> vertices) {
-  constexpr std::size_t most_candidates = 8;
   std::vector<std::uint32_t> candidates = candidates_of(positions, vertices);
   if (candidates.size() == 1) return candidates.front();
-  if (candidates.size() > most_candidates) return nearest_of_all(positions, vertices);
   std::sort(candidates.begin(), candidates.end());
   std::array<LosslessSum, 3> sum;
   for (const std::uint32_t vertex : vertices)
@@ -194,10 +201,10 @@ std::uint32_t middle_vertex(std::span<const Eigen::Vector3d> positions,
     for (std::size_t axis = 0; axis < 3; ++axis) {
       way.axes[axis].subtract(static_cast<double>(vertices.size()),
                               positions[vertex][static_cast<int>(axis)]);
-      if (way.axes[axis].is_lost()) return nearest_of_all(positions, vertices);
+      if (way.axes[axis].is_lost()) return nearest_of(candidates, positions, vertices);
     }
     // Ties go to the lowest number, which comes first.
-    if (vertex == candidates.front() || order_of(way, best) < 0) best = way;
+    if (vertex == candidates.front() || order_of(way, best) < 0) best = std::move(way);
   }
   return best.vertex;
 }

@@ -24,17 +24,14 @@ class Fans {
   /// Open fans first, so that none is begun in its middle.
   void write(std::vector<std::uint32_t>& fans) {
     std::sort(links_.begin(), links_.end());
-    for (const Link& link : links_)
-      if (const std::size_t head = head_of(link.to); is_from(head, link.to)) links_[head].is_led_to = true;
+    find_heads();
     const std::size_t begin = fans.size();
     for (const bool is_closed : {false, true})
-      for (const Link& link : links_) {
-        const std::size_t head = head_of(link.from);
-        while ((is_closed || !links_[head].is_led_to) && is_left(head, link.from)) {
+      for (const Link& link : links_)
+        while ((is_closed || !links_[link.head].is_led_to) && is_left(link.head, link.from)) {
           if (fans.size() > begin) fans.push_back(vertex_);
-          write_fan(link.from, fans);
+          write_fan(link.head, fans);
         }
-      }
   }
 
  private:
@@ -44,6 +41,8 @@ class Fans {
     std::uint32_t from = 0, to = 0;
     bool is_led_to = false;
     std::uint32_t written = 0;
+    std::uint32_t head = 0;       ///< the index of the first link from `from`
+    std::uint32_t next_head = 0;  ///< that of the first link from `to`, or where it would be
 
     friend bool operator<(const Link& a, const Link& b) {
       return std::pair(a.from, a.to) < std::pair(b.from, b.to);
@@ -63,10 +62,24 @@ class Fans {
   [[nodiscard]] bool is_left(std::size_t head, std::uint32_t vertex) const {
     return is_from(head, vertex) && is_from(head + links_[head].written, vertex);
   }
-  void write_fan(std::uint32_t vertex, std::vector<std::uint32_t>& fans) {
+  /// Finds the heads of all links once, since writing asks for them several times.
+  void find_heads() {
+    for (std::uint32_t index = 0; index < links_.size(); ++index) {
+      Link& link = links_[index];
+      const bool is_first = index == 0 || links_[index - 1].from != link.from;
+      link.head = is_first ? index : links_[index - 1].head;
+      link.next_head = static_cast<std::uint32_t>(head_of(link.to));
+      if (is_from(link.next_head, link.to)) links_[link.next_head].is_led_to = true;
+    }
+  }
+  /// Writes the fan that begins with the next link of a head.
+  void write_fan(std::size_t head, std::vector<std::uint32_t>& fans) {
+    std::uint32_t vertex = links_[head].from;
     fans.push_back(vertex);
-    for (std::size_t head = head_of(vertex); is_left(head, vertex); head = head_of(vertex)) {
-      vertex = links_[head + links_[head].written++].to;
+    while (is_left(head, vertex)) {
+      const Link& link = links_[head + links_[head].written++];
+      vertex = link.to;
+      head = link.next_head;
       fans.push_back(vertex);
     }
   }

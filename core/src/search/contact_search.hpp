@@ -36,8 +36,11 @@ class ContactSearch {
   [[nodiscard]] bool& is_complete(std::size_t index);
   void run(std::size_t index, SearchWorker& worker);
 
-  /// The edges that touch, of a pair with a solid, once all keys have been found.
-  [[nodiscard]] const TouchingEdges& touching() const { return touching_; }
+  /// The edges that touch, of a pair with a solid, once all keys have been found. It is null if the search
+  /// does not find all of them.
+  [[nodiscard]] const TouchingEdges* touching() const {
+    return lists_piercings(pair_.query.detail) && pair_.query.groups == nullptr ? &touching_ : nullptr;
+  }
 
   /// Makes room in the slice of a pair that is not cut, for all that it can find before the deadline.
   void make_room_until_deadline(SearchWorker& worker);

@@ -156,7 +156,8 @@ SearchProgress ContactSearch::begin_measuring(SearchWorker& worker) {
 
 /// Asks for the closest points where these may be in reach, or where something is inside a solid.
 SearchProgress ContactSearch::finish_without_contacts(SearchWorker& worker) {
-  if (pair_.query.has_solid()) SolidSearch(pair_, worker, &touching_).widen_reach();
+  if (pair_.query.has_solid() && !SolidSearch(pair_, worker, touching()).widen_reach())
+    return SearchProgress::gave_up;
   if (fold_) return finish_at_fold(worker);
   if (pair_.query.reach > pair_.query.threshold) return SearchProgress::no_contact;
   pair_.answer->contacts.clear();

@@ -55,10 +55,7 @@ void PairSearch::next_stage(SearchWorker& worker) {
 
 /// Completes an answer about a pair with a solid.
 SearchProgress PairSearch::complete_solids(SearchWorker& worker) {
-  // Faces that are ignored bound a solid all the same.
-  const bool knows_touching = lists_piercings(pair_.query.detail) && pair_.query.groups == nullptr;
-  const SearchProgress progress =
-      SolidSearch(pair_, worker, knows_touching ? &contacts_.touching() : nullptr).complete();
+  const SearchProgress progress = SolidSearch(pair_, worker, contacts_.touching()).complete();
   if (progress != SearchProgress::no_contact) return progress;
   phase_ = Phase::closest;
   return closest_.begin(worker);

@@ -30,16 +30,16 @@ Side side_of(const VerticesInSolid& inside, const Contact& contact, std::uint32_
 
 }  // namespace
 
-void SolidSearch::widen_reach() {
-  find_inside(pair_.query.threshold);
+bool SolidSearch::widen_reach() {
+  if (!find_inside(pair_.query.threshold)) return false;
   if (has_some()) pair_.query.reach = std::numeric_limits<double>::infinity();
+  return true;
 }
 
 SearchProgress SolidSearch::complete() {
   PairAnswer& answer = *pair_.answer;
   const double apart = answer.listed ? answer.distance.lower : pair_.query.reach;
-  if (touching_ == nullptr && !find_touching(apart)) return SearchProgress::gave_up;
-  find_inside(apart);
+  if (!find_inside(apart)) return SearchProgress::gave_up;
   if (has_some() && !answer.listed) {
     pair_.query.reach = std::numeric_limits<double>::infinity();
     return SearchProgress::no_contact;
@@ -58,17 +58,24 @@ bool SolidSearch::has_some() const {
   return scratch_.a_in_b.has_some() || scratch_.b_in_a.has_some();
 }
 
-/// Finds what is inside, of surfaces that are at least so far apart.
-void SolidSearch::find_inside(double apart) {
+/// Finds what is inside, of surfaces that are at least so far apart where their faces are not ignored.
+/// Ignored faces bound a solid too. Returns false if the budget is spent.
+bool SolidSearch::find_inside(double apart) {
   scratch_.a_in_b.set_none(*pair_.a);
   scratch_.b_in_a.set_none(*pair_.b);
   pair_.answer->inside = Inside::none;
-  if (common(pair_.a->box(), pair_.b->box()).empty()) return;
-  if (knows_inside()) return repeat_inside();
+  if (common(pair_.a->box(), pair_.b->box()).empty()) return true;
+  if (knows_inside()) {
+    repeat_inside();
+    return true;
+  }
+  if (pair_.query.groups != nullptr) apart = 0;
+  if (touching_ == nullptr && !find_touching(apart)) return false;
   if (pair_.query.b_is_solid) scratch_.a_in_b.find(*pair_.a, *pair_.b, touching_->of_a, worker_.pair.count);
   if (pair_.query.a_is_solid) scratch_.b_in_a.find(*pair_.b, *pair_.a, touching_->of_b, worker_.pair.count);
   pair_.answer->inside = state(touching_->pierced);
   remember_inside(apart);
+  return true;
 }
 
 /// Whether what was found for earlier positions still holds.
@@ -90,20 +97,22 @@ bool SolidSearch::find_touching(double apart) {
   scratch_.touching.clear();
   touching_ = &scratch_.touching;
   if (apart > 0) return true;
+  const SurfacePair whole{*pair_.a, *pair_.b, worker_.pair.count, worker_.pair.time};
+  LeafPairs leaf_pairs(whole, pair_.query, worker_.scratch.leaf_pairs, worker_.meter);
   LeafPairList found;
   const RegionPair root;
   const auto touches = [](double lower, double /*slack*/) { return lower == 0; };
-  if (!worker_.leaf_pairs.walk(
+  if (!leaf_pairs.walk(
           {&root, 1}, touches, [](const RegionPair&) {}, found))
     return false;
   worker_.begin_leaves(found);
   scratch_.keys.clear();
   worker_.scratch.nearest_of_vertices.clear();
   std::optional<NearKey> no_fold;
-  NearestFeatures features(worker_.pair, 0, worker_.scratch.features, worker_.scratch.nearest_of_vertices,
-                           no_fold, scratch_.keys, {}, &scratch_.touching);
+  NearestFeatures features(whole, 0, worker_.scratch.features, worker_.scratch.nearest_of_vertices, no_fold,
+                           scratch_.keys, {}, &scratch_.touching);
   for (const LeafPair& leaves : found.leaves)
-    features.add(worker_.leaf_pairs.leaf_a(leaves.pair), worker_.leaf_pairs.leaf_b(leaves.pair));
+    features.add(leaf_pairs.leaf_a(leaves.pair), leaf_pairs.leaf_b(leaves.pair));
   features.finish();
   return true;
 }
@@ -145,13 +154,11 @@ void SolidSearch::add_contacts_inside() {
 /// Lists the keys of vertices inside, those of contacts left out, in their order and each once.
 void SolidSearch::list_keys_inside() {
   scratch_.keys.clear();
-  VertexNearest nearest;
-  const VertexNearest* last = nullptr;
+  std::optional<VertexNearest> nearest;
   const auto add = [&](VertexOfPair vertex) {
-    nearest = nearest_on_surface(worker_.pair, vertex, last);
-    last = &nearest;
-    if (!is_closer_than(worker_.pair, nearest.key, nearest.squared, pair_.query.threshold))
-      scratch_.keys.push_back(nearest.key);
+    nearest = nearest_on_surface(worker_.pair, vertex, nearest);
+    if (nearest && !is_closer_than(worker_.pair, nearest->key, nearest->squared, pair_.query.threshold))
+      scratch_.keys.push_back(nearest->key);
   };
   for (const std::uint32_t vertex : scratch_.a_in_b.inside()) add(VertexOfPair::of_a(vertex));
   for (const std::uint32_t vertex : scratch_.b_in_a.inside()) add(VertexOfPair::of_b(vertex));

@@ -20,14 +20,14 @@ class SolidSearch {
       : pair_(pair), worker_(worker), scratch_(worker.scratch.solid), touching_(touching) {}
 
   /// Makes the reach infinite if something is inside, of surfaces that are no nearer than the threshold. What
-  /// is inside is in contact, and needs a distance.
-  void widen_reach();
+  /// is inside is in contact, and needs a distance. Returns false if the budget is spent.
+  [[nodiscard]] bool widen_reach();
   /// Completes the answer. Says `no_contact` if something is inside and the distance is not known: then the
   /// closest points are wanted before, and the reach is infinite.
   SearchProgress complete();
 
  private:
-  void find_inside(double apart);
+  [[nodiscard]] bool find_inside(double apart);
   [[nodiscard]] bool has_some() const;
   [[nodiscard]] bool knows_inside() const;
   void repeat_inside();

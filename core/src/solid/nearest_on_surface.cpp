@@ -25,18 +25,19 @@ struct Open {
 /// The search for what is nearest to one vertex: depth first, and the nearest child first.
 class NearestOnSurface {
  public:
-  NearestOnSurface(const SurfacePair& pair, VertexOfPair vertex, const VertexNearest* last)
+  NearestOnSurface(const SurfacePair& pair, VertexOfPair vertex, const std::optional<VertexNearest>& last)
       : pair_(pair),
         surface_(vertex.is_of_a() ? pair.b : pair.a),
         point_((vertex.is_of_a() ? pair.a : pair.b).position(vertex.index())),
         slack_(surface_.motion_since_face_refit()),
         nearest_{{}, vertex} {
-    if (last == nullptr || last->vertex.is_of_a() != vertex.is_of_a()) return;
+    // With groups, what was nearest to another vertex may be no feature for this one.
+    if (pair.groups != nullptr || !last || last->vertex.is_of_a() != vertex.is_of_a()) return;
     const FeaturePiece piece = vertex.is_of_a() ? last->key.b() : last->key.a();
     shrink_limit(squared_range(point_, simplex_of(surface_, piece).point[0]));
   }
 
-  VertexNearest find() {
+  std::optional<VertexNearest> find() {
     open_.push_back({lower_of(0), 0});
     while (!open_.empty()) {
       const Open next = open_.back();
@@ -48,7 +49,7 @@ class NearestOnSurface {
       else
         open_children(region);
     }
-    return nearest_;
+    return has_any_ ? std::optional(nearest_) : std::nullopt;
   }
 
  private:
@@ -77,8 +78,13 @@ class NearestOnSurface {
     }
     return box;
   }
+  [[nodiscard]] bool may(std::uint32_t face) const {
+    const FeatureRef vertex{FeatureRefKind::vertex, nearest_.vertex.index()};
+    const FeatureRef other{FeatureRefKind::face, face};
+    return nearest_.vertex.is_of_a() ? pair_.may(vertex, other) : pair_.may(other, vertex);
+  }
   void offer(std::uint32_t face) {
-    if (lower_squared(point_, box_of(face)) > limit_) return;
+    if (lower_squared(point_, box_of(face)) > limit_ || !may(face)) return;
     pair_.check_time();
     VertexNearest offered{{}, nearest_.vertex};
     const FeaturePiece vertex = vertex_piece(nearest_.vertex.index());
@@ -106,7 +112,8 @@ class NearestOnSurface {
 
 }  // namespace
 
-VertexNearest nearest_on_surface(const SurfacePair& pair, VertexOfPair vertex, const VertexNearest* last) {
+std::optional<VertexNearest> nearest_on_surface(const SurfacePair& pair, VertexOfPair vertex,
+                                                const std::optional<VertexNearest>& last) {
   return NearestOnSurface(pair, vertex, last).find();
 }
 

@@ -53,6 +53,11 @@ Surface::Surface(std::shared_ptr<const IndexedMesh> mesh) : mesh_(std::move(mesh
   version_ = 1;
 }
 
+void Surface::succeed(const Surface& before) {
+  version_ = before.version_ + 1;
+  travel_ = {before.travel_.epoch + 1, 0};
+}
+
 bool Surface::is_within_limits(const Eigen::Vector3d& position) {
   return graze::is_within_limits(position);
 }

@@ -68,9 +68,10 @@ std::vector<PageTrack> tracks_of(const PageBlock& block, const PageObjects& obje
 std::string report_table(const PageBlock& block, const PageObjects& objects, const BlockPlace& place) {
   ReportBlock reports;
   std::uint64_t frame = place.first_frame;
-  const auto index_of = [&objects](ObjectId id) { return objects.index_of(id); };
-  for (const WaitingFrame& waiting : block.frames())
+  for (const WaitingFrame& waiting : block.frames()) {
+    const auto index_of = [&](ObjectId id) { return objects.index_of(id, waiting.call); };
     reports.add(frame++, waiting.number, waiting.report, index_of, place.include_times);
+  }
   return reports.table();
 }
 

@@ -28,9 +28,11 @@ bool has_these_bits(const std::vector<Eigen::Vector3d>& known, const PositionVie
 
 void PageObjects::add(ObjectId id, const PageObject& object, std::size_t mesh_number, std::uint64_t frame) {
   const std::size_t index = objects_.size();
-  if (!indices_.emplace(id, static_cast<std::uint32_t>(index)).second)
-    throw Error("page: the object \"" + object.name + "\" was added before; add each id once");
   WrittenObject written;
+  written.before = index_of(id);
+  if (written.before && !objects_[*written.before].removed)
+    throw Error("page: the object \"" + object.name + "\" was added before; remove it first");
+  indices_[id] = static_cast<std::uint32_t>(index);
   written.name = object.name;
   written.motion = object.motion;
   written.mesh_number = mesh_number;
@@ -76,6 +78,12 @@ void PageObjects::set_pose(ObjectId id, const std::array<double, 12>& rows) {
 std::optional<std::uint32_t> PageObjects::index_of(ObjectId id) const {
   const auto found = indices_.find(id);
   return found == indices_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<std::uint32_t> PageObjects::index_of(ObjectId id, std::uint64_t frame) const {
+  auto index = index_of(id);
+  while (index && objects_[*index].added > frame && objects_[*index].before) index = objects_[*index].before;
+  return index;
 }
 
 std::size_t PageObjects::present(ObjectId id) const {

@@ -24,6 +24,7 @@ struct WrittenObject {
   std::uint64_t user_data = 0;
   std::uint64_t added = 0;                              ///< the first frame in which it exists
   std::optional<std::uint64_t> removed = std::nullopt;  ///< the first frame in which it does no longer
+  std::optional<std::uint32_t> before = std::nullopt;   ///< the removed object that had the same id
   std::shared_ptr<const Mesh> mesh;                     ///< until nothing needs it any more
   PageShape shown;                                      ///< before the frames that wait to be written
   PageShape latest;                                     ///< as the last call says
@@ -52,7 +53,10 @@ class PageObjects {
   /// Frees the positions of removed objects that no frame to come shows, by the frame of their removal.
   void forget_removed(const std::function<bool(std::uint64_t)>& is_past);
 
+  /// The last object that was added with an id.
   [[nodiscard]] std::optional<std::uint32_t> index_of(ObjectId id) const;
+  /// The object that an id named in a frame.
+  [[nodiscard]] std::optional<std::uint32_t> index_of(ObjectId id, std::uint64_t frame) const;
   [[nodiscard]] const std::vector<WrittenObject>& all() const { return objects_; }
   /// Ascending indices of the objects that frames not yet written may show.
   [[nodiscard]] const std::vector<std::size_t>& alive() const { return alive_; }

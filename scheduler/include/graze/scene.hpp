@@ -31,26 +31,28 @@ class Replay;
 /// @par Threads
 /// Every call but step(), step_async() and wait() may come from any thread at any time. The next step takes
 /// the calls up in the order in which they were made. One thread at a time may step. Only wait() waits for
-/// another thread, except that bindings, unbindings and the beginning of a step wait for each other for a
-/// short time.
+/// another thread, except that bindings, unbindings, replaced meshes and the beginning of a step wait for
+/// each other for a short time.
 ///
 /// @par Errors
-/// Constructors, add(), step() and step_async() throw Error, and wait() throws what went wrong in
-/// step_async(). No other call throws Error: the next report has a Diagnostic that says what was wrong.
+/// Constructors, add(), replace_mesh(), step() and step_async() throw Error, and wait() throws what went
+/// wrong in step_async(). No other call throws Error: the next report has a Diagnostic that says what was
+/// wrong.
 ///
 /// @par Without memory
-/// Constructors, add(), reserve(), object_settings() and steps throw `std::bad_alloc`. After add() and
-/// reserve() the scene is as before. After a step the last report stays the latest one, and no call is lost.
-/// The next step begins afresh from where the objects are. All other calls never throw. If there is no memory
-/// for such a call, the next report has a Diagnostic of kind DiagnosticKind::out_of_memory. A call that ends
-/// a binding ends it in any case. docs/embedding.md has the details.
+/// Constructors, add(), replace_mesh(), reserve(), object_settings() and steps throw `std::bad_alloc`. After
+/// add(), replace_mesh() and reserve() the scene is as before. After a step the last report stays the latest
+/// one, and no call is lost. The next step begins afresh from where the objects are. All other calls never
+/// throw. If there is no memory for such a call, the next report has a Diagnostic of kind
+/// DiagnosticKind::out_of_memory. A call that ends a binding ends it in any case. docs/embedding.md has the
+/// details.
 ///
 /// @par When memory is taken
-/// add(), set_rule(), object_settings() with a long name, and calls that leave a Diagnostic always take
-/// memory. Other calls take memory only if more calls wait for a step than ever before, or than were
-/// reserved. In addition, set_positions() and unbind_positions() take memory for an object's first copies,
-/// and beyond four copies that wait. A step takes memory if it needs more than any step before it, and more
-/// than was reserved.
+/// add(), replace_mesh(), set_rule(), object_settings() with a long name, and calls that leave a Diagnostic
+/// always take memory. Other calls take memory only if more calls wait for a step than ever before, or than
+/// were reserved. In addition, set_positions() and unbind_positions() take memory for an object's first
+/// copies, and beyond four copies that wait. A step takes memory if it needs more than any step before it,
+/// and more than was reserved.
 ///
 /// @par Calls for many objects
 /// A call with spans means the same as one call for each object, in the order of `objects`. No call of
@@ -96,6 +98,28 @@ class GRAZE_API Scene {
   /// the motion is no enumerator. Also throws Error if a solid's surface is not closed, or if the settings have
   /// groups of faces, but not one for each face.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings = {});
+  /// Gives an object another mesh under the same id, as a cut or a finer grid needs it. Calls made afterwards
+  /// are about the new mesh. A binding of the old positions ends as with unbind_positions().
+  ///
+  /// A deformable object stands at the rest positions of the new mesh until a call moves it, even if bad
+  /// positions had frozen it. A rigid or fixed one keeps its pose. If that was refused, its pairs stay
+  /// `stale` until a good pose comes. Pairs of other objects go on as if nothing had happened.
+  ///
+  /// `new_of_old` holds for each vertex of the present mesh the vertex of the new mesh that it has become, or
+  /// Mesh::no_vertex. Any number of old vertices may become one. The phases of the object's pairs go on. A
+  /// contact keeps Contact::since if both its features survive. A feature survives if the new mesh has a
+  /// feature of the same kind with exactly the vertices to which its vertices are mapped. If a mesh is
+  /// replaced several times before a step, the maps count one after the other.
+  ///
+  /// `face_groups` holds the group of each face of the new mesh. If it is empty, all faces are in group 0.
+  ///
+  /// Throws Error if `mesh` is null, if `new_of_old` has not one entry for each vertex of the present mesh,
+  /// if an entry is neither a vertex of the new mesh nor Mesh::no_vertex, if `face_groups` is neither empty
+  /// nor has one entry for each face, or if the object is a solid and the mesh is not closed. The scene is as
+  /// before then. A stale id is a Diagnostic.
+  void replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
+                    std::span<const std::uint32_t> new_of_old,
+                    std::span<const std::uint8_t> face_groups = {});
   /// Removes an object and ends its binding. A pair of it that was in contact is listed once more as `ended`.
   /// The id stays valid as a key in that row, and is never given again.
   void remove(ObjectId object);
@@ -103,7 +127,7 @@ class GRAZE_API Scene {
   [[nodiscard]] std::size_t object_count() const;
   /// Returns whether an id names an object of the scene, by all calls made so far.
   [[nodiscard]] bool contains(ObjectId object) const;
-  /// Returns the mesh that an object was added with, or null if the id names no object.
+  /// Returns the mesh that an object has by all calls made so far, or null if the id names no object.
   [[nodiscard]] std::shared_ptr<const Mesh> mesh(ObjectId object) const;
   /// Returns the settings that an object was added with, or default settings if the id names no object.
   [[nodiscard]] ObjectSettings object_settings(ObjectId object) const;

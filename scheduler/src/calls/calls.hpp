@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "base/spare_positions.hpp"
 #include "core/mesh/face_groups.hpp"
@@ -28,6 +29,14 @@ struct AddObject {
 struct RemoveObject {
   ObjectId object;
 };
+/// Another mesh in the place of an object's. Its lists fit each other and both meshes.
+struct ReplaceMesh {
+  ObjectId object;
+  std::unique_ptr<Surface> surface;               ///< of the new mesh, made on the caller's thread
+  std::vector<std::uint32_t> new_of_old;          ///< the new vertex of each old one, or Mesh::no_vertex
+  std::vector<std::uint8_t> group_of_face;        ///< of the new faces, or empty: all are in group 0
+  std::shared_ptr<const FaceGroups> face_groups;  ///< the same; null if all faces are in group 0
+};
 struct SetPose {
   ObjectId object;
   std::array<double, 12> rows;
@@ -41,6 +50,7 @@ struct SetPositions {
   SparePositions::Loan positions;
   Box box;  ///< of these
   double max_displacement = std::numeric_limits<double>::infinity();
+  std::uint64_t mesh_number = 0;  ///< of the mesh that they were checked against (NamedMesh)
 };
 struct BindPositions {
   ObjectId object;
@@ -84,6 +94,6 @@ struct Reserve {
 /// Any call. An applied call is replaced by an empty RemoveObject, which holds no memory.
 using Call =
     std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions, UnbindPositions,
-                 PositionsChanged, IgnorePair, IgnoreGroups, SetRule, Reserve, Diagnostic>;
+                 PositionsChanged, IgnorePair, IgnoreGroups, SetRule, Reserve, Diagnostic, ReplaceMesh>;
 
 }  // namespace graze

@@ -31,7 +31,7 @@ ObjectId ObjectIds::allocate(std::shared_ptr<const Mesh> mesh, ObjectSettings se
   Slot& slot = slots_[index];
   const std::uint32_t generation = generation_of(slot.state.load(std::memory_order_relaxed)) + 1;
   const std::uint64_t kind = settings.motion == Motion::deformable ? deformable : 0;
-  slot.named.mesh = std::move(mesh);
+  slot.named.mesh.begin(std::move(mesh));
   slot.named.settings = std::move(settings);
   // Nobody pins a reserved slot, so a plain store loses no pin.
   slot.state.store(std::uint64_t{generation} << 32 | reserved | kind, std::memory_order_relaxed);
@@ -97,7 +97,7 @@ void ObjectIds::unpin(std::uint32_t index) noexcept {
 /// Empties a slot that no other thread uses any more.
 void ObjectIds::empty(std::uint32_t index, std::uint32_t generation) noexcept {
   Slot& slot = slots_[index];
-  slot.named.mesh.reset();
+  slot.named.mesh.begin(nullptr);
   slot.named.settings = {};
   slot.named.spare_positions.clear(position_bytes_);
   slot.named.binding.stands = false;

@@ -12,6 +12,7 @@
 
 #include "base/lock_free_pool.hpp"
 #include "base/spare_positions.hpp"
+#include "calls/current_mesh.hpp"
 
 namespace graze {
 
@@ -24,10 +25,9 @@ struct Binding {
   std::uint64_t steps_before = 0;  ///< how many steps had collected calls when it was made
 };
 
-/// The data of an object that callers may ask for. Mesh and settings do not change while the object is
-/// pinned.
+/// The data of an object that callers may ask for. Settings do not change while the object is pinned.
 struct NamedObject {
-  std::shared_ptr<const Mesh> mesh;
+  CurrentMesh mesh;
   ObjectSettings settings;
   SparePositions spare_positions;
   Binding binding;
@@ -47,7 +47,7 @@ struct LostCalls {
 /// Each index has a slot that never moves. The slot's `state` is one atomic word. It holds the generation
 /// that uses the slot, its phase, and how many threads have pinned it. Only an object that exists can be
 /// pinned. Whoever releases the last pin of a removed object empties its slot, and the index becomes free
-/// after that. So a pinned object never changes, and nobody waits.
+/// after that. So of a pinned object only the mesh and the binding may change, and nobody waits.
 class ObjectIds {
  public:
   /// Keeps an object's data valid. The object may be removed meanwhile.
@@ -112,8 +112,8 @@ class ObjectIds {
   [[nodiscard]] std::size_t count() const noexcept { return count_.load(std::memory_order_relaxed); }
   void reserve(std::size_t count) { slots_.reserve(count); }
   /// Lends a buffer for a copy of a pinned object's positions.
-  [[nodiscard]] SparePositions::Loan lend_positions(NamedObject& object, bool in_double) {
-    return object.spare_positions.lend(object.mesh->vertex_count(), in_double, position_bytes_);
+  [[nodiscard]] SparePositions::Loan lend_positions(NamedObject& object, std::size_t count, bool in_double) {
+    return object.spare_positions.lend(count, in_double, position_bytes_);
   }
 
   /// The bytes of all slots and of all buffers of positions, lent or kept.

@@ -37,26 +37,33 @@ const char* name_of_call(bool ignored) {
 
 /// Returns the groups of a mesh's faces, or null if all are in group 0. Throws Error if they are not one for
 /// each face.
-std::shared_ptr<const FaceGroups> face_groups_of(const IndexedMesh& mesh, const ObjectSettings& settings) {
-  const std::vector<std::uint8_t>& groups = settings.face_groups;
+std::shared_ptr<const FaceGroups> face_groups_of(const IndexedMesh& mesh,
+                                                 std::span<const std::uint8_t> groups,
+                                                 const std::string& who) {
   if (groups.empty()) return nullptr;
   if (groups.size() != mesh.face_count())
-    throw Error("object '" + settings.name + "': face_groups has " + std::to_string(groups.size()) +
-                " groups for " + std::to_string(mesh.face_count()) +
-                " faces; give one for each face, or none");
+    throw Error(who + ": face_groups has " + std::to_string(groups.size()) + " groups for " +
+                std::to_string(mesh.face_count()) + " faces; give one for each face, or none");
   return std::make_shared<const FaceGroups>(mesh, groups);
 }
 
+/// Throws Error if the surface of a solid is not closed.
+void check_solid(const Mesh& mesh, const ObjectSettings& settings, const std::string& who) {
+  if (!settings.solid) return;
+  if (const auto problem = why_not_closed(indexed(mesh)))
+    throw Error(who + ": a solid has a closed surface; " + *problem);
+}
+
 /// Returns whether a view can be the positions of an object, and adds a diagnostic if not.
-bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const PositionView& view,
-                const char* what) {
+bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const Mesh& mesh,
+                const PositionView& view, const char* what) {
   const auto problem = [&](DiagnosticKind kind, const std::string& got) {
     add_problem(calls, object, kind, std::string(what) + ": " + name_of(object, named) + " got " + got);
     return false;
   };
-  if (view.size() != named.mesh->vertex_count())
+  if (view.size() != mesh.vertex_count())
     return problem(DiagnosticKind::wrong_count, std::to_string(view.size()) + " positions for " +
-                                                    std::to_string(named.mesh->vertex_count()) + " vertices");
+                                                    std::to_string(mesh.vertex_count()) + " vertices");
   if (view.data() == nullptr) return problem(DiagnosticKind::null_memory, "null memory");
   const std::size_t alignment = view.is_double() ? alignof(double) : alignof(float);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the address is looked at, not used
@@ -157,11 +164,13 @@ bool Staging::has_step_read(const Binding& binding) const {
 ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
   if (mesh == nullptr) throw Error("object '" + settings.name + "': there is no mesh");
   if (const auto problem = problem_of(settings)) throw Error(*problem);
-  if (settings.solid)
-    if (const auto problem = why_not_closed(indexed(*mesh)))
-      throw Error("object '" + settings.name + "': a solid has a closed surface; " + *problem);
+  const std::string who = "object '" + settings.name + "'";
+  check_solid(*mesh, settings, who);
   const FloatingPointScope scope;
-  AddObject call{{}, std::make_unique<Surface>(mesh), settings, face_groups_of(indexed(*mesh), settings)};
+  AddObject call{{},
+                 std::make_unique<Surface>(mesh),
+                 settings,
+                 face_groups_of(indexed(*mesh), settings.face_groups, who)};
   const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
   try {
@@ -174,6 +183,46 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   calls.push();
   ids_.publish(object);
   return object;
+}
+
+namespace {
+
+/// Throws Error unless the map of a replacement fits the new mesh.
+void check_map(const Mesh& mesh, std::span<const std::uint32_t> new_of_old) {
+  for (std::size_t old = 0; old < new_of_old.size(); ++old)
+    if (new_of_old[old] >= mesh.vertex_count() && new_of_old[old] != Mesh::no_vertex)
+      throw Error("replace_mesh: new_of_old maps vertex " + std::to_string(old) + " to " +
+                  std::to_string(new_of_old[old]) + ", but the new mesh has " +
+                  std::to_string(mesh.vertex_count()) + " vertices");
+}
+
+}  // namespace
+
+void Staging::replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
+                           std::span<const std::uint32_t> new_of_old,
+                           std::span<const std::uint8_t> face_groups) {
+  if (mesh == nullptr) throw Error("replace_mesh: there is no mesh");
+  check_map(*mesh, new_of_old);
+  if (const ObjectIds::Pin named = ids_.pin(object)) check_solid(*mesh, named->settings, "replace_mesh");
+  const FloatingPointScope scope;
+  ReplaceMesh call{object,
+                   std::make_unique<Surface>(mesh),
+                   {new_of_old.begin(), new_of_old.end()},
+                   {face_groups.begin(), face_groups.end()},
+                   face_groups_of(indexed(*mesh), face_groups, "replace_mesh")};
+  const std::lock_guard lock(bindings_);
+  Calls calls(queue_);
+  const ObjectIds::Pin named = ids_.pin(object);
+  if (!named) return add_stale(calls, object, "replace_mesh");
+  const std::uint32_t old_count = named->mesh.get().mesh->vertex_count();
+  if (new_of_old.size() != old_count)
+    throw Error("replace_mesh: " + name_of(object, *named) + " has " + std::to_string(old_count) +
+                " vertices, but new_of_old has " + std::to_string(new_of_old.size()) + " entries");
+  calls.add(std::move(call));
+  calls.push();
+  // Whoever knows the new mesh from here on makes calls that come after this one.
+  named->mesh.replace(std::move(mesh));
+  named->binding.stands = false;
 }
 
 void Staging::remove(ObjectId object) {
@@ -262,21 +311,22 @@ void Staging::add_positions(Calls& calls, ObjectId object, const PositionView& p
   if (!check_deformable(calls, object, "set_positions")) return;
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "set_positions");
-  if (!check_view(calls, object, *named, positions, "set_positions")) return;
+  const auto [mesh, mesh_number] = named->mesh.get();
+  if (!check_view(calls, object, *named, *mesh, positions, "set_positions")) return;
   const double promise = promise_of(calls, object, max_displacement, "set_positions");
   std::optional<Diagnostic> problem;
-  SetPositions call{object, {}, {}, promise};
-  call.positions = copy_good(object, *named, positions, "the old positions stand", call.box, problem);
+  SetPositions call{object, {}, {}, promise, mesh_number};
+  call.positions = copy_good(object, *named, *mesh, positions, "the old positions stand", call.box, problem);
   if (problem) return calls.add(std::move(*problem));
-  end_binding(*named);
+  end_binding(*named, mesh_number);
   calls.add(std::move(call));
 }
 
-SparePositions::Loan Staging::copy_good(ObjectId object, NamedObject& named, const PositionView& view,
-                                        const char* consequence, Box& box,
+SparePositions::Loan Staging::copy_good(ObjectId object, NamedObject& named, const Mesh& mesh,
+                                        const PositionView& view, const char* consequence, Box& box,
                                         std::optional<Diagnostic>& problem) {
-  SparePositions::Loan positions = ids_.lend_positions(named, view.is_double());
-  const Surface::PartSeen all = copy_used(indexed(*named.mesh), view, *positions);
+  SparePositions::Loan positions = ids_.lend_positions(named, view.size(), view.is_double());
+  const Surface::PartSeen all = copy_used(indexed(mesh), view, *positions);
   box = all.box;
   if (all.bad_vertex == Surface::ReadResult::no_vertex) return positions;
   const bool finite = all.bad_position.allFinite();
@@ -313,7 +363,7 @@ void Staging::add_binding(Calls& calls, ObjectId object, const PositionView& pos
   if (!check_deformable(calls, object, "bind_positions")) return;
   const ObjectIds::Pin named = ids_.pin(object);
   if (!named) return add_stale(calls, object, "bind_positions");
-  if (!check_view(calls, object, *named, positions, "bind_positions")) return;
+  if (!check_view(calls, object, *named, *named->mesh.get().mesh, positions, "bind_positions")) return;
   calls.add(BindPositions{object, positions, policy});
   named->binding.view = positions;
   named->binding.policy = policy;
@@ -341,7 +391,7 @@ void Staging::add_unbinding(Calls& calls, ObjectId object) {
   Binding& binding = named->binding;
   if (binding.stands.exchange(false)) {
     call.is_due = binding.policy == BindPolicy::every_step || !has_step_read(binding);
-    call.positions = copy_good(object, *named, binding.view,
+    call.positions = copy_good(object, *named, *named->mesh.get().mesh, binding.view,
                                "it stands still until it is given good positions", call.box, call.problem);
   }
   calls.add(std::move(call));
@@ -351,6 +401,13 @@ void Staging::end_binding(NamedObject& object) {
   if (!object.binding.stands) return;
   const std::lock_guard lock(bindings_);
   object.binding.stands = false;
+}
+
+/// Positions of a mesh that was replaced meanwhile count as given before, and end no binding of the new mesh.
+void Staging::end_binding(NamedObject& object, std::uint64_t mesh_number) {
+  if (!object.binding.stands) return;
+  const std::lock_guard lock(bindings_);
+  if (object.mesh.get().number == mesh_number) object.binding.stands = false;
 }
 
 void Staging::positions_changed(ObjectId object, double max_displacement) {

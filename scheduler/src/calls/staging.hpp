@@ -25,18 +25,22 @@ namespace graze {
 
 /// Queues the calls on a scene from any thread, in the order in which they were made, until a step collects
 /// them. Ids are checked here, so an id is valid or stale at the moment of the call. No call waits for
-/// another thread, except calls that bind, unbind, or otherwise end a binding. These run one after the other,
-/// so that the binding is known when its memory is copied.
+/// another thread, except calls that bind, unbind, or otherwise end a binding, and those that replace meshes.
+/// These run one after the other, so that the binding and its mesh are known when its memory is copied.
 ///
 /// The forms for many objects mean single calls in the order of the spans, with no other thread's calls in
 /// between. Spans that do not fit together give a diagnostic, and no call is made.
 ///
-/// Only `add` and `reserve` throw. If there is no memory for another call, a bit is set that needs none
-/// (LostCalls), and the next step reports it. No binding that such a call was to end is read any more.
+/// Only `add`, `replace_mesh` and `reserve` throw. If there is no memory for another call, a bit is set that
+/// needs none (LostCalls), and the next step reports it. No binding that such a call was to end is read any
+/// more.
 class Staging {
  public:
   /// Throws Error for a missing mesh or bad settings, and std::bad_alloc. Nothing has changed then.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
+  /// Throws Error for a missing mesh or lists that do not fit, and std::bad_alloc. Nothing has changed then.
+  void replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
+                    std::span<const std::uint32_t> new_of_old, std::span<const std::uint8_t> face_groups);
   void remove(ObjectId object);
   void set_pose(ObjectId object, const std::array<double, 12>& rows);
   /// Sets a pose by all four rows of its matrix.
@@ -146,8 +150,9 @@ class Staging {
                      double max_displacement) noexcept;
   /// Copies positions and computes their box. Returns null and a diagnostic if a coordinate is not finite or
   /// beyond 2^120.
-  SparePositions::Loan copy_good(ObjectId object, NamedObject& named, const PositionView& view,
-                                 const char* consequence, Box& box, std::optional<Diagnostic>& problem);
+  SparePositions::Loan copy_good(ObjectId object, NamedObject& named, const Mesh& mesh,
+                                 const PositionView& view, const char* consequence, Box& box,
+                                 std::optional<Diagnostic>& problem);
   void add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy);
   void try_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy) noexcept;
   void add_unbinding(Calls& calls, ObjectId object);
@@ -167,6 +172,8 @@ class Staging {
   double promise_of(Calls& calls, ObjectId object, double max_displacement, const char* what);
   /// Ends an object's binding. No thread reads the bound memory after this returns.
   void end_binding(NamedObject& object);
+  /// Ends it unless the object's mesh is another one by now.
+  void end_binding(NamedObject& object, std::uint64_t mesh_number);
   /// The name in messages of an object that exists or existed a moment ago.
   std::string name(ObjectId object);
 

@@ -126,7 +126,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
 }
 
 void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
-                   const FrameReport& previous, ReportBuilder& report) {
+                   const LastContacts& last, ReportBuilder& report) {
   jobs_ = list.jobs;
   pair_count_ = list.pair_count;
   rules_version_ = rules_version;
@@ -145,7 +145,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
       long_jobs_.push_back(index);
   }
   long_answers_.resize(std::max(long_answers_.size(), long_jobs_.size()));
-  keep_time_back(previous.contacts().size(), report);
+  keep_time_back(last.report().contacts().size(), report);
   lend_memory(report);
   nearest_.begin(settings_.max_contacts.value_or(0));
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
@@ -153,7 +153,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
     run_within_work(*settings_.work_budget);
   else
     settings_.time_budget ? run_by_urgency() : run_group(order_);
-  if (settings_.max_contacts) share_contacts(previous);
+  if (settings_.max_contacts) share_contacts(last);
 }
 
 void PairJobs::lend_memory(ReportBuilder& report) {
@@ -186,11 +186,10 @@ std::vector<Contact>* PairJobs::longest_list() {
 /// Selects the nearest contacts of all jobs. The contacts of jobs that did not test their pairs come from the
 /// last report. A pair that loses contacts is tested again in the next step even if it rests, since other
 /// pairs may then have fewer.
-void PairJobs::share_contacts(const FrameReport& previous) {
+void PairJobs::share_contacts(const LastContacts& last) {
   for (std::uint32_t index = 0; index < jobs_.size(); ++index) {
-    const PairJob& job = jobs_[index];
-    if (job.is_tested()) continue;
-    const auto contacts = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
+    if (jobs_[index].is_tested()) continue;
+    const auto contacts = last.of(index);
     answers_.repeat_without_contacts(index, contacts.size());
     nearest_.add(index, contacts);
   }

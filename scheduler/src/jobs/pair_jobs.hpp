@@ -15,6 +15,7 @@
 #include "core/pair/pair_query.hpp"
 #include "core/search/large_pair.hpp"
 #include "core/search/pair_detector.hpp"
+#include "jobs/last_contacts.hpp"
 #include "jobs/nearest_contacts.hpp"
 #include "jobs/pair_answers.hpp"
 #include "pairs/pair_job.hpp"
@@ -32,7 +33,7 @@ class PairJobs {
   /// Answers every job that tests its pair. Budgets of time began at `start`. Contacts will be written into
   /// `report`.
   void run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
-           const FrameReport& previous, ReportBuilder& report);
+           const LastContacts& last, ReportBuilder& report);
 
   /// The answer of a job that tested its pair, valid until `equalize_capacity`. Where `max_contacts` is set,
   /// the answers of the other jobs hold their contacts only.
@@ -96,7 +97,7 @@ class PairJobs {
   void lend_memory(ReportBuilder& report);
   void refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker);
   void keep_time_back(std::size_t last_contacts, ReportBuilder& report);
-  void share_contacts(const FrameReport& previous);
+  void share_contacts(const LastContacts& last);
   [[nodiscard]] bool make_room_in_report(std::size_t contacts);
   [[nodiscard]] Clock::time_point deadline_now() const;
   bool owes_capacity_ = false;  ///< the last step had no time to equalize capacity

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/access.hpp"
 #include "base/spare_positions.hpp"
@@ -129,6 +130,12 @@ enum class Demand : std::uint8_t {
   blocks,   ///< some tested it and needed blocks of its vertices
 };
 
+/// What the last report knows an object by, where its mesh was replaced since.
+struct ReplacedMesh {
+  std::shared_ptr<const IndexedMesh> mesh;  ///< the one that the last report speaks of
+  std::vector<std::uint32_t> new_of_old;    ///< the vertex now of each vertex of it, or Mesh::no_vertex
+};
+
 /// One object of a scene, as steps see it. `validate` says which states cannot be.
 struct Object {
   ObjectId id;
@@ -138,6 +145,8 @@ struct Object {
   std::unique_ptr<Surface> owned_surface;         ///< use the accessors below
   const IndexedMesh* mesh = nullptr;              ///< the surface's
   bool in_parts = false;                          ///< it is large, so several tasks read and refit it
+  std::uint64_t mesh_number = 0;                  ///< how often its mesh was replaced (NamedMesh)
+  std::unique_ptr<ReplacedMesh> replaced;         ///< null, unless that was after the last report
 
   // The input of the next read. Posed objects have the first two, and deformable objects the others.
   std::optional<Pose> pose;

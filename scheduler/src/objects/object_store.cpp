@@ -20,6 +20,10 @@ constexpr bool checks_every_promise = true;
 constexpr bool checks_every_promise = false;
 #endif
 
+/// Surfaces with more vertices than this are read and refitted in parts, each of which takes some tens of
+/// microseconds.
+constexpr std::uint32_t vertices_of_part = 8192;
+
 /// Reserves memory for one more element, so that adding it does not throw.
 template <typename Element>
 void make_room_for_one(std::vector<Element>& elements) {
@@ -33,14 +37,26 @@ void discard(SparePositions::Loan& positions) {
   positions.reset();
 }
 
+/// Gives an object a surface at rest that no step has seen.
+void put_surface(Object& object, std::unique_ptr<Surface> surface) {
+  object.owned_surface = std::move(surface);
+  object.box = object.seen.box = object.surface().box();
+  object.version = object.surface().version();
+  object.mesh = &object.surface().mesh();
+  object.in_parts = object.mesh->vertex_count() > vertices_of_part;
+}
+
+/// Maps the vertices of the mesh that the last report speaks of through another replacement.
+void compose(std::vector<std::uint32_t>& new_of_old, std::span<const std::uint32_t> next) {
+  for (std::uint32_t& vertex : new_of_old)
+    if (vertex != Mesh::no_vertex) vertex = next[vertex];
+}
+
 /// Whether an object may stay unread, if its promises keep it far from everything.
 bool may_stay_unread(const Object& object) {
   return !checks_every_promise && !object.pose && !object.frozen && object.promises.are_bounds();
 }
 
-/// Surfaces with more vertices than this are read and refitted in parts, each of which takes some tens of
-/// microseconds.
-constexpr std::uint32_t vertices_of_part = 8192;
 /// The least number of tasks for small objects. Each task reads several of them, which are mostly neighbours
 /// in the caller's memory, too.
 constexpr std::size_t least_batches = 64;
@@ -69,16 +85,52 @@ void ObjectStore::apply(AddObject& call) {
   object->serial = next_serial_++;
   object->settings = std::move(call.settings);
   object->face_groups = std::move(call.face_groups);
-  object->owned_surface = std::move(call.surface);
-  object->box = object->seen.box = object->surface().box();
-  object->version = object->surface().version();
-  object->mesh = &object->surface().mesh();
-  object->in_parts = object->mesh->vertex_count() > vertices_of_part;
+  put_surface(*object, std::move(call.surface));
   count_bytes(*object);
   by_index_[call.object.index] = object.get();
   serials_.push_back(object->serial);
   objects_.push_back(std::move(object));
   will_have_changed_ = true;
+}
+
+/// The object is what an added one would be. But a posed one keeps its pose, or waits for a good one still.
+void ObjectStore::apply(ReplaceMesh& call) {
+  Object* const object = find(call.object);
+  if (object == nullptr) return;
+  make_room_for_one(with_input_);
+  make_room_for_one(replaced_);
+  auto replaced =
+      object->replaced != nullptr ? std::move(object->replaced) : std::make_unique<ReplacedMesh>();
+  // From here on nothing throws.
+  if (replaced->mesh != nullptr) {
+    compose(replaced->new_of_old, call.new_of_old);
+  } else {
+    *replaced = {object->surface().shared_mesh(), std::move(call.new_of_old)};
+    replaced_.push_back(object);
+  }
+  Object now;
+  now.id = object->id;
+  now.serial = object->serial;
+  now.settings = std::move(object->settings);
+  now.settings.face_groups = std::move(call.group_of_face);
+  now.face_groups = std::move(call.face_groups);
+  now.mesh_number = object->mesh_number + 1;
+  now.replaced = std::move(replaced);
+  now.frozen = object->frozen && object->is_posed();
+  if (!now.frozen) now.pose = object->pose ? object->pose : object->standing_pose;
+  now.may_have_input = object->may_have_input;
+  now.counted_bytes = object->counted_bytes;
+  call.surface->succeed(object->surface());
+  put_surface(now, std::move(call.surface));
+  *object = std::move(now);
+  count_bytes(*object);
+  if (object->pose) expect_input(*object);
+  will_have_changed_ = true;
+}
+
+void ObjectStore::forget_replaced() noexcept {
+  for (Object* const object : replaced_) object->replaced.reset();
+  replaced_.clear();
 }
 
 void ObjectStore::apply(const RemoveObject& call) {
@@ -119,7 +171,7 @@ void ObjectStore::apply(const RefusePose& call) noexcept {
 
 void ObjectStore::apply(SetPositions& call) {
   Object* const object = find(call.object);
-  if (object == nullptr) return;
+  if (object == nullptr || is_outdated(call)) return;
   expect_input(*object);
   object->bound.reset();
   object->positions = std::move(call.positions);
@@ -139,6 +191,11 @@ void ObjectStore::apply(const BindPositions& call) {
   object->promises.are_made = false;
 }
 
+bool ObjectStore::is_outdated(const SetPositions& call) const {
+  const Object* const object = find(call.object);
+  return object != nullptr && object->mesh_number != call.mesh_number;
+}
+
 bool ObjectStore::wants(const UnbindPositions& call) const {
   const Object* const object = find(call.object);
   // Positions that were only surveyed have not been read yet.
@@ -154,6 +211,7 @@ void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnost
   if (!is_bound) return;
   if (is_wanted && call.positions) {
     SetPositions last{call.object, std::move(call.positions), call.box};
+    last.mesh_number = object->mesh_number;
     return apply(last);
   }
   object->bound.reset();
@@ -202,9 +260,9 @@ void ObjectStore::count_bytes(Object& object) {
 
 std::size_t ObjectStore::byte_count() const {
   return surface_bytes_ + objects_.size() * sizeof(Object) + bytes_of(objects_) + bytes_of(serials_) +
-         bytes_of(by_index_) + bytes_of(removed_) + bytes_of(departed_) + bytes_of(with_input_) +
-         bytes_of(to_read_) + bytes_of(large_) + bytes_of(parts_) + bytes_of(read_problems_) +
-         bytes_of(problems_);
+         bytes_of(by_index_) + bytes_of(removed_) + bytes_of(departed_) + bytes_of(replaced_) +
+         bytes_of(with_input_) + bytes_of(to_read_) + bytes_of(large_) + bytes_of(parts_) +
+         bytes_of(read_problems_) + bytes_of(problems_);
 }
 
 void ObjectStore::expect_input(Object& object) {
@@ -233,7 +291,8 @@ void ObjectStore::forget() noexcept {
 
 void ObjectStore::drop_removed() {
   if (removed_.empty()) return;
-  std::erase_if(with_input_, [](const Object* object) { return object->removed; });
+  for (auto* const list : {&with_input_, &replaced_})
+    std::erase_if(*list, [](const Object* object) { return object->removed; });
   std::size_t kept = 0;
   for (std::size_t slot = 0; slot < objects_.size(); ++slot) {
     if (objects_[slot] == nullptr) continue;
@@ -313,11 +372,13 @@ void ObjectStore::leave_unread(Object& object) {
   changed_ = true;
 }
 
-/// Lets promises count from the rest positions of new objects without input.
+/// Lets promises count from the rest positions of new objects and new meshes without input.
 void ObjectStore::mark_new_seen() {
   for (auto object = objects_.rbegin(); object != objects_.rend() && (*object)->serial >= first_unseen_;
        ++object)
     if (!has_input(**object)) (*object)->promises.motion = 0;
+  for (Object* const object : replaced_)
+    if (!has_input(*object)) object->promises.motion = 0;
   first_unseen_ = next_serial_;
 }
 

@@ -40,6 +40,7 @@ class ObjectStore {
 
   // A call of these that throws has changed nothing, and its argument is unchanged too.
   void apply(AddObject& call);
+  void apply(ReplaceMesh& call);
   void apply(const RemoveObject& call);
   void apply(const SetPose& call);
   void apply(const RefusePose& call) noexcept;
@@ -77,6 +78,8 @@ class ObjectStore {
   /// Whether the positions of the call are wanted, or why they are bad. Otherwise the object stays where it
   /// is.
   [[nodiscard]] bool wants(const UnbindPositions& call) const;
+  /// Whether the positions of the call are of a mesh that was replaced since. They change nothing.
+  [[nodiscard]] bool is_outdated(const SetPositions& call) const;
   /// The serial of the next object that is added.
   [[nodiscard]] std::uint64_t next_serial() const { return next_serial_; }
   /// The object of a serial, or null.
@@ -85,6 +88,10 @@ class ObjectStore {
   [[nodiscard]] std::span<const DepartedObject> departed() const { return departed_; }
   /// Forgets the removed objects. Call it when a report has named the pairs that their removal ended.
   void forget_departed() noexcept { departed_.clear(); }
+  /// Whether the mesh of an object was replaced since `forget_replaced`. Valid after `read_positions`.
+  [[nodiscard]] bool some_replaced() const { return !replaced_.empty(); }
+  /// Forgets the replaced meshes. Call it when a report speaks of the new ones.
+  void forget_replaced() noexcept;
   /// How many objects the last reads left unread because of promises.
   [[nodiscard]] std::size_t unread_count() const { return unread_count_; }
   /// How many objects were surveyed, including those that were read afterwards.
@@ -134,6 +141,7 @@ class ObjectStore {
   std::vector<Object*> by_index_;
   std::vector<std::unique_ptr<Object>> removed_;
   std::vector<DepartedObject> departed_;
+  std::vector<Object*> replaced_;                         ///< objects with another mesh since the last report
   std::vector<Object*> with_input_;                       ///< objects that may have input, in any order
   std::vector<Object*> to_read_;                          ///< small objects
   std::vector<LargeObject> large_;                        ///< large objects

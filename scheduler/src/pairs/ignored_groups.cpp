@@ -17,11 +17,11 @@ void IgnoredGroups::set(const Object& a, std::uint8_t group_a, const Object& b, 
   known.version = ++version_;
 }
 
-void IgnoredGroups::regroup(const Object& object) {
+void IgnoredGroups::regroup(std::uint64_t serial, const std::shared_ptr<const FaceGroups>& groups) {
   for (auto& [serials, known] : pairs_) {
-    if (serials.first != object.serial && serials.second != object.serial) continue;
-    if (serials.first == object.serial) known.filter.set_groups_of_a(object.face_groups);
-    if (serials.second == object.serial) known.filter.set_groups_of_b(object.face_groups);
+    if (serials.first != serial && serials.second != serial) continue;
+    if (serials.first == serial) known.filter.set_groups_of_a(groups);
+    if (serials.second == serial) known.filter.set_groups_of_b(groups);
     known.version = ++version_;
   }
 }

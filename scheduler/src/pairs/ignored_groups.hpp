@@ -24,9 +24,8 @@ class IgnoredGroups {
  public:
   /// Takes two groups out or puts them back. `a` and `b` may be one object.
   void set(const Object& a, std::uint8_t group_a, const Object& b, std::uint8_t group_b, bool ignored);
-  /// Takes up the groups that the faces of an object have now, as after its mesh was replaced. What is
-  /// ignored stays.
-  void regroup(const Object& object);
+  /// Takes up other groups for the faces of an object, as those of another mesh. What is ignored stays.
+  void regroup(std::uint64_t serial, const std::shared_ptr<const FaceGroups>& groups);
   /// Forgets the pairs of a removed object.
   void forget(std::uint64_t serial);
 

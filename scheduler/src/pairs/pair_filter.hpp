@@ -44,10 +44,10 @@ class PairFilter {
     ++ignored_version_;
     groups_.set(a, group_a, b, group_b, ignored);
   }
-  /// Takes up the groups that the faces of an object have now, as after its mesh was replaced.
-  void regroup(const Object& object) {
+  /// Takes up other groups for the faces of an object, as those of another mesh.
+  void regroup(const Object& object, const std::shared_ptr<const FaceGroups>& groups) {
     ++ignored_version_;
-    groups_.regroup(object);
+    groups_.regroup(object.serial, groups);
   }
   /// Forgets the ignored pairs and groups of a removed object.
   void forget(const Object& object);

@@ -39,6 +39,8 @@ struct PairJob {
     return *memory;
   }
   [[nodiscard]] bool is_tested() const { return task == Task::detect || task == Task::end; }
+  /// Whether the last row of the pair is of a mesh that was replaced since.
+  [[nodiscard]] bool speaks_of_replaced() const { return a->replaced != nullptr || b->replaced != nullptr; }
   [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }
 };
 

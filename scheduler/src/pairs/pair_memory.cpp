@@ -26,9 +26,7 @@ PairMemories::Index PairMemories::acquire() {
 }
 
 void PairMemories::release(Index index) {
-  PairMemory& memory = memories_[index];
-  memory.front.forget();
-  memory.version_a = memory.version_b = memory.groups_version = 0;
+  memories_[index].forget();
   free_.push_back(index);
 }
 

@@ -18,6 +18,12 @@ struct PairMemory {
   std::uint64_t rules_version = 0;
   /// PairGroups::version of the groups with which the front was made.
   std::uint64_t groups_version = 0;
+
+  /// Forgets all of it and keeps its room.
+  void forget() {
+    front.forget();
+    version_a = version_b = groups_version = 0;
+  }
 };
 
 /// The number of leaf pairs that a front has reserved room for; SceneCapacity states it.

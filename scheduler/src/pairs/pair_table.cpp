@@ -183,6 +183,7 @@ bool PairTable::says_something(PairJob& job) const {
 
 void PairTable::add(PairJob job, const SelectedPair& selected) {
   job.memory = &selection_.memory_of(selected);
+  if (store_.some_replaced() && job.speaks_of_replaced()) job.memory->forget();
   if (job.memory->groups_version != job.groups.version) {
     // The answer holds no more, and the front lacks what those groups left out.
     job.memory->front.forget();

@@ -168,7 +168,13 @@ void FrameCapture::add(const AddObject& call) {
       AddRecord{call.object, store_->next_serial(), number_of(call.surface->shared_mesh()), call.settings});
 }
 
+void FrameCapture::add(const ReplaceMesh& call) {
+  add_record(ReplaceRecord{call.object, number_of(call.surface->shared_mesh()), call.new_of_old,
+                           call.group_of_face});
+}
+
 void FrameCapture::add(const SetPositions& call) {
+  if (store_->is_outdated(call)) return;
   add_record(PositionsRecord{call.object, call.max_displacement, call.positions->view()});
 }
 

@@ -133,6 +133,7 @@ class FrameCapture final : public MemoryObserver {
 
   // The record of each kind of call.
   void add(const AddObject& call);
+  void add(const ReplaceMesh& call);
   void add(const RemoveObject& call) { add_record(call); }
   void add(const SetPose& call) { add_record(call); }
   void add(const RefusePose& call) { add_record(call); }

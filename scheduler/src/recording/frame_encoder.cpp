@@ -87,6 +87,8 @@ void FrameEncoder::keep_record(const Record& record) {
   write_record(kept_records_, record);
   ++kept_count_;
   if (const auto* const added = std::get_if<AddRecord>(&record)) kept_meshes_.push_back(added->mesh);
+  if (const auto* const replaced = std::get_if<ReplaceRecord>(&record))
+    kept_meshes_.push_back(replaced->mesh);
 }
 
 /// Tells the output which meshes its last segment uses.

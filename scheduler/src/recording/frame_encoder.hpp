@@ -46,7 +46,7 @@ class FrameEncoder {
   std::vector<RecordedRow> last_rows_;
   bool has_last_rows_ = false;
   ByteBuffer chunk_;
-  // The records of the keyframe or step that is being written, and the meshes of the objects they add.
+  // The records of the keyframe or step that is being written, and the meshes that they name.
   ByteBuffer kept_records_;
   std::uint64_t kept_count_ = 0;
   std::vector<std::uint32_t> kept_meshes_;

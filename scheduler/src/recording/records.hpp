@@ -10,6 +10,7 @@
 #include <tuple>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "calls/calls.hpp"
 
@@ -51,10 +52,17 @@ struct UnbindRecord {
   PositionView positions;  ///< what the memory said last
 };
 
+struct ReplaceRecord {
+  ObjectId object;
+  std::uint32_t mesh = 0;                 ///< the number of a mesh in the recording
+  std::vector<std::uint32_t> new_of_old;  ///< as in ReplaceMesh
+  std::vector<std::uint8_t> face_groups;  ///< as in ReplaceMesh
+};
+
 /// Any record. The number of a kind in a recording is its place here, so kinds are added at the end.
-using Record =
-    std::variant<AddRecord, RemoveObject, SetPose, RefusePose, PositionsRecord, BindRecord, MemoryRecord,
-                 UnbindRecord, PositionsChanged, IgnorePair, SetRule, Reserve, Diagnostic, IgnoreGroups>;
+using Record = std::variant<AddRecord, RemoveObject, SetPose, RefusePose, PositionsRecord, BindRecord,
+                            MemoryRecord, UnbindRecord, PositionsChanged, IgnorePair, SetRule, Reserve,
+                            Diagnostic, IgnoreGroups, ReplaceRecord>;
 
 /// `Type`, or a constant of it.
 template <typename Candidate, typename Type>
@@ -64,8 +72,8 @@ concept Is = std::same_as<std::remove_const_t<Candidate>, Type>;
 
 template <Is<ObjectSettings> T>
 auto fields(T& r) {
-  return std::tie(r.name, r.motion, r.layer, r.collides_with, r.group, r.margin, r.kind, r.user_data,
-                  r.solid, r.face_groups);
+  return std::tie(r.name, r.motion, r.layer, r.collides_with, r.group, r.margin, r.kind, r.user_data, r.solid,
+                  r.face_groups);
 }
 template <Is<PairRule> T>
 auto fields(T& r) {
@@ -131,6 +139,10 @@ auto fields(T& r) {
 template <Is<SetRule> T>
 auto fields(T& r) {
   return std::tie(r.kind_a, r.kind_b, r.rule);
+}
+template <Is<ReplaceRecord> T>
+auto fields(T& r) {
+  return std::tie(r.object, r.mesh, r.new_of_old, r.face_groups);
 }
 template <Is<Reserve> T>
 auto fields(T& r) {

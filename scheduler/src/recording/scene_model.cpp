@@ -86,6 +86,16 @@ void SceneModel::take(const AddRecord& record) {
   by_serial_[object.serial] = record.object;
 }
 
+void SceneModel::take(const ReplaceRecord& record) {
+  ModelObject* const object = find(record.object);
+  if (object == nullptr) return;
+  object->mesh = record.mesh;
+  object->settings.face_groups = record.face_groups;
+  object->positions.clear();
+  object->binding.reset();
+  if (object->settings.motion == Motion::deformable) object->frozen_by.reset();
+}
+
 void SceneModel::take(const RemoveObject& record) {
   const ModelObject* const object = find(record.object);
   if (object == nullptr) return;

@@ -99,6 +99,7 @@ class SceneModel {
   }
   ModelObject* find(ObjectId id) { return const_cast<ModelObject*>(std::as_const(*this).find(id)); }
   void take(const AddRecord& record);
+  void take(const ReplaceRecord& record);
   void take(const RemoveObject& record);
   void take(const SetPose& record);
   void take(const RefusePose& record);

@@ -72,11 +72,16 @@ class RecordingCut {
     if (const auto* const added = std::get_if<AddRecord>(&record)) {
       if (!serials_.empty() && !serials_.contains(added->serial)) return;
       kept_.insert(added->object);
-      if (written_meshes_.insert(added->mesh).second) new_meshes_.push_back(added->mesh);
+      use_mesh(added->mesh);
     }
     if (!std::visit([&](const auto& one) { return tells_of_kept(one); }, record)) return;
+    if (const auto* const replaced = std::get_if<ReplaceRecord>(&record)) use_mesh(replaced->mesh);
     write_record(records_, record);
     ++count_;
+  }
+  /// Copies a mesh with the next step, unless the part has it already.
+  void use_mesh(std::uint32_t mesh) {
+    if (written_meshes_.insert(mesh).second) new_meshes_.push_back(mesh);
   }
   [[nodiscard]] bool is_kept(ObjectId id) const { return kept_.contains(id); }
   template <typename OneRecord>

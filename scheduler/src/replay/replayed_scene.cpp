@@ -99,6 +99,15 @@ void ReplayedScene::take(const AddRecord& record) {
   objects_[record.serial] = std::move(object);
 }
 
+void ReplayedScene::take(const ReplaceRecord& record) {
+  Object* const object = find(record.object);
+  if (object == nullptr) return;
+  std::shared_ptr<const Mesh> mesh = reader_.mesh(record.mesh);
+  scene_.replace_mesh(object->object.id, mesh, record.new_of_old, record.face_groups);
+  object->object.mesh = std::move(mesh);
+  object->positions.clear();  // the binding has ended with this call
+}
+
 void ReplayedScene::take(const RemoveObject& record) {
   Object* const object = find(record.object);
   if (object == nullptr) return;

@@ -49,6 +49,7 @@ class ReplayedScene {
   [[nodiscard]] const Object& of(ObjectId id) const;
 
   void take(const AddRecord& record);
+  void take(const ReplaceRecord& record);
   void take(const RemoveObject& record);
   void take(const SetPose& record);
   void take(const RefusePose& record);

@@ -1,10 +1,10 @@
 #include "report/contact_rows.hpp"
 
 #include <algorithm>
-#include <compare>
 #include <functional>
 
 #include "base/access.hpp"
+#include "report/contact_key.hpp"
 
 namespace graze {
 namespace {
@@ -14,22 +14,7 @@ namespace {
 /// 10,000 contacts.
 constexpr std::size_t contacts_each = 1024;
 
-/// The sort key of contacts as two numbers.
-struct Key {
-  std::uint64_t of_a, of_b;
-
-  friend auto operator<=>(const Key&, const Key&) = default;
-};
-
-Key key_of(const Contact& contact) {
-  const auto number = [](const Feature& feature) {
-    return std::uint64_t{static_cast<std::uint8_t>(feature.kind)} << 32U | feature.index;
-  };
-  return {std::uint64_t{static_cast<std::uint8_t>(contact.kind)} << 40U | number(contact.feature_a),
-          number(contact.feature_b)};
-}
-
-bool comes_before(const Contact& contact, const Key& key) {
+bool comes_before(const Contact& contact, const ContactKey& key) {
   return key_of(contact) < key;
 }
 
@@ -37,12 +22,12 @@ bool comes_before(const Contact& contact, const Key& key) {
 /// contact.
 void write_contacts(std::span<const Contact> found, std::span<const Contact> last, std::span<Contact> rows,
                     std::uint64_t frame) {
-  constexpr Key behind_all{~std::uint64_t{0}, 0};
+  constexpr ContactKey behind_all{~std::uint64_t{0}, 0};
   auto before = last.begin();
   const auto key_before = [&] { return before == last.end() ? behind_all : key_of(*before); };
-  Key key_there = key_before();
+  ContactKey key_there = key_before();
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Key key = key_of(found[i]);
+    const ContactKey key = key_of(found[i]);
     for (; key_there < key; key_there = key_before()) ++before;
     rows[i] = found[i];
     rows[i].since = key_there == key ? before->since : frame;

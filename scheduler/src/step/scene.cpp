@@ -63,6 +63,13 @@ ObjectId Scene::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& sett
   if (mesh != nullptr) prepare(indexed(*mesh), settings, state_->settings);
   return state_->staging.add(std::move(mesh), settings);
 }
+void Scene::replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
+                         std::span<const std::uint32_t> new_of_old,
+                         std::span<const std::uint8_t> face_groups) {
+  if (const auto named = state_->staging.find(object); named && mesh != nullptr)
+    prepare(indexed(*mesh), named->settings, state_->settings);
+  state_->staging.replace_mesh(object, std::move(mesh), new_of_old, face_groups);
+}
 void Scene::remove(ObjectId object) {
   state_->staging.remove(object);
 }
@@ -74,7 +81,7 @@ bool Scene::contains(ObjectId object) const {
 }
 std::shared_ptr<const Mesh> Scene::mesh(ObjectId object) const {
   const auto named = state_->staging.find(object);
-  return named ? named->mesh : nullptr;
+  return named ? named->mesh.get().mesh : nullptr;
 }
 ObjectSettings Scene::object_settings(ObjectId object) const {
   const auto named = state_->staging.find(object);

@@ -79,7 +79,8 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
     statistics.pairs_ms = lap();
     refit_.run(list.jobs);
     statistics.refit_ms = lap();
-    jobs_.run(list, pairs_.filter().rules_version(), start, previous, builder);
+    last_contacts_.begin(previous, list.jobs, store_.some_replaced());
+    jobs_.run(list, pairs_.filter().rules_version(), start, last_contacts_, builder);
     statistics.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
@@ -90,6 +91,7 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
   statistics.objects_surveyed = store_.surveyed_count();
   statistics.object_bytes = store_.byte_count() + staging_.byte_count();
   statistics.report_bytes = reports_.byte_count();
+  store_.forget_replaced();
   store_.forget_departed();  // the report is made: nothing throws from here on
   statistics.publish_ms = lap();
   statistics.step_ms = Lap(start)();
@@ -133,6 +135,13 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* captu
                          [&](AddObject& added) {
                            if (is_reserved_) prepare_surface(*added.surface, added.settings.motion);
                            store_.apply(added);
+                         },
+                         [&](ReplaceMesh& call) {
+                           const Object* const object = store_.find(call.object);
+                           if (is_reserved_ && object != nullptr)
+                             prepare_surface(*call.surface, object->settings.motion);
+                           if (object != nullptr) pairs_.filter().regroup(*object, call.face_groups);
+                           store_.apply(call);
                          },
                          [&](auto& other) { store_.apply(other); }};
   if (capture == nullptr) return staging_.visit_collected(apply);
@@ -221,6 +230,8 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   const bool repeats = !job.is_tested();
   std::optional<PairReport> row = repeats ? repeated_row(job) : row_of(job, jobs_.answer(index));
   if (!row) return;
+  const bool is_of_old_mesh = repeats && store_.some_replaced() && job.speaks_of_replaced();
+  if (is_of_old_mesh) row->witness = mapped_witness(job);
   if (repeats && !job.allowed) {
     row->phase = PairPhase::ended;
     row->inside = Inside::none;
@@ -228,13 +239,14 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again_;
   const bool in_contact = is_contact(row->phase);
   const KeptAnswer& answer = jobs_.answer(index);
-  const auto last = job.last == nullptr ? std::span<const Contact>() : previous.contacts(*job.last);
+  const auto last = last_contacts_.of(index);
   std::span<const Contact> contacts;
   if (in_contact) contacts = repeats && !settings_.max_contacts ? last : answer.contacts;
   if (settings_.max_contacts && answer.contacts_left_out > 0) row->contacts_cut = true;
   if (row->contacts_cut) row->complete = false;
   repeats ? contacts_.add_again(contacts) : contacts_.add(contacts, last);
-  const auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
+  auto regions = repeats ? previous.region_distances(*job.last) : answer.region_distances;
+  if (is_of_old_mesh) regions = {};
   builder.add(*row, contacts.size(), regions);
   pairs_.add_row(job);
   statistics.region_distances += regions.size();
@@ -343,8 +355,8 @@ void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& s
   for (const PairJob& job : jobs)
     if (job.is_tested())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
-  statistics.pair_bytes =
-      pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() + contacts_.byte_count();
+  statistics.pair_bytes = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() +
+                          contacts_.byte_count() + last_contacts_.byte_count();
   statistics.thread_bytes = jobs_.thread_byte_count();
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calls/staging.hpp"
+#include "jobs/last_contacts.hpp"
 #include "jobs/pair_jobs.hpp"
 #include "jobs/region_refit.hpp"
 #include "pairs/pair_table.hpp"
@@ -54,6 +55,7 @@ class Step {
   PairTable pairs_;
   RegionRefit refit_;
   PairJobs jobs_;
+  LastContacts last_contacts_;
   ContactRows contacts_;
   bool is_reserved_ = false;    ///< near pairs have reserved room, also those of later objects
   std::size_t rows_again_ = 0;  ///< rows of the current report that are unchanged from the last

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <graze/recording.hpp>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "option_checks.hpp"
@@ -41,10 +41,15 @@ class ReplayedPage {
 
  private:
   void change_objects(const Replay& replay) {
-    std::set<ObjectId> now;
-    for (const ReplayObject& object : replay.objects()) now.insert(object.id);
-    for (const ObjectId id : known_)
-      if (!now.contains(id)) page_.writer().remove_object(id);
+    std::map<ObjectId, std::shared_ptr<const Mesh>> now;
+    for (const ReplayObject& object : replay.objects()) now[object.id] = object.mesh;
+    // An object with another mesh is another one for the page.
+    std::erase_if(known_, [&](const auto& known) {
+      const auto found = now.find(known.first);
+      const bool is_same = found != now.end() && found->second == known.second;
+      if (!is_same) page_.writer().remove_object(known.first);
+      return !is_same;
+    });
     for (const ReplayObject& object : replay.objects()) {
       if (known_.contains(object.id)) continue;
       const ObjectSettings& settings = object.settings;
@@ -67,7 +72,7 @@ class ReplayedPage {
   }
 
   PageOutput page_;
-  std::set<ObjectId> known_;  ///< the objects of the page
+  std::map<ObjectId, std::shared_ptr<const Mesh>> known_;  ///< the objects of the page
   std::vector<Eigen::Vector3d> positions_;
 };
 

@@ -40,6 +40,10 @@ class GRAZE_API Surface {
   explicit Surface(std::shared_ptr<const Mesh> mesh);
   explicit Surface(std::shared_ptr<const IndexedMesh> mesh);
 
+  /// Takes the place of another surface, at its own rest shape: its version follows the other's, and the
+  /// change is a jump. Call it before the surface is given positions.
+  void succeed(const Surface& before);
+
   [[nodiscard]] const IndexedMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const std::shared_ptr<const IndexedMesh>& shared_mesh() const { return mesh_; }
   /// The position of a vertex; that of an unused one means nothing.

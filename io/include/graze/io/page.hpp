@@ -89,8 +89,9 @@ class GRAZE_API PageWriter {
   PageWriter& operator=(PageWriter&&) noexcept;
 
   /// Adds an object, which is there from the next frame on. It stands at the rest shape of its mesh until
-  /// set_positions() or set_pose() moves it. Throws Error if the id was added before, or if there is no mesh.
-  /// Throws InputError if the disk takes no more.
+  /// set_positions() or set_pose() moves it. After Scene::replace_mesh() remove the object and add it again
+  /// with the new mesh. Throws Error if the id names an object that is there, or if there is no mesh. Throws
+  /// InputError if the disk takes no more.
   void add_object(ObjectId id, const PageObject& object);
   /// Removes an object. It is not drawn in the next frame. Reports may still name it. Throws Error if the id
   /// was not added, or is removed already.
