@@ -15,7 +15,7 @@ constexpr std::uint32_t any_number = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t largest_kind = 255;
 constexpr std::uint32_t largest_face_group = 255;
 
-constexpr std::array<std::pair<std::string_view, ContactDetail>, 5> details{{
+constexpr std::array<std::pair<std::string_view, ContactDetail>, 6> details{{
     {"none", ContactDetail::none},
     {"closest", ContactDetail::closest},
     {"regions", ContactDetail::regions},
