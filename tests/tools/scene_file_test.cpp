@@ -154,7 +154,7 @@ const std::vector<BadScene> bad_scenes = {
     {scene_with(R"("ignore": [["a", 1, "b"]])", ""), R"(ignore[0]: expected two names, got ["a",1,"b"])"},
     {scene_with(R"("ignore": [["a", 1, "b", 256]])", ""),
      "ignore[0][3]: expected a whole number from 0 to 255"},
-    {scene_with(R"("ignore": [["a", "b", 1, 2]])", ""), "ignore[0][1]: expected a whole number"},
+    {scene_with(R"("ignore": [["a", "b", 1, 2]])", ""), "ignore[0][2]: expected a text, got 1"},
     {scene_with("", R"("face_groups": 3)"), "objects[0].face_groups: expected an array, got 3"},
     {scene_with("", R"("face_groups": [0, -1])"),
      "objects[0].face_groups[1]: expected a whole number from 0 to 255"},

@@ -191,7 +191,7 @@ class ParallelContacts {
   /// looked at.
   bool is_parallel(const TwoFeatures& features) {
     const auto& [a, b] = features;
-    if (!pair_.may(ref_of(a), ref_of(b))) return false;
+    if (pair_.groups != nullptr && !pair_.groups->may(ref_of(a), ref_of(b))) return false;
     if (a.kind != FeatureKind::face || b.kind != FeatureKind::face) return decide_parallel(features);
     ParallelScratch::Known& known =
         scratch_.known[(a.index * std::size_t{0x9e3779b1} + b.index) % known_count];

@@ -22,12 +22,6 @@ bool is_nearer(const Contact& left, const Contact& right) {
   return left.distance != right.distance ? left.distance < right.distance : key_of(left) < key_of(right);
 }
 
-/// The side of a solid that a vertex is on, of a contact of that vertex.
-Side side_of(const VerticesInSolid& inside, const Contact& contact, std::uint32_t vertex) {
-  if (contact.distance == 0) return Side::none;
-  return inside.contains(vertex) ? Side::back : Side::front;
-}
-
 }  // namespace
 
 bool SolidSearch::widen_reach() {
@@ -193,9 +187,9 @@ void SolidSearch::merge_contacts() {
 void SolidSearch::set_sides() {
   for (Contact& contact : pair_.answer->contacts) {
     if (pair_.query.a_is_solid && contact.feature_b.kind == FeatureKind::vertex)
-      contact.side_a = side_of(scratch_.b_in_a, contact, contact.feature_b.index);
+      contact.side_a = scratch_.b_in_a.side_of(contact.feature_b.index);
     if (pair_.query.b_is_solid && contact.feature_a.kind == FeatureKind::vertex)
-      contact.side_b = side_of(scratch_.a_in_b, contact, contact.feature_a.index);
+      contact.side_b = scratch_.a_in_b.side_of(contact.feature_a.index);
   }
 }
 

@@ -25,7 +25,10 @@ void VerticesInSolid::find(const Surface& surface, const Surface& solid,
   for (const std::uint32_t first : candidates_) {
     if (states_[first] != State::candidate) continue;
     if (!join(surface.mesh(), first)) continue;
-    if (locate(surface.position(first), solid, count) != PointInSolid::inside) continue;
+    const PointInSolid location = locate(surface.position(first), solid, count);
+    // All edges of a vertex on the surface touch it, so it is not joined with others.
+    if (location == PointInSolid::on_surface) states_[first] = State::on_surface;
+    if (location != PointInSolid::inside) continue;
     for (const std::uint32_t vertex : joined_) states_[vertex] = State::inside;
     inside_.insert(inside_.end(), joined_.begin(), joined_.end());
   }

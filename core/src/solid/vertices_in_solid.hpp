@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <graze/contact.hpp>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,11 @@ class VerticesInSolid {
 
   /// Those inside, in no order.
   [[nodiscard]] std::span<const std::uint32_t> inside() const { return inside_; }
-  [[nodiscard]] bool contains(std::uint32_t vertex) const { return states_[vertex] == State::inside; }
+  /// The side of the solid on which a vertex is: `back` inside, `none` on the surface.
+  [[nodiscard]] Side side_of(std::uint32_t vertex) const {
+    if (states_[vertex] == State::on_surface) return Side::none;
+    return states_[vertex] == State::inside ? Side::back : Side::front;
+  }
   [[nodiscard]] bool has_some() const { return !inside_.empty(); }
   [[nodiscard]] bool has_all(const Surface& surface) const {
     return inside_.size() == surface.mesh().regions().vertices().size();
@@ -39,7 +44,7 @@ class VerticesInSolid {
 
  private:
   /// A vertex outside the solid's box is `outside`.
-  enum class State : std::uint8_t { outside, candidate, joined, inside };
+  enum class State : std::uint8_t { outside, candidate, joined, inside, on_surface };
 
   void begin(const Surface& surface);
   void list_candidates(const Surface& surface, const Box& box);

@@ -112,9 +112,9 @@ class LeafPairs {
 
   /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds. That says whether
   /// a pair at least `lower` apart may come to matter before the surfaces have moved by `slack`. `meet(pair)`
-  /// is called for every pair of regions. The walk stops where a level has more than `most` pairs: those are
-  /// then `front()`. Regions whose groups leave nothing to be
-  /// looked at are passed over. Returns false when the budget ran out.
+  /// is called for every pair of regions. Regions whose groups leave nothing to be looked at are passed over.
+  /// The walk stops where a level has more than `most` pairs: those are then `front()`. Returns false when
+  /// the budget ran out.
   template <typename Keep, typename Meet>
   bool walk(std::span<const RegionPair> start, const Keep& keep, const Meet& meet, LeafPairList& found,
             std::size_t most = std::numeric_limits<std::size_t>::max()) {
