@@ -309,7 +309,7 @@ TEST_CASE("face groups: what is ignored is known by both objects until one is go
   const auto mesh = split_plate();
   b.face_groups = std::make_shared<const FaceGroups>(indexed(*mesh), std::vector<std::uint8_t>{2, 0});
   const std::uint64_t before = groups.of(3, 9).version;
-  groups.regroup(b);  // another mesh, with a face of which nothing is ignored
+  groups.regroup(b.serial, b.face_groups);  // another mesh, with a face of which nothing is ignored
   CHECK_FALSE(groups.ignores_all(3, 9));
   CHECK(groups.of(3, 9).version > before);
   CHECK_FALSE(groups.of(3, 9).filter->may_vertices(0, 3));
