@@ -75,10 +75,10 @@ enum class ContactDetail : std::uint8_t {
   /// Every vertex-face and edge-edge pair below the threshold, named by its closest features, and every edge
   /// that pierces a face. Each pair of features is listed once. Distances are between surfaces.
   features,
-  /// Of each vertex that is nearer to the other surface than the threshold, its closest point there. Exact
-  /// ties go to the smallest kind, then feature. In addition every pair of edges of `features` that is locally
-  /// closest, and every edge that pierces a face. They are fewer than those of `features`, and enough to push
-  /// objects apart. Distances are between surfaces.
+  /// The closest point on the other surface of each vertex that is nearer to it than the threshold. Exact
+  /// ties go to the smallest kind, then feature. Every pair of edges of `features` that is locally closest is
+  /// listed too, and every edge that pierces a face. There are fewer contacts than in `features`, and enough
+  /// to push objects apart. Distances are between surfaces.
   ///
   /// Two edges are locally closest if, on no face beside either of them, the way from the closest point,
   /// square to the edge, leads nearer to the other point. Edges that cross are.

@@ -169,7 +169,7 @@ inline bool is_closer_than(const SurfacePair& pair, const FeaturePairKey& key, d
   return decide_closer_than(pair, key, limit);
 }
 
-/// The same, where a range of the distance is known that mostly tells.
+/// As the function above, where a range of the distance is known that mostly decides it.
 inline bool is_closer_than(const SurfacePair& pair, const FeaturePairKey& key, const SquaredRange& squared,
                            double limit) {
   if (squared.is_below(limit)) return true;

@@ -106,7 +106,7 @@ class NearestOnSurface {
   VertexNearest nearest_;
   bool has_any_ = false;
   double limit_ = std::numeric_limits<double>::infinity();  ///< of the squared distance
-  // Of each level at most the siblings of one region are open.
+  // At most the siblings of one region are open on each level.
   InplaceVector<Open, 8 * (RegionTree::max_level + 1)> open_;
 };
 

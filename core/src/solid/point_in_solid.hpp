@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// Where a point is about a closed surface.
+/// Says where a point is, seen from a closed surface.
 enum class PointInSolid : std::uint8_t { outside, inside, on_surface };
 
 /// Decides exactly where a point is. It is inside where the surface's winding number about it is not 0. The

@@ -95,8 +95,8 @@ class GRAZE_API Scene {
   /// and scenes may share one mesh.
   ///
   /// Throws Error if `mesh` is null, if the margin is negative or not finite, if the kind is above 255, or if
-  /// the motion is no enumerator. Also throws Error if a solid's surface is not closed, or if the settings have
-  /// groups of faces, but not one for each face.
+  /// the motion is no enumerator. Also throws Error if a solid's surface is not closed, or if the settings
+  /// have groups of faces, but not one for each face.
   ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings = {});
   /// Gives an object another mesh under the same id, as a cut or a finer grid needs it. Calls made afterwards
   /// are about the new mesh. A binding of the old positions ends as with unbind_positions().
@@ -113,10 +113,10 @@ class GRAZE_API Scene {
   ///
   /// `face_groups` holds the group of each face of the new mesh. If it is empty, all faces are in group 0.
   ///
-  /// Throws Error if `mesh` is null, if `new_of_old` has not one entry for each vertex of the present mesh,
-  /// if an entry is neither a vertex of the new mesh nor Mesh::no_vertex, if `face_groups` is neither empty
-  /// nor has one entry for each face, or if the object is a solid and the mesh is not closed. The scene is as
-  /// before then. A stale id is a Diagnostic.
+  /// Throws Error if `mesh` is null, or if the object is a solid and the mesh is not closed. Also throws
+  /// Error if `new_of_old` has not one entry for each vertex of the present mesh, or if an entry is neither a
+  /// vertex of the new mesh nor Mesh::no_vertex. Also throws Error if `face_groups` is neither empty nor has
+  /// one entry for each face. The scene is as before then. A stale id is a Diagnostic.
   void replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                     std::span<const std::uint32_t> new_of_old,
                     std::span<const std::uint8_t> face_groups = {});

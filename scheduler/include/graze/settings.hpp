@@ -52,10 +52,11 @@ struct ObjectSettings {
   double margin = 0;
   /// The kind of the object, 0 to 255. Scene::set_rule() gives thresholds to pairs of kinds.
   std::uint32_t kind = 0;
-  /// Whether the surface bounds a volume. Then reports say what is inside of it: PairReport::inside. A pair of
-  /// which a vertex is inside the other's volume is in contact, however deep. With ContactDetail::nearest each
-  /// such vertex has a contact, with the way out. The surface has to be closed: each edge has two faces, which
-  /// pass it in opposite directions. It counts in the details `none`, `closest`, `features` and `nearest`.
+  /// Whether the surface bounds a volume. Then reports say what is inside of it: PairReport::inside. A pair
+  /// of which a vertex is inside the other's volume is in contact, however deep. With ContactDetail::nearest
+  /// each such vertex has a contact, with the way out. The surface has to be closed: each edge has two faces,
+  /// which pass it in opposite directions. It counts in the details `none`, `closest`, `features` and
+  /// `nearest`.
   bool solid = false;
   /// Any number of the caller's. Reports give it back in PairReport::user_data_a and PairReport::user_data_b.
   std::uint64_t user_data = 0;

@@ -67,7 +67,7 @@ struct LeafFront {
   /// The nearest points of the last answer. At the present positions they give an upper bound of the
   /// surfaces' distance, whatever has moved.
   LastWitness witness;
-  /// What is known of a pair with a solid.
+  /// The last state of a pair with a solid.
   LastInside last_inside;
   /// The list that a query for contacts uses instead of leaves, with marks of its own. It is null before the
   /// first such query.
