@@ -240,7 +240,7 @@ TEST_CASE("allocations of every kind and thread are counted") {
 TEST_CASE("a thousand frames of a periodic motion take no memory after the first period") {
   if (is_skipped()) return;
   const auto detail = GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                               ContactDetail::vertices, ContactDetail::features);
+                               ContactDetail::vertices, ContactDetail::features, ContactDetail::nearest);
   const auto threads = GENERATE(1U, 2U);
   CAPTURE(static_cast<int>(detail), threads);
   SceneSettings settings = settings_of(0.05, 0.3, detail);
@@ -256,7 +256,7 @@ TEST_CASE("a thousand frames of a periodic motion take no memory after the first
 
 TEST_CASE("a large pair takes no memory after the first periods") {
   if (is_skipped()) return;
-  const auto detail = GENERATE(ContactDetail::closest, ContactDetail::features);
+  const auto detail = GENERATE(ContactDetail::closest, ContactDetail::features, ContactDetail::nearest);
   const auto threads = GENERATE(1U, 2U);
   CAPTURE(static_cast<int>(detail), threads);
   SceneSettings settings = settings_of(0.02, 0.1, detail);
@@ -286,6 +286,39 @@ TEST_CASE("a large pair takes no memory after the first periods") {
   play_periods(4);
   AllocationCount::end();
   CHECK(most > least);
+  check_none_thrown();
+}
+
+TEST_CASE("no allocation: solids that pass through each other") {
+  if (is_skipped()) return;
+  const auto detail = GENERATE(ContactDetail::none, ContactDetail::nearest);
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(static_cast<int>(detail), threads);
+  SceneSettings settings = settings_of(0.05, 0.1, detail);
+  settings.threads = threads;
+  Scene scene(settings);
+  const auto mesh = mesh_of(models::sphere(24, 16));
+  ObjectSettings solid = motion_of(Motion::rigid);
+  solid.solid = true;
+  std::array<ObjectId, 3> objects{scene.add(mesh, solid), scene.add(mesh, solid), scene.add(mesh, solid)};
+  std::size_t crossing = 0;
+  const auto play_periods = [&](std::size_t count) {
+    constexpr std::size_t frames = 12;
+    for (std::size_t frame = 0; frame < count * frames; ++frame) {
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation().x() = 0.2 * static_cast<double>(frame % frames);
+      scene.set_pose(objects[1], pose);
+      pose.translation().x() = -pose.translation().x();
+      scene.set_pose(objects[2], pose);
+      for (const PairReport& pair : scene.step()->pairs())
+        crossing += pair.inside == Inside::crossing ? 1U : 0U;
+    }
+  };
+  play_periods(4);
+  AllocationCount::begin();
+  play_periods(2);
+  AllocationCount::end();
+  CHECK(crossing > 10);
   check_none_thrown();
 }
 
@@ -393,7 +426,7 @@ TEST_CASE("step_async and wait take no memory after the first period") {
 TEST_CASE("first contacts take no memory where room was reserved") {
   if (is_skipped()) return;
   const auto detail = GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                               ContactDetail::vertices, ContactDetail::features);
+                               ContactDetail::vertices, ContactDetail::features, ContactDetail::nearest);
   const auto threads = GENERATE(1U, 2U);
   const bool is_reserved = GENERATE(true, false);
   CAPTURE(static_cast<int>(detail), threads, is_reserved);

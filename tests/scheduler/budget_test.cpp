@@ -12,9 +12,9 @@
 namespace graze::tests {
 namespace {
 
-constexpr std::array<ContactDetail, 5> details = {ContactDetail::none, ContactDetail::closest,
-                                                  ContactDetail::regions, ContactDetail::vertices,
-                                                  ContactDetail::features};
+constexpr std::array<ContactDetail, 6> details = {ContactDetail::none,     ContactDetail::closest,
+                                                  ContactDetail::regions,  ContactDetail::vertices,
+                                                  ContactDetail::features, ContactDetail::nearest};
 
 /// A stack of tori: the lower two in contact, the others further and further apart.
 struct Stack {

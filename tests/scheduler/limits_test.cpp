@@ -15,7 +15,8 @@ namespace {
 
 using Limit = std::optional<std::size_t>;
 
-constexpr std::array listed_details{ContactDetail::regions, ContactDetail::vertices, ContactDetail::features};
+constexpr std::array listed_details{ContactDetail::regions, ContactDetail::vertices, ContactDetail::features,
+                                    ContactDetail::nearest};
 
 auto features_of(const Contact& contact) {
   return std::tuple(contact.kind, contact.feature_a, contact.feature_b);

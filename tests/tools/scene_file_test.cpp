@@ -86,6 +86,7 @@ const std::vector<BadScene> bad_scenes = {
     {scene_with("", R"("node": -1)"), "objects[0].node: expected a number from 0 or a name, got -1"},
     {scene_with("", R"("motion": "soft")"),
      R"(objects[0].motion: expected a motion, got "soft"; write deformable)"},
+    {scene_with("", R"("solid": 1)"), R"(objects[0].solid: expected true or false, got 1)"},
     {scene_with("", R"("margin": "x")"),
      R"(objects[0].margin: expected a number that is not negative, got "x")"},
     {scene_with("", R"("kind": 256)"), "objects[0].kind: expected a whole number from 0 to 255, got 256"},
@@ -185,7 +186,7 @@ TEST_CASE("a scene file with every key is read as it says") {
       {"name": "liver", "mesh": "meshes/liver.obj", "node": 2, "positions": "liver_####.ply",
        "transform": {"translate": [1, 2, 3], "rotate_degrees": [10, 20, 30], "scale": 0.5}},
       {"name": "tool", "mesh": "/tools/tool.stl", "node": "blade", "motion": "rigid", "layer": 4,
-       "collides_with": 3, "group": 9, "margin": 0.001, "kind": 255, "face_groups": [0, 255, 7], "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
+       "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
        "poses": [{"frame": 0}, {"frame": 100, "translate": [0, 0, 0]}, {"frame": 101, "rotate_degrees": [1, 2, 3]}]},
       {"mesh": "fox.glb", "animation": "Run"},
       {"mesh": "floor.obj", "motion": "fixed"}],
@@ -211,14 +212,15 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(liver.transform.translate == Eigen::Vector3d(1, 2, 3));
   CHECK(liver.transform.rotation == rotation_from_degrees({10, 20, 30}));
   CHECK(liver.transform.stretch == Eigen::Matrix3d(0.5 * Eigen::Matrix3d::Identity()));
-  CHECK((liver.layer == 1 && liver.collides_with == 0xFFFFFFFFU && liver.margin == 0 && liver.kind == 0));
+  CHECK((liver.layer == 1 && liver.collides_with == 0xFFFFFFFFU && liver.margin == 0 && liver.kind == 0 &&
+         !liver.solid));
 
   const auto& tool = scene.objects[1];
   CHECK(tool.mesh == "/tools/tool.stl");
   CHECK(std::get<std::string>(tool.node.value()) == "blade");
   CHECK(tool.motion == graze::Motion::rigid);
   CHECK((tool.layer == 4 && tool.collides_with == 3 && tool.group == 9 && tool.margin == 0.001 &&
-         tool.kind == 255));
+         tool.solid && tool.kind == 255));
   CHECK(tool.face_groups == std::vector<std::uint8_t>{0, 255, 7});
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's
   CHECK(tool.poses[0].translate == Eigen::Vector3d(0, 0, 1));
