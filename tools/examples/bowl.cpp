@@ -58,10 +58,10 @@ int main(int argc, char** argv) {
   settings.gravity = gravity;
   settings.iterations = 4;
   examples::World world(settings);
-  world.add(examples::fixed_body(examples::bowl(bowl_radius, bowl_thickness, 32, 8)), true);
+  world.add(examples::fixed_body(examples::bowl(bowl_radius, bowl_thickness, 32, 8)));
   for (int i = 0; i < balls; ++i) {
     const Eigen::Vector3d start = start_of(i);
-    world.add(examples::soft_ball(moved(examples::ball(ball_radius, 12, 8), start), start, 0.5, 1e-4), true);
+    world.add(examples::soft_ball(moved(examples::ball(ball_radius, 12, 8), start), start, 0.5, 1e-4));
   }
   const std::unique_ptr<graze::Recorder> recorder = examples::recorder_by_options(argc, argv, world.scene());
 

@@ -45,8 +45,8 @@ int main(int argc, char** argv) {
   settings.gravity = 0;
   settings.contacts.recovery_speed = 1;
   examples::World world(settings);
-  const examples::Body& left = world.add(ball_at({-radius / 2, 0, 0}), true);
-  const examples::Body& right = world.add(ball_at({radius / 2, 0.05, 0.03}), true);
+  const examples::Body& left = world.add(ball_at({-radius / 2, 0, 0}));
+  const examples::Body& right = world.add(ball_at({radius / 2, 0.05, 0.03}));
   const std::unique_ptr<graze::Recorder> recorder = examples::recorder_by_options(argc, argv, world.scene());
 
   graze::ReportHandle report = world.look();

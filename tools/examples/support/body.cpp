@@ -5,8 +5,9 @@
 namespace examples {
 namespace {
 
-Body body_of(const Shape& shape, double inverse_mass) {
+Body body_of(const Shape& shape, double inverse_mass, bool is_solid) {
   Body body;
+  body.is_solid = is_solid;
   body.mesh = std::make_shared<const graze::Mesh>(graze::Mesh::from_triangles(shape.points, shape.triangles));
   body.positions = shape.points;
   body.previous = shape.points;
@@ -47,11 +48,11 @@ void add_bend_springs(Body& body, double compliance) {
 }  // namespace
 
 Body fixed_body(const Shape& shape) {
-  return body_of(shape, 0);
+  return body_of(shape, 0, true);
 }
 
 Body cloth(const Shape& shape, double mass) {
-  Body body = body_of(shape, static_cast<double>(shape.points.size()) / mass);
+  Body body = body_of(shape, static_cast<double>(shape.points.size()) / mass, false);
   add_edge_springs(body, 1e-6);
   add_bend_springs(body, 1e-2);
   return body;
@@ -61,7 +62,7 @@ Body soft_ball(const Shape& shape, const Eigen::Vector3d& centre, double mass, d
   Shape with_centre = shape;
   with_centre.points.push_back(centre);
   const std::size_t surface_vertices = shape.points.size();
-  Body body = body_of(with_centre, static_cast<double>(surface_vertices) / (mass / 2));
+  Body body = body_of(with_centre, static_cast<double>(surface_vertices) / (mass / 2), true);
   body.inverse_masses.back() = 1 / (mass / 2);
   add_edge_springs(body, compliance);
   for (std::uint32_t vertex = 0; vertex < surface_vertices; ++vertex)

@@ -26,6 +26,14 @@ void apply(const graze::SurfaceWeights& weights, const Eigen::Vector3d& impulse,
     body.positions[weights.vertex[i]] += weights.weight[i] * body.inverse_masses[weights.vertex[i]] * impulse;
 }
 
+/// Returns whether a contact is inside a solid. Of two solids separation() says so. An open surface has no
+/// inside: what lies behind it is no deeper than what lies before it, so only the side of the solid counts.
+bool is_inside(const graze::Contact& contact, const Body& a, const Body& b) {
+  if (a.is_solid && b.is_solid) return contact.separation() < 0;
+  return (a.is_solid && contact.side_a == graze::Side::back) ||
+         (b.is_solid && contact.side_b == graze::Side::back);
+}
+
 }  // namespace
 
 void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bodies,
@@ -37,9 +45,10 @@ void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bod
     for (const graze::Contact& contact : report.contacts(pair)) {
       // Where an edge pierces a face, nothing says how deep. The vertices behind the face do.
       if (contact.kind == graze::ContactKind::EF && contact.distance == 0) continue;
+      const double sign = is_inside(contact, a, b) ? -1 : 1;
       constraints.push_back({&a, &b, graze::weights(*a.mesh, a.positions, contact.feature_a, contact.point_a),
                              graze::weights(*b.mesh, b.positions, contact.feature_b, contact.point_b),
-                             contact.push(), contact.separation()});
+                             sign * contact.normal, sign * contact.distance});
     }
   }
 }

@@ -52,10 +52,10 @@ graze::SceneSettings scene_settings(double contact_distance) {
 World::World(const WorldSettings& settings)
     : settings_(settings), scene_(scene_settings(settings.contact_distance)) {}
 
-Body& World::add(Body body, bool is_solid) {
+Body& World::add(Body body) {
   Body& added = bodies_.emplace_back(std::move(body));
   graze::ObjectSettings object;
-  object.solid = is_solid;
+  object.solid = added.is_solid;
   object.user_data = bodies_.size() - 1;
   const graze::ObjectId id = scene_.add(added.mesh, object);
   scene_.bind_positions(id, added.positions);

@@ -23,8 +23,8 @@ class World {
  public:
   explicit World(const WorldSettings& settings);
 
-  /// Adds a body, and returns it as it is in the world. A solid one has a closed shape.
-  Body& add(Body body, bool is_solid);
+  /// Adds a body, and returns it as it is in the world.
+  Body& add(Body body);
 
   /// Moves all bodies by a time step in seconds. Returns what graze saw at the beginning of it.
   graze::ReportHandle step(double time_step);
