@@ -23,7 +23,7 @@ constexpr double bowl_thickness = 0.1;
 constexpr double ball_radius = 0.1;
 constexpr int balls = 50;
 constexpr int frames = 600;
-constexpr int steps_per_frame = 3;
+constexpr int steps_per_frame = 2;
 constexpr double time_step = 1.0 / 60 / steps_per_frame;  // s
 constexpr double gravity = 9.81;
 
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   examples::WorldSettings settings;
   settings.contact_distance = 0.015;
   settings.gravity = gravity;
-  settings.iterations = 4;
+  settings.substeps = 5;
   examples::World world(settings);
   world.add(examples::fixed_body(examples::bowl(bowl_radius, bowl_thickness, 32, 8)));
   for (int i = 0; i < balls; ++i) {

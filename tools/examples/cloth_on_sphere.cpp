@@ -1,6 +1,9 @@
 // Lets a cloth of 40 × 40 vertices fall over a sphere, with XPBD, and drags the sphere to the side a little
 // while the cloth lies on it. At the end no vertex of the cloth is inside the sphere, and no edge pierces.
 //
+// graze looks once in each frame. The contact distance is more than surfaces come nearer in a frame. Between
+// two looks the contacts are evaluated at the positions of each substep.
+//
 // The sphere is solid. The cloth has no inside: it may touch the sphere with either side. Friction holds it
 // on the sphere. The cloth passes through itself where it folds: this example looks at one pair alone.
 
@@ -15,8 +18,7 @@
 namespace {
 
 constexpr int frames = 300;
-constexpr int steps_per_frame = 4;
-constexpr double time_step = 1.0 / 60 / steps_per_frame;  // s
+constexpr double time_step = 1.0 / 60;  // s
 
 struct Count {
   std::size_t contacts = 0;
@@ -40,10 +42,11 @@ Count count(const graze::FrameReport& report) {
 
 int main(int argc, char** argv) {
   examples::WorldSettings settings;
-  settings.contact_distance = 0.02;
+  settings.contact_distance = 0.04;
   settings.contacts.gap = 0.005;
   settings.contacts.friction = 0.5;
   settings.damping = 1;
+  settings.substeps = 5;
   settings.iterations = 3;
   examples::World world(settings);
   examples::Body& sphere = world.add(examples::fixed_body(examples::ball(0.3, 32, 15)));
@@ -54,7 +57,7 @@ int main(int argc, char** argv) {
   for (int frame = 0; frame < frames; ++frame) {
     const bool is_dragged = frame >= 150 && frame < 210;
     sphere.velocities.assign(sphere.velocities.size(), Eigen::Vector3d(is_dragged ? 0.1 : 0, 0, 0));
-    for (int i = 0; i < steps_per_frame; ++i) world.step(time_step);
+    world.step(time_step);
     if (frame % 50 == 49) {
       const Count found = count(*world.look());
       std::printf("frame %3d: %4zu contacts, %zu inside, %zu piercing, speed %.3f m/s\n", frame + 1,

@@ -46,15 +46,30 @@ void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bod
       // Where an edge pierces a face, nothing says how deep. The vertices behind the face do.
       if (contact.kind == graze::ContactKind::EF && contact.distance == 0) continue;
       const double sign = is_inside(contact, a, b) ? -1 : 1;
-      constraints.push_back({&a, &b, graze::weights(*a.mesh, a.positions, contact.feature_a, contact.point_a),
+      constraints.push_back({&a, &b, contact.feature_a, contact.feature_b,
+                             graze::weights(*a.mesh, a.positions, contact.feature_a, contact.point_a),
                              graze::weights(*b.mesh, b.positions, contact.feature_b, contact.point_b),
                              sign * contact.normal, sign * contact.distance});
     }
   }
 }
 
+void update(ContactConstraint& constraint) {
+  const Body& a = *constraint.a;
+  const Body& b = *constraint.b;
+  const graze::ContactGeometry now =
+      graze::evaluate(*a.mesh, a.positions, constraint.feature_a, *b.mesh, b.positions, constraint.feature_b);
+  if (!now.is_interior) return;
+  // Features that have passed through each other are pushed back to where they came from.
+  const double sign = now.normal.dot(constraint.direction) < 0 ? -1 : 1;
+  constraint.direction = sign * now.normal;
+  constraint.separation = sign * now.distance;
+  constraint.weights_a = graze::weights(*a.mesh, a.positions, constraint.feature_a, now.point_a);
+  constraint.weights_b = graze::weights(*b.mesh, b.positions, constraint.feature_b, now.point_b);
+}
+
 void solve(const ContactConstraint& constraint, const ContactSettings& settings, double time_step) {
-  const auto& [a, b, weights_a, weights_b, direction, separation_before] = constraint;
+  const auto& [a, b, feature_a, feature_b, weights_a, weights_b, direction, separation_before] = constraint;
   const Eigen::Vector3d apart = carried(weights_b, b->positions) - carried(weights_a, a->positions);
   const double wanted = std::min(settings.gap, separation_before + settings.recovery_speed * time_step);
   const double depth = wanted - direction.dot(apart);

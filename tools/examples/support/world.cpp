@@ -65,6 +65,15 @@ Body& World::add(Body body) {
 graze::ReportHandle World::step(double time_step) {
   const graze::ReportHandle report = scene_.step();
   collect_constraints(*report, bodies_, constraints_);
+  for (int i = 0; i < settings_.substeps; ++i) {
+    if (i > 0)
+      for (ContactConstraint& constraint : constraints_) update(constraint);
+    substep(time_step / settings_.substeps);
+  }
+  return report;
+}
+
+void World::substep(double time_step) {
   const Eigen::Vector3d gravity(0, 0, -settings_.gravity);
   const double kept = 1 - settings_.damping * time_step;
   for (Body& body : bodies_) predict(body, gravity, kept, time_step);
@@ -73,7 +82,6 @@ graze::ReportHandle World::step(double time_step) {
     for (const ContactConstraint& constraint : constraints_) solve(constraint, settings_.contacts, time_step);
   }
   for (Body& body : bodies_) update_velocities(body, time_step);
-  return report;
 }
 
 }  // namespace examples

@@ -13,7 +13,8 @@ struct WorldSettings {
   double contact_distance = 0.02;  ///< in m: the gap, and how far surfaces come nearer in one step
   double gravity = 9.81;           ///< in m/s², downwards
   double damping = 0.1;            ///< how much of a velocity is lost in a second
-  int iterations = 1;              ///< over springs and contacts in each step
+  int substeps = 1;                ///< into which a step is cut; graze looks once for all of them
+  int iterations = 1;              ///< over springs and contacts in each substep
   ContactSettings contacts;
 };
 
@@ -36,6 +37,8 @@ class World {
   [[nodiscard]] const std::deque<Body>& bodies() const { return bodies_; }
 
  private:
+  void substep(double time_step);
+
   WorldSettings settings_;
   graze::Scene scene_;
   std::deque<Body> bodies_;  ///< a deque, since constraints and programs point to bodies
