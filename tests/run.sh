@@ -38,11 +38,11 @@ run_preset release --parallel "$(nproc)"
 # - Undefined behaviour's checks of null, of object sizes and of virtual tables are left out. With them the build takes
 #   a tenth to a fifth longer. The address sanitizer sees what such accesses do, and the fuzzers have them.
 # - The contract's programs are left out, since they build libraries of their own. So are the checks of pages and
-#   of includes, which run nothing of graze.
+#   of includes, which run nothing of graze. The bowl of the examples would take minutes; the others do the same.
 # - An allocation is remembered with two of its callers. With thirty, what the exact oracles allocate takes a third of
 #   all tests' time.
 # - The libraries' sources are compiled in batches, as those of the demonstration are.
-run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_'
+run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_|^example_bowl'
 
 # The tests with threads once more under the thread sanitizer.
 tests/tsan_tbb.sh build/tsan-tbb
