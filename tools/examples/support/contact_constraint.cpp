@@ -43,7 +43,7 @@ void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bod
     Body& a = bodies[pair.user_data_a];
     Body& b = bodies[pair.user_data_b];
     for (const graze::Contact& contact : report.contacts(pair)) {
-      // Where an edge pierces a face, nothing says how deep. The vertices behind the face do.
+      // An edge that pierces a face does not say how deep it is. The vertices behind the face do.
       if (contact.kind == graze::ContactKind::EF && contact.distance == 0) continue;
       const double sign = is_inside(contact, a, b) ? -1 : 1;
       constraints.push_back({&a, &b, contact.feature_a, contact.feature_b,

@@ -6,7 +6,7 @@
 namespace examples {
 namespace {
 
-/// What is nearer than the gap is pushed out slowly. What is further away may come as near as the gap.
+/// Contacts nearer than the gap are pushed out slowly. Those further away may come as near as the gap.
 double speed_for(double separation, const RigidContactSettings& settings, double time_step) {
   const double speed = (settings.gap - separation) / time_step;
   return speed > 0 ? std::min(0.2 * speed, settings.recovery_speed) : speed;
