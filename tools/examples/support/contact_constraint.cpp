@@ -1,0 +1,63 @@
+#include "examples/support/contact_constraint.hpp"
+
+#include <algorithm>
+
+namespace examples {
+namespace {
+
+/// Returns the point that vertices carry by their weights.
+Eigen::Vector3d carried(const graze::SurfaceWeights& weights, const Points& points) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.count); ++i)
+    point += weights.weight[i] * points[weights.vertex[i]];
+  return point;
+}
+
+/// Returns the inverse of the mass that a push at the point feels.
+double inverse_mass(const graze::SurfaceWeights& weights, const Body& body) {
+  double sum = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.count); ++i)
+    sum += weights.weight[i] * weights.weight[i] * body.inverse_masses[weights.vertex[i]];
+  return sum;
+}
+
+void apply(const graze::SurfaceWeights& weights, const Eigen::Vector3d& impulse, Body& body) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.count); ++i)
+    body.positions[weights.vertex[i]] += weights.weight[i] * body.inverse_masses[weights.vertex[i]] * impulse;
+}
+
+}  // namespace
+
+void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bodies,
+                         std::vector<ContactConstraint>& constraints) {
+  constraints.clear();
+  for (const graze::PairReport& pair : report.pairs()) {
+    Body& a = bodies[pair.user_data_a];
+    Body& b = bodies[pair.user_data_b];
+    for (const graze::Contact& contact : report.contacts(pair)) {
+      if (contact.kind == graze::ContactKind::EF && getenv("NOEF")) continue;
+      constraints.push_back({&a, &b, graze::weights(*a.mesh, a.positions, contact.feature_a, contact.point_a),
+                             graze::weights(*b.mesh, b.positions, contact.feature_b, contact.point_b),
+                             contact.push(), contact.separation()});
+    }
+  }
+}
+
+void solve(const ContactConstraint& constraint, const ContactSettings& settings, double time_step) {
+  const auto& [a, b, weights_a, weights_b, direction, separation_before] = constraint;
+  const Eigen::Vector3d apart = carried(weights_b, b->positions) - carried(weights_a, a->positions);
+  const double wanted = std::min(settings.gap, separation_before + settings.recovery_speed * time_step);
+  const double depth = wanted - direction.dot(apart);
+  const double yielding = inverse_mass(weights_a, *a) + inverse_mass(weights_b, *b);
+  if (depth <= 0 || yielding == 0) return;
+
+  const Eigen::Vector3d apart_before = carried(weights_b, b->previous) - carried(weights_a, a->previous);
+  const Eigen::Vector3d moved = apart - apart_before;
+  const Eigen::Vector3d slid = moved - direction.dot(moved) * direction;
+  const double held = std::min(1.0, settings.friction * depth / std::max(slid.norm(), 1e-30));
+  const Eigen::Vector3d impulse = (depth * direction - held * slid) / yielding;
+  apply(weights_b, impulse, *b);
+  apply(weights_a, -impulse, *a);
+}
+
+}  // namespace examples

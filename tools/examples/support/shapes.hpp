@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+/// Shapes that the examples are made of. All lengths are in metres, and z is up.
+namespace examples {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// A surface of triangles. Those of closed shapes are wound so that they face outward.
+struct Shape {
+  Points points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Returns a closed ball about the origin, of `rings` circles of `segments` vertices and two poles.
+Shape ball(double radius, int segments, int rings);
+
+/// Returns the lower half of a spherical shell about the origin, open at the top. It is a closed surface with
+/// an inside: its wall has the given thickness, and its rim is at z = 0. `radius` is that of the hollow.
+Shape bowl(double radius, double thickness, int segments, int rings);
+
+/// Returns a closed box whose top is the middle of the plane z = 0. A floor is a large and thick one.
+Shape floor_box(double width, double thickness);
+
+/// Returns an open square sheet about the origin in the plane z = 0, facing up, of vertices × vertices points.
+Shape sheet(double width, int vertices);
+
+/// Returns a shape that is moved by an offset.
+Shape moved(Shape shape, const Eigen::Vector3d& offset);
+
+}  // namespace examples
