@@ -1,0 +1,154 @@
+// Cuts a cloth in two while it lies over two bars. Each second step cuts one more edge along the middle:
+// Scene::replace_mesh gives the cloth a mesh in which one more vertex is doubled. The contacts on the bars go on:
+// their pairs stay `touching`, and each keeps the frame in which it began. At the end the halves hang over one
+// bar each, and no vertex is inside a bar.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdio>
+#include <deque>
+#include <graze/graze.hpp>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "examples/support/contact_constraint.hpp"
+#include "examples/support/record_option.hpp"
+#include "examples/support/xpbd.hpp"
+
+namespace {
+
+constexpr std::uint32_t side = 41;  // vertices of the cloth along each side, an odd number
+constexpr double width = 1;  // m
+constexpr double mass = 0.3;  // kg
+constexpr double contact_distance = 0.015;  // m
+constexpr double time_step = 1.0 / 300;  // s
+constexpr int steps = 1200;
+constexpr int cut_from = 600;  // the step of the first cut
+constexpr int steps_per_cut = 5;
+
+/// Returns the flat sheet with the first `edges` edges of its middle column cut. The vertices along the cut are
+/// doubled: the faces to the right of it use new ones at the end of the list. The tip of the cut is still one.
+examples::Shape cut_sheet(std::uint32_t edges) {
+  examples::Shape shape = examples::sheet(width, int{side});
+  const std::uint32_t doubled = edges == side - 1 ? side : edges;
+  for (std::uint32_t row = 0; row < doubled; ++row) {
+    const std::uint32_t old = row * side + side / 2;
+    const auto copy = static_cast<std::uint32_t>(shape.points.size());
+    shape.points.emplace_back(shape.points[old]);
+    for (auto& triangle : shape.triangles) {
+      const bool is_right = std::any_of(triangle.begin(), triangle.end(),
+                                        [&](auto corner) { return shape.points[corner].x() > width / side / 2; });
+      if (is_right) std::replace(triangle.begin(), triangle.end(), old, copy);
+    }
+  }
+  return shape;
+}
+
+/// Returns a bar along y, whose top is in the middle of the plane z = 0.
+examples::Shape bar() {
+  examples::Shape shape = examples::floor_box(1, 1);
+  for (Eigen::Vector3d& point : shape.points) point = point.cwiseProduct(Eigen::Vector3d(0.06, 1.2, 0.06));
+  return shape;
+}
+
+/// Cuts the cloth up to an edge. Old vertices keep their numbers. A new one begins where its twin is, and as
+/// fast: without a cut between them nothing changes.
+void cut(graze::Scene& scene, graze::ObjectId id, examples::Body& cloth, std::uint32_t edges) {
+  examples::Body after = examples::cloth(cut_sheet(edges), mass);
+  const std::size_t before = cloth.positions.size();
+  for (std::size_t i = 0; i < after.positions.size(); ++i) {
+    const std::size_t from = i < before ? i : (i - side * side) * side + side / 2;
+    after.positions[i] = cloth.positions[from];
+    after.velocities[i] = cloth.velocities[from];
+  }
+  std::vector<std::uint32_t> new_of_old(before);
+  std::iota(new_of_old.begin(), new_of_old.end(), 0U);
+  scene.replace_mesh(id, after.mesh, new_of_old);  // this also ends the binding of the old positions
+  cloth = std::move(after);
+  scene.bind_positions(id, cloth.positions);
+}
+
+/// Counts the contacts of two consecutive reports that are the same one, and of these those that have lost the
+/// frame in which they began. Edges have other numbers in each mesh, so contacts of edges of the cloth are left out.
+struct Survivors {
+  std::size_t kept = 0;
+  std::size_t lost = 0;
+
+  void count(const graze::FrameReport& before, const graze::FrameReport& after) {
+    for (std::size_t i = 0; i < std::min(before.pairs().size(), after.pairs().size()); ++i)
+      for (const graze::Contact& old : before.contacts(before.pairs()[i]))
+        for (const graze::Contact& now : after.contacts(after.pairs()[i])) {
+          const bool is_same = old.feature_a == now.feature_a && old.feature_b == now.feature_b;
+          if (!is_same || old.feature_b.kind == graze::FeatureKind::edge) continue;
+          ++(now.since == old.since ? kept : lost);
+        }
+  }
+};
+
+void move(std::deque<examples::Body>& bodies, const std::vector<examples::ContactConstraint>& constraints) {
+  for (examples::Body& body : bodies) predict(body, {0, 0, -9.81}, 1, time_step);
+  for (int i = 0; i < 4; ++i) {
+    for (examples::Body& body : bodies) solve_springs(body, time_step);
+    for (const examples::ContactConstraint& constraint : constraints) solve(constraint, {}, time_step);
+  }
+  for (examples::Body& body : bodies) update_velocities(body, time_step);
+}
+
+bool are_touching(const graze::FrameReport& report) {
+  return report.pairs().size() == 2 && std::all_of(report.pairs().begin(), report.pairs().end(), [](auto& pair) {
+           return pair.phase == graze::PairPhase::touching && pair.inside == graze::Inside::none;
+         });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  graze::SceneSettings settings;
+  settings.contact_distance = contact_distance;
+  settings.detail = graze::ContactDetail::nearest;
+  settings.threads = 1;
+  graze::Scene scene(settings);
+  std::deque<examples::Body> bodies;
+  for (const double x : {-0.25, 0.25})
+    bodies.push_back(examples::fixed_body(moved(bar(), {x, 0, -0.01})));
+  bodies.push_back(examples::cloth(cut_sheet(0), mass));
+  graze::ObjectId cloth;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    graze::ObjectSettings object;
+    object.user_data = i;
+    object.solid = i < 2;
+    object.motion = i < 2 ? graze::Motion::fixed : graze::Motion::deformable;
+    cloth = scene.add(bodies[i].mesh, object);
+  }
+  scene.bind_positions(cloth, bodies[2].positions);
+  const std::unique_ptr<graze::Recorder> recorder = examples::recorder_by_options(argc, argv, scene);
+
+  std::uint32_t edges = 0;
+  Survivors survivors;
+  bool holds = true;
+  graze::ReportHandle last;
+  std::vector<examples::ContactConstraint> constraints;
+  for (int step = 0; step < steps; ++step) {
+    const bool cuts = step >= cut_from && step % steps_per_cut == 0 && edges < side - 1;
+    if (cuts) cut(scene, cloth, bodies[2], ++edges);
+    const graze::ReportHandle report = scene.step();
+    if (cuts) survivors.count(*last, *report);
+    if (step >= cut_from) holds = holds && are_touching(*report);
+    collect_constraints(*report, bodies, constraints);
+    move(bodies, constraints);
+    last = report;
+    if (step % 100 == 99) {
+      double low=1; for (auto& p : bodies[2].positions) low=std::min(low,p.z());
+      double pierce=0; for (auto& c : report->contacts()) pierce += c.kind==graze::ContactKind::EF;
+      std::printf("%d: pairs %zu contacts %zu low %f speed %f inside %d pierce %g\n", step, report->pairs().size(), report->contacts().size(), low, examples::largest_speed(bodies[2]), report->pairs().empty()?-1:int(report->pairs()[0].inside), pierce);
+    }
+  }
+  std::size_t old = 0;
+  for (const graze::Contact& contact : last->contacts()) old += contact.since < cut_from;
+  std::printf("end: %zu contacts, %zu began before the first cut\n", last->contacts().size(), old);
+  std::printf("kept %zu lost %zu touching %d cut %u gap %f\n", survivors.kept, survivors.lost, int{holds}, edges,
+    (bodies[2].positions[side/2]-bodies[2].positions[side*side]).norm());
+  return holds && survivors.lost == 0 && survivors.kept > 0 && old > 0 ? 0 : 1;
+}
