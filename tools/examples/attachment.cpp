@@ -62,7 +62,7 @@ class Simulation {
     for (std::size_t i = 0; i < 2; ++i) {
       bodies_.push_back(flat_ball(i == 0 ? 1 : -1));
       graze::ObjectSettings object;
-      object.solid = true;
+      object.solid = bodies_[i].is_solid;
       object.user_data = i;
       object.face_groups = groups_[i] = groups_of(*bodies_[i].mesh);
       ids[i] = scene.add(bodies_[i].mesh, object);

@@ -26,18 +26,20 @@ struct Body {
   Points velocities;
   std::vector<double> inverse_masses;  ///< 0 where nothing pushes a vertex
   std::vector<Spring> springs;
+  bool is_solid = false;  ///< whether the surface is closed and bounds a volume
 };
 
-/// Returns a body without springs that nothing pushes. It moves by the velocities that a program gives it.
+/// Returns a solid body without springs that nothing pushes. It moves by the velocities that a program gives
+/// it.
 Body fixed_body(const Shape& shape);
 
-/// Returns a cloth. Each vertex has the same share of the mass. It resists stretch along the edges of the mesh,
-/// and bending across them.
+/// Returns a cloth, which is no solid. Each vertex has the same share of the mass. It resists stretch along
+/// the edges of the mesh, and bending across them.
 Body cloth(const Shape& shape, double mass);
 
-/// Returns a soft ball of a closed shape. Its last vertex is at `centre`, belongs to no face and has half of
-/// the mass. Springs go along the edges of the mesh, and from each vertex to that centre. So the ball stays
-/// round without any measure of its volume.
+/// Returns a solid soft ball of a closed shape. Its last vertex is at `centre`, belongs to no face and has
+/// half of the mass. Springs go along the edges of the mesh, and from each vertex to that centre. So the ball
+/// stays round without any measure of its volume.
 Body soft_ball(const Shape& shape, const Eigen::Vector3d& centre, double mass, double compliance);
 
 /// Returns kinetic and potential energy of a body, in J. Height 0 has none. Springs are left out.

@@ -26,6 +26,14 @@ void apply(const graze::SurfaceWeights& weights, const Eigen::Vector3d& impulse,
     body.positions[weights.vertex[i]] += weights.weight[i] * body.inverse_masses[weights.vertex[i]] * impulse;
 }
 
+/// Returns whether a contact is inside a solid. Of two solids separation() says so. An open surface has no
+/// inside: what lies behind it is no deeper than what lies before it, so only the side of the solid counts.
+bool is_inside(const graze::Contact& contact, const Body& a, const Body& b) {
+  if (a.is_solid && b.is_solid) return contact.separation() < 0;
+  return (a.is_solid && contact.side_a == graze::Side::back) ||
+         (b.is_solid && contact.side_b == graze::Side::back);
+}
+
 }  // namespace
 
 void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bodies,
@@ -35,16 +43,33 @@ void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bod
     Body& a = bodies[pair.user_data_a];
     Body& b = bodies[pair.user_data_b];
     for (const graze::Contact& contact : report.contacts(pair)) {
-      if (contact.kind == graze::ContactKind::EF && getenv("NOEF")) continue;
-      constraints.push_back({&a, &b, graze::weights(*a.mesh, a.positions, contact.feature_a, contact.point_a),
+      // Where an edge pierces a face, nothing says how deep. The vertices behind the face do.
+      if (contact.kind == graze::ContactKind::EF && contact.distance == 0) continue;
+      const double sign = is_inside(contact, a, b) ? -1 : 1;
+      constraints.push_back({&a, &b, contact.feature_a, contact.feature_b,
+                             graze::weights(*a.mesh, a.positions, contact.feature_a, contact.point_a),
                              graze::weights(*b.mesh, b.positions, contact.feature_b, contact.point_b),
-                             contact.push(), contact.separation()});
+                             sign * contact.normal, sign * contact.distance});
     }
   }
 }
 
+void update(ContactConstraint& constraint) {
+  const Body& a = *constraint.a;
+  const Body& b = *constraint.b;
+  const graze::ContactGeometry now =
+      graze::evaluate(*a.mesh, a.positions, constraint.feature_a, *b.mesh, b.positions, constraint.feature_b);
+  if (!now.is_interior) return;
+  // Features that have passed through each other are pushed back to where they came from.
+  const double sign = now.normal.dot(constraint.direction) < 0 ? -1 : 1;
+  constraint.direction = sign * now.normal;
+  constraint.separation = sign * now.distance;
+  constraint.weights_a = graze::weights(*a.mesh, a.positions, constraint.feature_a, now.point_a);
+  constraint.weights_b = graze::weights(*b.mesh, b.positions, constraint.feature_b, now.point_b);
+}
+
 void solve(const ContactConstraint& constraint, const ContactSettings& settings, double time_step) {
-  const auto& [a, b, weights_a, weights_b, direction, separation_before] = constraint;
+  const auto& [a, b, feature_a, feature_b, weights_a, weights_b, direction, separation_before] = constraint;
   const Eigen::Vector3d apart = carried(weights_b, b->positions) - carried(weights_a, a->positions);
   const double wanted = std::min(settings.gap, separation_before + settings.recovery_speed * time_step);
   const double depth = wanted - direction.dot(apart);

@@ -26,7 +26,8 @@ Shape bowl(double radius, double thickness, int segments, int rings);
 /// Returns a closed box whose top is the middle of the plane z = 0. A floor is a large and thick one.
 Shape floor_box(double width, double thickness);
 
-/// Returns an open square sheet about the origin in the plane z = 0, facing up, of vertices × vertices points.
+/// Returns an open square sheet about the origin in the plane z = 0, facing up, of vertices × vertices
+/// points.
 Shape sheet(double width, int vertices);
 
 /// Returns a shape that is moved by an offset.
