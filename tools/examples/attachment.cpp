@@ -121,11 +121,8 @@ class Simulation {
 }  // namespace
 
 int main(int argc, char** argv) {
-  graze::SceneSettings settings;
-  settings.contact_distance = contact_distance;
-  settings.detail = graze::ContactDetail::nearest;
-  settings.threads = 1;
-  graze::Scene scene(settings);
+  graze::Scene scene(
+      {.contact_distance = contact_distance, .detail = graze::ContactDetail::nearest, .threads = 1});
   const std::unique_ptr<graze::Recorder> recorder = examples::recorder_by_options(argc, argv, scene);
   Simulation simulation(scene);
   simulation.glue(*scene.step());

@@ -120,12 +120,10 @@ class Simulation {
 }  // namespace
 
 int main(int argc, char** argv) {
-  graze::SceneSettings settings;
-  settings.contact_distance = contact_distance;
-  settings.range = std::numeric_limits<double>::infinity();
-  settings.detail = graze::ContactDetail::nearest;
-  settings.threads = 1;
-  graze::Scene scene(settings);
+  graze::Scene scene({.contact_distance = contact_distance,
+                      .range = std::numeric_limits<double>::infinity(),
+                      .detail = graze::ContactDetail::nearest,
+                      .threads = 1});
   const std::unique_ptr<graze::Recorder> recorder = examples::recorder_by_options(argc, argv, scene);
   examples::Body cloth = examples::cloth(examples::sheet(1, 17), 0.5);
   for (examples::Spring& spring : cloth.springs) spring.compliance = 1e-3;
