@@ -26,7 +26,7 @@ using examples::Points;
 constexpr double d_hat = 0.01;             // m, where the barrier begins
 constexpr double contact_distance = 0.02;  // m, of the scene: d_hat and a margin
 constexpr double stiffness = 200;          // N/m, of the barrier
-constexpr int steps = 120;
+constexpr int steps = 60;
 constexpr int most_iterations = 50;
 constexpr double tolerance = 1e-4;  // m, of a step of Newton's method
 

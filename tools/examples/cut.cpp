@@ -25,8 +25,8 @@ constexpr double mass = 0.3;                // kg
 constexpr double contact_distance = 0.015;  // m
 constexpr double time_step = 1.0 / 300;     // s
 constexpr double damping = 5;               // 1/s
-constexpr int steps = 1200;
-constexpr int cut_from = 600;  // the step of the first cut
+constexpr int steps = 900;
+constexpr int cut_from = 400;  // the step of the first cut
 constexpr int steps_per_cut = 5;
 
 /// Returns the flat sheet with the first `edges` edges of its middle column cut. The vertices along the cut
