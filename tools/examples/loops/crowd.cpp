@@ -16,11 +16,12 @@ constexpr double turning_speed = 2.5;  // rad/s
 constexpr double walked_radius = 20;   // m, about the middle of the terrain
 constexpr double kept_distance = 0.8;  // m, between the middles of two characters
 
-/// A figure in a long robe, with a neck and a head. It reaches 1 m into the ground: a prop that it walks into is
-/// then pushed aside, as the way out below is longer. With feet at the ground it is pushed into the ground.
+/// A figure in a long robe, with a neck and a head. It reaches 1 m into the ground: a prop that it walks into
+/// is then pushed aside, as the way out below is longer. With feet at the ground it is pushed into the
+/// ground.
 Shape figure() {
-  const Eigen::Vector2d outline[] = {{0, -1}, {0.34, -0.9}, {0.34, 0.1}, {0.32, 0.7},  {0.3, 1.1},
-                                     {0.28, 1.25}, {0.1, 1.35}, {0.15, 1.45}, {0.16, 1.6}, {0, height}};
+  const Eigen::Vector2d outline[] = {{0, -1},      {0.34, -0.9}, {0.34, 0.1},  {0.32, 0.7}, {0.3, 1.1},
+                                     {0.28, 1.25}, {0.1, 1.35},  {0.15, 1.45}, {0.16, 1.6}, {0, height}};
   constexpr int rings = 25;
   std::vector<Eigen::Vector2d> line;
   const int corners = static_cast<int>(std::size(outline)) - 1;
@@ -34,8 +35,7 @@ Shape figure() {
 
 Eigen::Vector2d place_in_circle(std::uint32_t seed, double radius) {
   const double angle = 2 * std::numbers::pi * random_number(2 * seed);
-  return radius * std::sqrt(random_number(2 * seed + 1)) *
-         Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  return radius * std::sqrt(random_number(2 * seed + 1)) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
 }  // namespace
@@ -89,7 +89,8 @@ void Crowd::steer(double time) {
     Character& character = characters_[i];
     const Eigen::Vector2d way = character.goal - character.place;
     if (way.norm() < 1) turn_away(i);
-    const double angle = std::remainder(std::atan2(way.y(), way.x()) - character.heading, 2 * std::numbers::pi);
+    const double angle =
+        std::remainder(std::atan2(way.y(), way.x()) - character.heading, 2 * std::numbers::pi);
     character.heading += std::clamp(angle, -turning_speed * time, turning_speed * time);
   }
 }
@@ -118,8 +119,8 @@ void Crowd::compute_normals() {
   }
 }
 
-Eigen::Vector3d Crowd::velocity_at(std::size_t index, const graze::Feature& feature, const Eigen::Vector3d& point,
-                                   double time) const {
+Eigen::Vector3d Crowd::velocity_at(std::size_t index, const graze::Feature& feature,
+                                   const Eigen::Vector3d& point, double time) const {
   const Character& character = characters_[index];
   const graze::SurfaceWeights shares = graze::weights(*mesh_, character.points, feature, point);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();

@@ -1,11 +1,13 @@
-// A game: 200 animated characters and 300 rigid props on a terrain, at 60 frames a second. graze's step runs beside
-// the frame's other work. Characters push props, and props push each other.
+// A game: 200 animated characters and 300 rigid props on a terrain, at 60 frames a second. graze's step runs
+// beside the frame's other work. Characters push props, and props push each other.
 //
 // A frame has five parts:
 //
-// 1. Animation writes the points of all characters and the poses of all props. No step runs meanwhile, since graze
+// 1. Animation writes the points of all characters and the poses of all props. No step runs meanwhile, since
+// graze
 //    reads the points where they are.
-// 2. step_async() begins the step. Meanwhile the frame's other work reads the same points: steering, and normals.
+// 2. step_async() begins the step. Meanwhile the frame's other work reads the same points: steering, and
+// normals.
 // 3. wait() returns the report.
 // 4. Begin and end events change the game: a prop hops when a character begins to touch it, and a character
 //    stretches high in each step until nothing touches it.
@@ -32,15 +34,21 @@ constexpr double frame_time = 1.0 / 60;  // s
 /// In m. What comes nearer than this in a frame is seen one frame before it touches: up to 3.6 m/s. What is
 /// faster goes in, and is pushed out, since all surfaces are solid.
 constexpr double contact_distance = 0.06;
-constexpr int iterations = 8;  // over all contacts
+constexpr int iterations = 8;    // over all contacts
 constexpr double hop_speed = 2;  // m/s
 
 /// What an object is. It stands in the upper half of its user data, and its index in the lower half.
 enum class Role : std::uint64_t { ground, character, prop };
 
-std::uint64_t user_data(Role role, std::size_t index) { return static_cast<std::uint64_t>(role) << 32 | index; }
-Role role_of(std::uint64_t data) { return static_cast<Role>(data >> 32); }
-std::size_t index_of(std::uint64_t data) { return data & 0xffffffff; }
+std::uint64_t user_data(Role role, std::size_t index) {
+  return static_cast<std::uint64_t>(role) << 32 | index;
+}
+Role role_of(std::uint64_t data) {
+  return static_cast<Role>(data >> 32);
+}
+std::size_t index_of(std::uint64_t data) {
+  return data & 0xffffffff;
+}
 
 /// Layers. Characters walk on the ground and dodge each other by themselves, so graze need not look at that.
 constexpr std::uint32_t ground_layer = 1, character_layer = 2, prop_layer = 4;
@@ -50,9 +58,9 @@ class Game {
   explicit Game(unsigned threads) : scene_(settings(threads)) {
     add(make_mesh(loops::terrain()), graze::Motion::fixed, Role::ground, 0, ground_layer, prop_layer);
     for (std::size_t i = 0; i < crowd_.characters().size(); ++i)
-      scene_.bind_positions(add(crowd_.mesh(), graze::Motion::deformable, Role::character, i, character_layer,
-                                prop_layer),
-                            crowd_.characters()[i].points);
+      scene_.bind_positions(
+          add(crowd_.mesh(), graze::Motion::deformable, Role::character, i, character_layer, prop_layer),
+          crowd_.characters()[i].points);
     for (std::size_t i = 0; i < props_.props().size(); ++i) {
       prop_ids_.push_back(add(props_.mesh(i), graze::Motion::rigid, Role::prop, i, prop_layer, ~0u));
       highest_.push_back(props_.props()[i].position);
@@ -129,8 +137,10 @@ class Game {
 
   static long count_touching_pairs(const graze::FrameReport& report) {
     return std::count_if(report.pairs().begin(), report.pairs().end(), [](const graze::PairReport& pair) {
-      const bool is_touching = pair.phase == graze::PairPhase::began || pair.phase == graze::PairPhase::touching;
-      return is_touching && role_of(pair.user_data_a) == Role::character && role_of(pair.user_data_b) == Role::prop;
+      const bool is_touching =
+          pair.phase == graze::PairPhase::began || pair.phase == graze::PairPhase::touching;
+      return is_touching && role_of(pair.user_data_a) == Role::character &&
+             role_of(pair.user_data_b) == Role::prop;
     });
   }
 
@@ -143,8 +153,8 @@ class Game {
     return settings;
   }
 
-  graze::ObjectId add(std::shared_ptr<const graze::Mesh> mesh, graze::Motion motion, Role role, std::size_t index,
-                      std::uint32_t layer, std::uint32_t collides_with) {
+  graze::ObjectId add(std::shared_ptr<const graze::Mesh> mesh, graze::Motion motion, Role role,
+                      std::size_t index, std::uint32_t layer, std::uint32_t collides_with) {
     graze::ObjectSettings object;
     object.motion = motion;
     object.layer = layer;
@@ -195,8 +205,8 @@ void print(const FrameTimes& times) {
   print("graze's step, by itself", times.step);
   const std::vector<double>& frames = times.frame.values();
   const auto late = std::count_if(frames.begin(), frames.end(), [](double ms) { return ms > 1000 / 60.0; });
-  std::printf("  %zu of %zu frames were ready in time for 60 Hz\n", frames.size() - static_cast<std::size_t>(late),
-              frames.size());
+  std::printf("  %zu of %zu frames were ready in time for 60 Hz\n",
+              frames.size() - static_cast<std::size_t>(late), frames.size());
 }
 
 }  // namespace
@@ -231,16 +241,18 @@ int main(int argc, char** argv) {
     diagnostics += report->diagnostics().size() + (report->tag() != frame);
     lost += game.count_lost();
     if (frame % 60 == 0)
-      std::printf("frame %4zu: %4zu pairs, %5zu contacts\n", frame, report->pairs().size(), report->contacts().size());
+      std::printf("frame %4zu: %4zu pairs, %5zu contacts\n", frame, report->pairs().size(),
+                  report->contacts().size());
   }
 
   print(times);
   const bool agree = game.count_touches() == Game::count_touching_pairs(*report);
-  std::printf("%zu contacts began, %zu ended, %zu events without their partner\n", events.began(), events.ended(),
-              events.mistakes());
+  std::printf("%zu contacts began, %zu ended, %zu events without their partner\n", events.began(),
+              events.ended(), events.mistakes());
   std::printf("%zu props were pushed away, %zu left the terrain\n", game.count_moved(), lost);
   finish(options, recorder.get());
-  const bool holds = events.mistakes() == 0 && agree && diagnostics == 0 && lost == 0 && game.count_moved() > 0;
+  const bool holds =
+      events.mistakes() == 0 && agree && diagnostics == 0 && lost == 0 && game.count_moved() > 0;
   std::printf("%s\n", holds ? "the game holds" : "THE GAME DOES NOT HOLD");
   return holds ? 0 : 1;
 }

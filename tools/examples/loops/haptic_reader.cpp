@@ -7,13 +7,29 @@ namespace {
 
 constexpr double stiffness = 0.5;  // N/mm, between the hand and the proxy
 
-/// Returns the plane of a contact where both surfaces are now. The report's direction is kept: that of the closest
-/// points turns quickly where they have left their features, and turns round where they change sides.
-ConstraintPlane moved_plane(const graze::Contact& contact, const graze::ContactGeometry& now) {
-  ConstraintPlane plane;
-  plane.direction = contact.push();
-  plane.separation = plane.direction.dot(now.point_b - now.point_a);
-  return plane;
+/// The proxy keeps this distance from the organs, in mm. So it is always outside, and its closest points have
+/// a direction. Without it, the direction would be undefined where the two touch.
+constexpr double skin = 0.3;
+
+/// How much of a lost skin the proxy wins back in a tick, in mm. Where it is held between two surfaces, more
+/// would throw it out.
+constexpr double recovery = 0.02;
+
+/// Returns the plane that a contact sets for the hand, if `direction` and `separation` are those at the
+/// proxy. The proxy itself is always in front of it, but for the recovery. So the force does not grow by
+/// itself.
+ConstraintPlane plane_for_hand(const Eigen::Vector3d& direction, double separation, const Held& held) {
+  const double kept = std::min(skin, separation + recovery);
+  return {direction, separation - kept + direction.dot(held.hand.translation() - held.proxy)};
+}
+
+/// How far the proxy moves in a tick at most, in mm: faster than the hand, but not further than the planes
+/// are good for. Without friction the proxy would otherwise slide from face to face in a single tick.
+constexpr double furthest_step = 0.1;
+
+Eigen::Vector3d limited(const Eigen::Vector3d& step) {
+  const double length = step.norm();
+  return length > furthest_step ? Eigen::Vector3d(furthest_step / length * step) : step;
 }
 
 }  // namespace
@@ -21,7 +37,12 @@ ConstraintPlane moved_plane(const graze::Contact& contact, const graze::ContactG
 HapticReader::HapticReader(const graze::Scene& scene, OrganHistory& history,
                            const std::vector<Instrument>& instruments,
                            const std::vector<std::shared_ptr<const graze::Mesh>>& organs)
-    : scene_(scene), history_(history), instruments_(instruments), organs_(organs), forces_(instruments.size()) {
+    : scene_(scene),
+      history_(history),
+      instruments_(instruments),
+      organs_(organs),
+      forces_(instruments.size()) {
+  for (std::size_t i = 0; i < instruments.size(); ++i) held_[i].proxy = instruments[i].pose(0).translation();
   for (std::size_t i = 0; i < 2; ++i) organ_points_[i] = history.at(0).points[i];
   moved_planes_.reserve(4096);
   report_planes_.reserve(4096);
@@ -37,19 +58,23 @@ bool HapticReader::tick(double time) {
   if (report->tag() != frame_) seen_ = time;
   frame_ = report->tag();
   frame_begin_ = history_.at(frame_).begin;
+  held_of_report_ = history_.at(frame_).held;
   blend_organs(time);
   history_.release();
 
   for (std::size_t i = 0; i < instruments_.size(); ++i) {
-    add_planes(*report, i, instruments_[i].pose(time));
-    forces_[i].moved = stiffness * way_to_proxy(moved_planes_);
+    held_[i].hand = instruments_[i].pose(time);
+    add_planes(*report, i);
+    const Eigen::Vector3d& hand = held_[i].hand.translation();
+    held_[i].proxy += limited(hand + way_to_proxy(moved_planes_) - held_[i].proxy);
+    forces_[i].moved = stiffness * (held_[i].proxy - hand);
     forces_[i].report = stiffness * way_to_proxy(report_planes_);
   }
   return true;
 }
 
-/// Moves the organs from the frame before to this one in the time until the next is due. So they are felt one frame
-/// late, but do not jump.
+/// Moves the organs from the frame before to this one in the time until the next is due. So they are felt one
+/// frame late, but do not jump.
 void HapticReader::blend_organs(double time) {
   const auto share = static_cast<float>(std::min(1.0, (time - seen_) / simulation_step));
   const Snapshot& to = history_.at(frame_);
@@ -59,11 +84,13 @@ void HapticReader::blend_organs(double time) {
       organ_points_[i][j] = from.points[i][j] + share * (to.points[i][j] - from.points[i][j]);
 }
 
-void HapticReader::add_planes(const graze::FrameReport& report, std::size_t instrument,
-                              const Eigen::Isometry3d& pose) {
+void HapticReader::add_planes(const graze::FrameReport& report, std::size_t instrument) {
   moved_planes_.clear();
   report_planes_.clear();
+  const Held& held = held_[instrument];
   const graze::Mesh& mesh = *instruments_[instrument].mesh();
+  Eigen::Isometry3d pose = held.hand;
+  pose.translation() = held.proxy;
   instrument_points_.clear();
   for (const Eigen::Vector3d& point : mesh.rest()) instrument_points_.push_back(pose * point);
 
@@ -71,14 +98,13 @@ void HapticReader::add_planes(const graze::FrameReport& report, std::size_t inst
     // Organs were added first, so the organ is a.
     if (pair.user_data_b != first_instrument + instrument || pair.user_data_a >= first_instrument) continue;
     for (const graze::Contact& contact : report.contacts(pair)) {
-      // Only the instrument's own vertices are points of the proxy. An organ's vertex inside the rod would push it
-      // sideways, by the shortest way out of the rod, and against what its vertices say.
-      if (contact.feature_b.kind != graze::FeatureKind::vertex) continue;
-      report_planes_.push_back({contact.push(), contact.separation()});
+      report_planes_.push_back(
+          plane_for_hand(contact.push(), contact.separation(), held_of_report_[instrument]));
       const graze::ContactGeometry now =
-          graze::evaluate(*organs_[pair.user_data_a], organ_points_[pair.user_data_a], contact.feature_a, mesh,
-                          instrument_points_, contact.feature_b);
-      moved_planes_.push_back(moved_plane(contact, now));
+          graze::evaluate(*organs_[pair.user_data_a], organ_points_[pair.user_data_a], contact.feature_a,
+                          mesh, instrument_points_, contact.feature_b);
+      const Eigen::Vector3d push = now.separation < 0 ? Eigen::Vector3d(-now.normal) : now.normal;
+      moved_planes_.push_back(plane_for_hand(push, now.separation, held));
     }
   }
 }

@@ -10,22 +10,26 @@ namespace loops {
 
 /// What the hand feels at one instrument in one tick, in N.
 struct Forces {
-  Eigen::Vector3d moved = Eigen::Vector3d::Zero();   ///< from contacts that are moved to where the instrument is now
+  Eigen::Vector3d moved =
+      Eigen::Vector3d::Zero();  ///< from contacts that are moved to where the instrument is now
   Eigen::Vector3d report = Eigen::Vector3d::Zero();  ///< from contacts as they were in the report
 };
 
-/// The 1 kHz thread's part: it reads the latest report and computes forces. It waits for nobody. It takes memory
-/// only if there are more contacts than ever before.
+/// The 1 kHz thread's part: it reads the latest report and computes forces. It waits for nobody. It takes
+/// memory only if there are more contacts than ever before.
 class HapticReader {
  public:
   HapticReader(const graze::Scene& scene, OrganHistory& history, const std::vector<Instrument>& instruments,
                const std::vector<std::shared_ptr<const graze::Mesh>>& organs);
 
-  /// Reads the latest report, and computes the forces for where the instruments are at a time in seconds. Returns
-  /// false before the first report.
+  /// Reads the latest report, and computes the forces for where the instruments are at a time in seconds.
+  /// Returns false before the first report.
   bool tick(double time);
 
   [[nodiscard]] const Forces& forces(std::size_t instrument) const { return forces_[instrument]; }
+  /// Returns where the instruments are held, and where their proxies are. graze is to see the proxy: so the
+  /// contacts are those of a surface that touches, and not of one that is deep inside.
+  [[nodiscard]] const std::array<Held, 2>& held() const { return held_; }
   /// Returns the frame that the last tick was about.
   [[nodiscard]] std::uint64_t frame() const { return frame_; }
   [[nodiscard]] Clock::time_point frame_begin() const { return frame_begin_; }
@@ -34,7 +38,7 @@ class HapticReader {
 
  private:
   void blend_organs(double time);
-  void add_planes(const graze::FrameReport& report, std::size_t instrument, const Eigen::Isometry3d& pose);
+  void add_planes(const graze::FrameReport& report, std::size_t instrument);
 
   const graze::Scene& scene_;
   OrganHistory& history_;
@@ -47,6 +51,7 @@ class HapticReader {
   std::vector<Eigen::Vector3f> organ_points_[2];
   std::vector<Eigen::Vector3d> instrument_points_;
   std::vector<ConstraintPlane> moved_planes_, report_planes_;
+  std::array<Held, 2> held_, held_of_report_;
   std::vector<Forces> forces_;
 };
 

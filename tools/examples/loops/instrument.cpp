@@ -35,7 +35,8 @@ Eigen::Isometry3d Instrument::pose(double time) const {
   const double sideways = 6 * std::sin(3 * t) + 0.05 * std::sin(60 * t);  // mm
   const double forward = 4 * std::sin(2 * t) + 0.05 * std::sin(55 * t);
   const double outward = 3 + 6 * std::cos(2.5 * t) + 0.03 * std::sin(65 * t);
-  const Eigen::Isometry3d turned = Eigen::Isometry3d(Eigen::AngleAxisd(0.15 * std::sin(1.5 * t), axes_.col(0)));
+  const Eigen::Isometry3d turned =
+      Eigen::Isometry3d(Eigen::AngleAxisd(0.15 * std::sin(1.5 * t), axes_.col(0)));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = turned.linear() * axes_;
   pose.translation() = target_ + axes_ * Eigen::Vector3d(sideways, forward, outward);

@@ -12,8 +12,8 @@ class Instrument {
   /// The tip works about a point of an organ's surface. `outward` leads away from the organ there.
   Instrument(const Eigen::Vector3d& target, const Eigen::Vector3d& outward, double phase);
 
-  /// Returns where the hand holds the instrument at a time in seconds. It presses in and lets go, slides to and
-  /// fro, and trembles. Any thread may call it.
+  /// Returns where the hand holds the instrument at a time in seconds. It presses in and lets go, slides to
+  /// and fro, and trembles. Any thread may call it.
   [[nodiscard]] Eigen::Isometry3d pose(double time) const;
 
   [[nodiscard]] const std::shared_ptr<const graze::Mesh>& mesh() const { return mesh_; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -10,14 +11,22 @@
 
 namespace loops {
 
-/// The points of both organs in one frame, and when that frame began.
+/// Where a hand holds an instrument, and where the middle of the proxy's tip is. The proxy turns as the hand
+/// does.
+struct Held {
+  Eigen::Isometry3d hand = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d proxy = Eigen::Vector3d::Zero();
+};
+
+/// The points of both organs in one frame, the instruments, and when that frame began.
 struct Snapshot {
+  std::array<Held, 2> held;
   std::vector<Eigen::Vector3f> points[2];
   Clock::time_point begin;
 };
 
-/// Keeps the points of the last frames for the 1 kHz thread. A report says by its tag which frame it is about, and
-/// its contacts are about the points of that frame. One thread writes, and one thread reads.
+/// Keeps the points of the last frames for the 1 kHz thread. A report says by its tag which frame it is
+/// about, and its contacts are about the points of that frame. One thread writes, and one thread reads.
 class OrganHistory {
  public:
   explicit OrganHistory(const Organs& organs) {
@@ -32,8 +41,8 @@ class OrganHistory {
     return snapshots_[frame % length];
   }
 
-  /// Keeps a frame and the one before it from being written over. Returns false if it is too late for that: then the
-  /// reader asks for a newer report.
+  /// Keeps a frame and the one before it from being written over. Returns false if it is too late for that:
+  /// then the reader asks for a newer report.
   [[nodiscard]] bool hold(std::uint64_t frame) {
     read_from_.store(frame - 1);
     return newest_.load() < frame - 1 + length;

@@ -7,7 +7,8 @@
 namespace loops {
 namespace {
 
-/// Returns a blob of 1,922 vertices: a ball of 40 mm with bumps. It lies beside the origin, and touches the other.
+/// Returns a blob of 1,922 vertices: a ball of 40 mm with bumps. It lies beside the origin, and touches the
+/// other.
 Shape blob(double side) {
   Shape shape = ball(40, 48, 40);
   for (Eigen::Vector3f& point : shape.points) {

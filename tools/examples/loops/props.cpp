@@ -22,10 +22,10 @@ void give_mass(Prop& prop) {
   const Eigen::Vector3d squares = size.cwiseProduct(size);
   const bool is_ball = prop.shape == ball_shape;
   const double mass = density * size.prod() * (is_ball ? std::numbers::pi / 6 : 1);
-  const double share = is_ball ? 1.0 / 20 : 1.0 / 12;  // of a ball, each two squares sum to twice its diameter's
+  const double share =
+      is_ball ? 1.0 / 20 : 1.0 / 12;  // of a ball, each two squares sum to twice its diameter's
   prop.inverse_mass = 1 / mass;
-  prop.inverse_inertia =
-      (share * mass * (Eigen::Vector3d::Constant(squares.sum()) - squares)).cwiseInverse();
+  prop.inverse_inertia = (share * mass * (Eigen::Vector3d::Constant(squares.sum()) - squares)).cwiseInverse();
 }
 
 }  // namespace
@@ -67,8 +67,7 @@ void Props::move(double time) {
     if (prop.velocity != Eigen::Vector3d::Zero() || prop.spin != Eigen::Vector3d::Zero()) {
       prop.position += time * prop.velocity;
       const double angle = time * prop.spin.norm();
-      if (angle > 0)
-        prop.turn = (Eigen::AngleAxisd(angle, prop.spin.normalized()) * prop.turn).normalized();
+      if (angle > 0) prop.turn = (Eigen::AngleAxisd(angle, prop.spin.normalized()) * prop.turn).normalized();
       update_pose(i);
     }
     prop.spin *= std::pow(kept, time);

@@ -12,14 +12,16 @@ namespace loops {
 struct Prop {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, of its centre
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< rad/s
-  double inverse_mass = 0;                             ///< 1/kg
-  Eigen::Vector3d inverse_inertia = Eigen::Vector3d::Zero();  ///< 1/(kg m²), about its own axes
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< m/s
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();                 ///< rad/s
+  double inverse_mass = 0;                                        ///< 1/kg
+  Eigen::Vector3d inverse_inertia = Eigen::Vector3d::Zero();      ///< 1/(kg m²), about its own axes
   Eigen::Matrix3d inverse_inertia_now = Eigen::Matrix3d::Zero();  ///< the same about the axes of the world
   std::size_t shape = 0;
 
-  [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& arm) const { return velocity + spin.cross(arm); }
+  [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& arm) const {
+    return velocity + spin.cross(arm);
+  }
   void push(const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse);
 };
 
@@ -28,8 +30,8 @@ class Props {
  public:
   explicit Props(std::size_t count);
 
-  /// Moves all props by their velocities for a time in seconds. Then gravity pulls. The contacts that graze finds
-  /// now take back what of that would lead through a surface.
+  /// Moves all props by their velocities for a time in seconds. Then gravity pulls. The contacts that graze
+  /// finds now take back what of that would lead through a surface.
   void move(double time);
   /// Stops what hardly moves. A prop that stands still costs graze nothing: its pose is the one of before.
   void rest();

@@ -31,8 +31,8 @@ struct Candidates {
   }
 };
 
-/// Finds the shortest way onto up to three planes. Returns false if they are nearly parallel, or if one of them
-/// would have to pull.
+/// Finds the shortest way onto up to three planes. Returns false if they are nearly parallel, or if one of
+/// them would have to pull.
 bool find_way_onto(const Candidates& held, Eigen::Vector3d& way) {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Zero(), system = Eigen::Matrix3d::Identity();
   Eigen::Vector3d wanted = Eigen::Vector3d::Zero();
@@ -43,14 +43,14 @@ bool find_way_onto(const Candidates& held, Eigen::Vector3d& way) {
     for (Eigen::Index j = 0; j < row; ++j)
       system(row, j) = system(j, row) = directions.col(row).dot(directions.col(j));
   }
-  if (system.determinant() < 1e-4) return false;
+  if (system.determinant() < 0.01) return false;
   const Eigen::Vector3d pushes = system.inverse() * wanted;
   way = directions * pushes;
   return pushes.minCoeff() >= 0;
 }
 
-/// Returns the shortest way that violates no candidate, or else the one that violates them least. Keeps only the
-/// candidates that hold it.
+/// Returns the shortest way that violates no candidate, or else the one that violates them least. Keeps only
+/// the candidates that hold it.
 Eigen::Vector3d solve(Candidates& candidates) {
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double best_violation = candidates.violation(best);

@@ -5,9 +5,9 @@
 namespace loops {
 namespace {
 
-constexpr double gap = 0.01;            // m, that surfaces keep
-constexpr double recovered = 0.2;       // of the way out, in a frame
-constexpr double recovery_speed = 2;    // m/s
+constexpr double gap = 0.01;          // m, that surfaces keep
+constexpr double recovered = 0.2;     // of the way out, in a frame
+constexpr double recovery_speed = 2;  // m/s
 constexpr double friction = 0.5;
 
 /// Returns how much a push along a direction moves a prop at an arm: the inverse of a mass.

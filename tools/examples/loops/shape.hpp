@@ -16,8 +16,8 @@ struct Shape {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Turns a line of points (radius, height) about the z axis, upwards. Its first and last point lie on the axis.
-/// The surface is closed.
+/// Turns a line of points (radius, height) about the z axis, upwards. Its first and last point lie on the
+/// axis. The surface is closed.
 Shape revolved(std::span<const Eigen::Vector2d> line, std::uint32_t segments);
 
 /// Returns a closed ball about the origin.

@@ -1,13 +1,14 @@
-// Surgery: two organs that touch, and two rigid instruments. The organs deform at 62.5 Hz, on one thread with graze's
-// step. A thread at 1 kHz computes the forces that the hands feel.
+// Surgery: two organs that touch, and two rigid instruments. The organs deform at 62.5 Hz, on one thread with
+// graze's step. A thread at 1 kHz computes the forces that the hands feel.
 //
-// A step takes longer than a millisecond, so most ticks have no new report. The 1 kHz thread takes the latest one and
-// moves its contacts to where the instruments are now, with graze::evaluate(). Beside it the program computes the
-// force from the reports alone, which jumps with each new report.
+// A step takes longer than a millisecond, so most ticks have no new report. The 1 kHz thread takes the latest
+// one and moves its contacts to where the instruments are now, with graze::evaluate(). Beside it the program
+// computes the force from the reports alone, which jumps with each new report.
 //
-// With --deterministic ticks are counted and not timed: a step sees the scene of tick 16 k, and its report is there
-// from tick 16 k + 8 on.
+// With --deterministic ticks are counted and not timed: a step sees the scene of tick 16 k, and its report is
+// there from tick 16 k + 8 on.
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -49,15 +50,18 @@ class Simulation {
     scene_.set_rule(organ_kind, organ_kind, {organ_distance, 0, {}});
   }
 
-  /// Deforms the organs and puts the instruments where the hands hold them at a time in seconds.
-  void prepare(std::uint64_t frame, double time) {
+  /// Deforms the organs, and puts the instruments where their proxies are.
+  void prepare(std::uint64_t frame, double time, const std::array<loops::Held, 2>& held) {
     loops::Snapshot& snapshot = history_.begin_frame(frame);
     snapshot.begin = Clock::now();
     for (std::size_t i = 0; i < 2; ++i) {
       deform(organs_.shapes[i], time, snapshot.points[i]);
       scene_.set_positions(ids_[i], snapshot.points[i]);
-      scene_.set_pose(instrument_ids_[i], instruments_[i].pose(time));
+      Eigen::Isometry3d pose = held[i].hand;
+      pose.translation() = held[i].proxy;
+      scene_.set_pose(instrument_ids_[i], pose);
     }
+    snapshot.held = held;
   }
 
   loops::HapticReader reader() { return {scene_, history_, instruments_, meshes_}; }
@@ -149,7 +153,7 @@ void run_counted(Simulation& simulation, int ticks, ForceTracks& tracks, Outcome
   std::uint64_t frame = 0;
   for (int tick = 0; tick < ticks; ++tick) {
     const double time = 0.001 * tick;
-    if (tick % 16 == 0) simulation.prepare(++frame, time);
+    if (tick % 16 == 0) simulation.prepare(++frame, time, reader.held());
     if (tick % 16 == 8) outcome.take(*simulation.scene().step(frame));
     if (reader.tick(time)) tracks.take(reader);
   }
@@ -162,6 +166,41 @@ struct ThreadTimes {
   loops::Times age;   ///< how long before the read the frame began that is read
   loops::Times read;  ///< how long the read takes
   loops::Times work;  ///< how long the whole tick takes
+};
+
+/// Hands the held instruments from the 1 kHz thread to the simulation. Neither waits: the reader tries again
+/// if the writer came in between, and takes what it had before if that happens time after time.
+class SharedHeld {
+ public:
+  explicit SharedHeld(const std::array<loops::Held, 2>& held) : last_(held) { store(held); }
+  void store(const std::array<loops::Held, 2>& held) {
+    const std::uint64_t begun = version_.load() + 1;
+    version_.store(begun);
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t j = 0; j < 16; ++j) numbers_[19 * i + j].store(held[i].hand.data()[j]);
+      for (std::size_t j = 0; j < 3; ++j) numbers_[19 * i + 16 + j].store(held[i].proxy.data()[j]);
+    }
+    version_.store(begun + 1);
+  }
+  const std::array<loops::Held, 2>& load() {
+    for (int attempt = 0; attempt < 10; ++attempt) {
+      const std::uint64_t before = version_.load();
+      std::array<loops::Held, 2> held;
+      for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t j = 0; j < 16; ++j) held[i].hand.data()[j] = numbers_[19 * i + j].load();
+        for (std::size_t j = 0; j < 3; ++j) held[i].proxy.data()[j] = numbers_[19 * i + 16 + j].load();
+      }
+      if (before % 2 != 0 || version_.load() != before) continue;
+      last_ = held;
+      break;
+    }
+    return last_;
+  }
+
+ private:
+  std::atomic<std::uint64_t> version_ = 0;  ///< odd while the writer writes
+  std::array<std::atomic<double>, 38> numbers_;
+  std::array<loops::Held, 2> last_;
 };
 
 /// Calls `tick` with the index of each tick, a millisecond apart, and measures how late it is.
@@ -181,11 +220,13 @@ void run_timed(Simulation& simulation, int ticks, ForceTracks& tracks, Outcome& 
                ThreadTimes& control) {
   const Clock::time_point start = Clock::now();
   std::atomic<Clock::rep> published = 0;  // when the frame began whose report is the latest, for the control
+  SharedHeld shared(simulation.reader().held());
   std::thread haptic_thread([&] {
     loops::HapticReader reader = simulation.reader();
     std::uint64_t last_frame = 0;
     run_at_1_khz(ticks, start, haptic, [&](Clock::time_point now) {
       if (!reader.tick(1e-3 * loops::milliseconds(start, now))) return;
+      shared.store(reader.held());
       tracks.take(reader);
       outcome.frames_ran_back = outcome.frames_ran_back || reader.frame() < last_frame;
       last_frame = reader.frame();
@@ -204,7 +245,7 @@ void run_timed(Simulation& simulation, int ticks, ForceTracks& tracks, Outcome& 
   for (std::uint64_t frame = 1; frame <= frames; ++frame) {
     std::this_thread::sleep_until(start + std::chrono::milliseconds(16 * (frame - 1)));
     const Clock::time_point begin = Clock::now();
-    simulation.prepare(frame, 1e-3 * loops::milliseconds(start, begin));
+    simulation.prepare(frame, 1e-3 * loops::milliseconds(start, begin), shared.load());
     outcome.take(*simulation.scene().step(frame));
     published.store(begin.time_since_epoch().count());
   }
@@ -219,11 +260,13 @@ void print(const char* name, const loops::Times& haptic, const loops::Times& con
 }
 
 void print(const char* name, const ForceTrack& track) {
-  std::printf("  %-32s %6zu ticks with force, largest %6.3f N; %4zu jumps above %.1f N, the largest %.3f N\n", name,
-              track.ticks_with_force, track.largest, track.jumps, jump, track.largest_jump);
+  std::printf("  %-32s %6zu ticks with force, largest %6.3f N; %4zu jumps above %.1f N, the largest %.3f N\n",
+              name, track.ticks_with_force, track.largest, track.jumps, jump, track.largest_jump);
 }
 
-bool hold(const ForceTrack& track) { return track.is_finite && track.largest < largest_force; }
+bool hold(const ForceTrack& track) {
+  return track.is_finite && track.largest < largest_force;
+}
 
 }  // namespace
 
@@ -232,8 +275,8 @@ int main(int argc, char** argv) {
   const int ticks = options.length > 0 ? options.length : 6000;
   Simulation simulation(options.organs);
   const loops::Organs& organs = simulation.organs();
-  std::printf("two %s of %zu and %zu vertices\n", organs.are_real ? "organs" : "blobs", organs.shapes[0].points.size(),
-              organs.shapes[1].points.size());
+  std::printf("two %s of %zu and %zu vertices\n", organs.are_real ? "organs" : "blobs",
+              organs.shapes[0].points.size(), organs.shapes[1].points.size());
   const std::unique_ptr<graze::Recorder> recorder = make_recorder(options, simulation.scene());
 
   ForceTracks tracks;
@@ -243,9 +286,9 @@ int main(int argc, char** argv) {
   if (options.deterministic) run_counted(simulation, ticks, tracks, outcome);
   if (!options.deterministic) run_timed(simulation, ticks, tracks, outcome, haptic, control);
 
-  std::printf("%zu frames, %zu contacts in each; graze's step: median %.3f ms, worst %.3f ms\n", outcome.frames,
-              outcome.contacts / std::max<std::size_t>(outcome.frames, 1), outcome.steps.percentile(0.5),
-              outcome.steps.percentile(1));
+  std::printf("%zu frames, %zu contacts in each; graze's step: median %.3f ms, worst %.3f ms\n",
+              outcome.frames, outcome.contacts / std::max<std::size_t>(outcome.frames, 1),
+              outcome.steps.percentile(0.5), outcome.steps.percentile(1));
   if (!options.deterministic) {
     print("wakes up late by", haptic.late, control.late);
     print("age of what is read", haptic.age, control.age);
