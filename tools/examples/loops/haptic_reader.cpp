@@ -66,7 +66,9 @@ bool HapticReader::tick(double time) {
     held_[i].hand = instruments_[i].pose(time);
     add_planes(*report, i);
     const Eigen::Vector3d& hand = held_[i].hand.translation();
-    held_[i].proxy += limited(hand + way_to_proxy(moved_planes_) - held_[i].proxy);
+    const Eigen::Vector3d way = way_to_proxy(moved_planes_);
+    held_[i].proxy += limited(hand + way - held_[i].proxy);
+    forces_[i].unlimited = stiffness * way;
     forces_[i].moved = stiffness * (held_[i].proxy - hand);
     forces_[i].report = stiffness * way_to_proxy(report_planes_);
   }

@@ -122,11 +122,12 @@ struct ForceTrack {
 };
 
 struct ForceTracks {
-  ForceTrack moved[2], report[2];
+  ForceTrack moved[2], unlimited[2], report[2];
 
   void take(const loops::HapticReader& reader) {
     for (std::size_t i = 0; i < 2; ++i) {
       moved[i].take(reader.forces(i).moved);
+      unlimited[i].take(reader.forces(i).unlimited);
       report[i].take(reader.forces(i).report);
     }
   }
@@ -299,10 +300,14 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < 2; ++i) {
     std::printf("instrument %zu\n", i + 1);
     print("contacts moved by evaluate()", tracks.moved[i]);
+    print("the same, any step of the proxy", tracks.unlimited[i]);
     print("contacts as in the report", tracks.report[i]);
     holds = holds && hold(tracks.moved[i]) && hold(tracks.report[i]);
     if (!options.deterministic) continue;
-    holds = holds && tracks.moved[i].ticks_with_force > 0 && tracks.moved[i].jumps < tracks.report[i].jumps &&
+    // With real organs, a proxy without a limit may slide as often as a report comes.
+    const bool is_smoother = organs.are_real || tracks.unlimited[i].jumps < tracks.report[i].jumps;
+    holds = holds && is_smoother && tracks.moved[i].ticks_with_force > 0 &&
+            tracks.moved[i].jumps < tracks.report[i].jumps &&
             tracks.moved[i].largest_jump < tracks.report[i].largest_jump;
   }
   std::printf("%zu contacts began, %zu ended, %zu events without their partner\n", outcome.events.began(),
