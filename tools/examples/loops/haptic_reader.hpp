@@ -10,9 +10,12 @@ namespace loops {
 
 /// What the hand feels at one instrument in one tick, in N.
 struct Forces {
-  Eigen::Vector3d moved =
-      Eigen::Vector3d::Zero();  ///< from contacts that are moved to where the instrument is now
-  Eigen::Vector3d report = Eigen::Vector3d::Zero();  ///< from contacts as they were in the report
+  /// From contacts that are moved to where the instrument is now.
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  /// The same, if the proxy might go any way in one tick.
+  Eigen::Vector3d unlimited = Eigen::Vector3d::Zero();
+  /// From contacts as they were in the report.
+  Eigen::Vector3d report = Eigen::Vector3d::Zero();
 };
 
 /// The 1 kHz thread's part: it reads the latest report and computes forces. It waits for nobody. It takes
