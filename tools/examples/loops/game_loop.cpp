@@ -63,7 +63,7 @@ class Game {
           crowd_.characters()[i].points);
     for (std::size_t i = 0; i < props_.props().size(); ++i) {
       prop_ids_.push_back(add(props_.mesh(i), graze::Motion::rigid, Role::prop, i, prop_layer, ~0u));
-      highest_.push_back(props_.props()[i].position);
+      starts_.push_back(props_.props()[i].position);
     }
   }
 
@@ -120,11 +120,11 @@ class Game {
     });
   }
 
-  /// Counts props that have been moved by more than half a metre from where they fell down.
+  /// Counts props that have been moved by more than half a metre from where they began.
   std::size_t count_moved() {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < highest_.size(); ++i)
-      count += (props_.props()[i].position - highest_[i]).head<2>().norm() > 0.5;
+    for (std::size_t i = 0; i < starts_.size(); ++i)
+      count += (props_.props()[i].position - starts_[i]).head<2>().norm() > 0.5;
     return count;
   }
 
@@ -182,7 +182,7 @@ class Game {
   loops::Props props_{300};
   graze::Scene scene_;
   std::vector<graze::ObjectId> prop_ids_;
-  std::vector<Eigen::Vector3d> highest_;
+  std::vector<Eigen::Vector3d> starts_;
   std::vector<loops::PushConstraint> constraints_;
 };
 
