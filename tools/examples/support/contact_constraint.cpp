@@ -2,29 +2,10 @@
 
 #include <algorithm>
 
+#include "examples/support/carried_point.hpp"
+
 namespace examples {
 namespace {
-
-/// Returns the point that vertices carry by their weights.
-Eigen::Vector3d carried(const graze::SurfaceWeights& weights, const Points& points) {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.count); ++i)
-    point += weights.weight[i] * points[weights.vertex[i]];
-  return point;
-}
-
-/// Returns the inverse of the mass that a push at the point feels.
-double inverse_mass(const graze::SurfaceWeights& weights, const Body& body) {
-  double sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.count); ++i)
-    sum += weights.weight[i] * weights.weight[i] * body.inverse_masses[weights.vertex[i]];
-  return sum;
-}
-
-void apply(const graze::SurfaceWeights& weights, const Eigen::Vector3d& impulse, Body& body) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.count); ++i)
-    body.positions[weights.vertex[i]] += weights.weight[i] * body.inverse_masses[weights.vertex[i]] * impulse;
-}
 
 /// Returns whether a contact is inside a solid. Of two solids separation() says so. An open surface has no
 /// inside: what lies behind it is no deeper than what lies before it, so only the side of the solid counts.

@@ -1,0 +1,49 @@
+#include "examples/loops/options.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace loops {
+
+Options read_options(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view name = argv[i];
+    const bool has_value = i + 1 < argc;
+    if (name == "--deterministic") {
+      options.deterministic = true;
+    } else if (name == "--record" && has_value) {
+      options.record = argv[++i];
+    } else if (name == "--organs" && has_value) {
+      options.organs = argv[++i];
+    } else if (name == "--length" && has_value) {
+      options.length = std::atoi(argv[++i]);
+    } else if (name == "--threads" && has_value) {
+      options.threads = static_cast<unsigned>(std::atoi(argv[++i]));
+    } else {
+      std::fprintf(stderr,
+                   "%s: unknown option, or no value: %s\n"
+                   "usage: %s [--record FILE] [--length FRAMES_OR_TICKS] [--threads N]\n"
+                   "       surgery_loop also has [--organs FILE.obj] [--deterministic]\n",
+                   argv[0], argv[i], argv[0]);
+      std::exit(2);
+    }
+  }
+  return options;
+}
+
+std::unique_ptr<graze::Recorder> make_recorder(const Options& options, graze::Scene& scene) {
+  if (options.record.empty()) return nullptr;
+  return std::make_unique<graze::Recorder>(scene, options.record);
+}
+
+void finish(const Options& options, graze::Recorder* recorder) {
+  if (recorder == nullptr) return;
+  recorder->close();
+  const graze::RecorderStatistics written = recorder->statistics();
+  std::printf("recorded %llu frames in %s, %llu dropped\n", static_cast<unsigned long long>(written.frames),
+              options.record.c_str(), static_cast<unsigned long long>(written.dropped));
+}
+
+}  // namespace loops

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <graze/graze.hpp>
+#include <graze/recorder.hpp>
+#include <memory>
+#include <string>
+
+namespace loops {
+
+/// What a loop is started with.
+struct Options {
+  std::string record;          ///< the file of a recording, or empty; `graze view FILE` shows it
+  std::string organs;          ///< an OBJ file with the organs, or empty
+  int length = 0;              ///< frames or ticks; 0 means the loop's own number
+  unsigned threads = 0;        ///< of graze's steps; 0 means one for each processor
+  bool deterministic = false;  ///< ticks are counted, not timed
+};
+
+/// Reads the options of a program's command line. Ends the program with exit code 2 if one is unknown.
+Options read_options(int argc, char** argv);
+
+/// Returns a recorder that is attached to a scene if the options ask for a recording, or else null.
+std::unique_ptr<graze::Recorder> make_recorder(const Options& options, graze::Scene& scene);
+
+/// Finishes a recording, and prints what it holds. Does nothing without one.
+void finish(const Options& options, graze::Recorder* recorder);
+
+}  // namespace loops
