@@ -1,7 +1,7 @@
-// Puts rigid boxes on a plane, with sequential impulses: a stack of five comes to rest upright, and a box on
-// a slope stays where it is below the angle of friction, and slides as fast as it should above it.
+// Puts rigid boxes on a plane, with sequential impulses. A stack of five comes to rest upright. A box on a
+// slope stays where it is below the angle of friction, and slides as fast as it should above it.
 //
-// Of the contacts of a pair at most four count. They are chosen anew in each step.
+// At most four contacts of a pair count. They are chosen anew in each step.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

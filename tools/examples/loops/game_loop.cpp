@@ -37,7 +37,7 @@ constexpr double contact_distance = 0.06;
 constexpr int iterations = 8;    // over all contacts
 constexpr double hop_speed = 2;  // m/s
 
-/// What an object is. It stands in the upper half of its user data, and its index in the lower half.
+/// The kind of an object. It stands in the upper half of its user data, and its index in the lower half.
 enum class Role : std::uint64_t { ground, character, prop };
 
 std::uint64_t user_data(Role role, std::size_t index) {

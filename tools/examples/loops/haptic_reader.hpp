@@ -8,11 +8,11 @@
 
 namespace loops {
 
-/// What the hand feels at one instrument in one tick, in N.
+/// The forces that the hand feels at one instrument in one tick, in N.
 struct Forces {
   /// From contacts that are moved to where the instrument is now.
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-  /// The same, if the proxy might go any way in one tick.
+  /// As `moved`, if the proxy might go any way in one tick.
   Eigen::Vector3d unlimited = Eigen::Vector3d::Zero();
   /// From contacts as they were in the report.
   Eigen::Vector3d report = Eigen::Vector3d::Zero();

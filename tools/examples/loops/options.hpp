@@ -7,7 +7,7 @@
 
 namespace loops {
 
-/// What a loop is started with.
+/// The options that a loop is started with.
 struct Options {
   std::string record;          ///< the file of a recording, or empty; `graze view FILE` shows it
   std::string organs;          ///< an OBJ file with the organs, or empty

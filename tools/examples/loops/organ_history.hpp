@@ -11,8 +11,8 @@
 
 namespace loops {
 
-/// Where a hand holds an instrument, and where the middle of the proxy's tip is. The proxy turns as the hand
-/// does.
+/// The place of the hand that holds an instrument, and that of the middle of the proxy's tip. The proxy turns
+/// as the hand does.
 struct Held {
   Eigen::Isometry3d hand = Eigen::Isometry3d::Identity();
   Eigen::Vector3d proxy = Eigen::Vector3d::Zero();

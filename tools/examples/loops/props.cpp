@@ -12,7 +12,7 @@ namespace {
 constexpr double gravity = 9.81;  // m/s²
 constexpr double kept = 0.6;      // of a spin after one second
 
-/// What the props are made of: their sizes in m, and their density in kg/m³. The last one is a ball.
+/// The sizes of the props in m, and their density in kg/m³. The last one is a ball.
 constexpr double density = 150;
 const Eigen::Vector3d sizes[] = {{0.5, 0.5, 0.5}, {0.9, 0.4, 0.3}, {0.5, 0.5, 0.5}};
 constexpr std::size_t ball_shape = 2;

@@ -139,7 +139,7 @@ struct ForceTracks {
   }
 };
 
-/// What the simulation's own loop found.
+/// The findings of the simulation's own loop.
 struct Outcome {
   loops::EventCheck events;
   std::size_t frames = 0, contacts = 0, diagnostics = 0;
@@ -166,7 +166,7 @@ void run_counted(Simulation& simulation, int ticks, ForceTracks& tracks, Outcome
   }
 }
 
-/// What a thread at 1 kHz measures, in ms.
+/// The times that a thread at 1 kHz measures, in ms.
 struct ThreadTimes {
   explicit ThreadTimes(std::size_t ticks) : late(ticks), age(ticks), read(ticks), work(ticks) {}
   loops::Times late;  ///< how late the thread wakes up
