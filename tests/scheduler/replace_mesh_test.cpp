@@ -493,7 +493,7 @@ TEST_CASE("replace_mesh: bad input throws, and a stale id is told") {
           scene.replace_mesh(floor, tip, Map{0, 1, 2, 3, 0, 0});
         }) == "replace_mesh: new_of_old maps vertex 3 to 3, but the new mesh has 3 vertices");
   CHECK(error_of([&] { scene.replace_mesh(floor, tip, Map(6, 0), groups); }) ==
-        "replace_mesh: there are 3 groups for 1 faces");
+        "replace_mesh: face_groups has 3 groups for 1 faces; give one for each face, or none");
   CHECK(scene.mesh(floor) == quads);
   const ReportHandle same = scene.step();
   CHECK(same->diagnostics().empty());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <tuple>
 
@@ -74,14 +75,14 @@ bool SolidSearch::find_inside(double apart) {
 
 /// Whether what was found for earlier positions still holds.
 bool SolidSearch::knows_inside() const {
-  const LastInside& last = pair_.front->last_inside;
-  if (!(last.apart > 0)) return false;
-  const double motion = pair_.a->motion_since(last.travel_a) + pair_.b->motion_since(last.travel_b);
-  return motion * round_up < last.apart;
+  const LastInside* const last = pair_.front->last_inside.get();
+  if (last == nullptr || !(last->apart > 0)) return false;
+  const double motion = pair_.a->motion_since(last->travel_a) + pair_.b->motion_since(last->travel_b);
+  return motion * round_up < last->apart;
 }
 
 void SolidSearch::repeat_inside() {
-  pair_.answer->inside = pair_.front->last_inside.inside;
+  pair_.answer->inside = pair_.front->last_inside->inside;
   if (pair_.answer->inside == Inside::a_in_b) scratch_.a_in_b.set_all(*pair_.a);
   if (pair_.answer->inside == Inside::b_in_a) scratch_.b_in_a.set_all(*pair_.b);
 }
@@ -93,7 +94,8 @@ bool SolidSearch::find_touching(double apart) {
   if (apart > 0) return true;
   const SurfacePair whole{*pair_.a, *pair_.b, worker_.pair.count, worker_.pair.time};
   LeafPairs leaf_pairs(whole, pair_.query, worker_.scratch.leaf_pairs, worker_.meter);
-  LeafPairList found;
+  LeafPairList& found = scratch_.touching_leaves;
+  found.clear();
   const RegionPair root;
   const auto touches = [](double lower, double /*slack*/) { return lower == 0; };
   if (!leaf_pairs.walk(
@@ -122,7 +124,9 @@ Inside SolidSearch::state(bool pierced) const {
 
 /// Remembers the state of surfaces that are so far apart. It has to say which vertices are inside.
 void SolidSearch::remember_inside(double apart) const {
-  LastInside& last = pair_.front->last_inside;
+  auto& kept = pair_.front->last_inside;
+  if (kept == nullptr) kept = std::make_unique<LastInside>();
+  LastInside& last = *kept;
   last = {};
   const bool is_known =
       pair_.answer->inside != Inside::crossing && !(scratch_.a_in_b.has_some() && scratch_.b_in_a.has_some());

@@ -18,12 +18,14 @@ struct SolidScratch {
   VerticesInSolid a_in_b;
   VerticesInSolid b_in_a;
   TouchingEdges touching;
+  LeafPairList touching_leaves;
   std::vector<FeaturePairKey> keys;
   std::vector<Contact> contacts;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.a_in_b, self.b_in_a, self.touching, self.keys, self.contacts);
+    return std::tie(self.a_in_b, self.b_in_a, self.touching, self.touching_leaves.leaves, self.keys,
+                    self.contacts);
   }
   void reserve(const PairRoom& /*room*/) {}
 };

@@ -67,8 +67,8 @@ struct LeafFront {
   /// The nearest points of the last answer. At the present positions they give an upper bound of the
   /// surfaces' distance, whatever has moved.
   LastWitness witness;
-  /// The last state of a pair with a solid.
-  LastInside last_inside;
+  /// The last state of a pair with a solid. It is null before the first query about one.
+  std::unique_ptr<LastInside> last_inside;
   /// The list that a query for contacts uses instead of leaves, with marks of its own. It is null before the
   /// first such query.
   std::unique_ptr<NearList> near;
@@ -87,7 +87,7 @@ struct LeafFront {
   void forget() {
     forget_leaves();
     forget_list();
-    last_inside = {};
+    if (last_inside != nullptr) *last_inside = {};
   }
   void forget_list() {
     if (near != nullptr) near->forget();
@@ -106,7 +106,8 @@ struct LeafFront {
     return near != nullptr && near->serves(a, b, threshold) ? near.get() : nullptr;
   }
   [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(leaves) + (near == nullptr ? 0 : sizeof(NearList) + bytes_of(near->pairs));
+    return bytes_of(leaves) + (near == nullptr ? 0 : sizeof(NearList) + bytes_of(near->pairs)) +
+           (last_inside == nullptr ? 0 : sizeof(LastInside));
   }
   /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
   [[nodiscard]] double unlisted_lower_bound_now(const Surface& a, const Surface& b) const {
