@@ -126,8 +126,8 @@ class ContactSearch {
   [[nodiscard]] std::span<const FeaturePairKey> keys_of(const SearchSlice& slice) const;
   [[nodiscard]] std::span<Contact> contacts_of(const SearchSlice& slice) const;
   [[nodiscard]] FeaturePairKey lowest_measured(SearchWorker& worker) const;
-  [[nodiscard]] FeaturePairKey lower_of(SearchWorker& worker, const FeaturePairKey& left,
-                                        const FeaturePairKey& right) const;
+  [[nodiscard]] static FeaturePairKey lower_of(SearchWorker& worker, const FeaturePairKey& left,
+                                               const FeaturePairKey& right);
 
   SearchedPair& pair_;
   SearchSlices& slices_;

@@ -199,7 +199,7 @@ SearchProgress ContactSearch::finish_measuring(SearchWorker& worker) {
 
 /// The nearer of two keys, and of equally near ones the lower.
 FeaturePairKey ContactSearch::lower_of(SearchWorker& worker, const FeaturePairKey& left,
-                                       const FeaturePairKey& right) const {
+                                       const FeaturePairKey& right) {
   worker.scratch.lowest.clear();
   ClosestSet closest(worker.pair, Ties::lowest, worker.scratch.lowest);
   closest.offer(left);

@@ -188,7 +188,7 @@ void SolidSearch::merge_contacts() {
   }
 }
 
-void SolidSearch::set_sides() {
+void SolidSearch::set_sides() const {
   for (Contact& contact : pair_.answer->contacts) {
     if (pair_.query.a_is_solid && contact.feature_b.kind == FeatureKind::vertex)
       contact.side_a = scratch_.b_in_a.side_of(contact.feature_b.index);

@@ -38,7 +38,7 @@ class SolidSearch {
   void list_keys_inside();
   void keep_nearest(std::size_t most);
   void merge_contacts();
-  void set_sides();
+  void set_sides() const;
 
   SearchedPair& pair_;
   SearchWorker& worker_;

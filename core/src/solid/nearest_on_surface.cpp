@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
 #include "base/inplace_vector.hpp"
 #include "closest_features/closest_features.hpp"
@@ -59,14 +60,14 @@ class NearestOnSurface {
     return lower_squared(point_, slack_ == 0 ? box : grown(box, slack_));
   }
   void open_children(const Region& region) {
-    std::array<Open, 8> children;
+    std::array<Open, 8> of_region;
+    const std::span<Open> children = std::span(of_region).first(region.child_count);
     for (std::uint32_t i = 0; i < region.child_count; ++i)
       children[i] = {lower_of(region.first_child + i), region.first_child + i};
-    const auto end = children.begin() + region.child_count;
-    std::sort(children.begin(), end, [](const Open& left, const Open& right) {
+    std::sort(children.begin(), children.end(), [](const Open& left, const Open& right) {
       return left.lower != right.lower ? left.lower > right.lower : left.region > right.region;
     });
-    for (auto child = children.begin(); child != end; ++child) open_.push_back(*child);
+    for (const Open& child : children) open_.push_back(child);
   }
   void shrink_limit(const SquaredRange& squared) { limit_ = std::min(limit_, squared.high); }
   [[nodiscard]] Box box_of(std::uint32_t face) const {
@@ -107,7 +108,7 @@ class NearestOnSurface {
   bool has_any_ = false;
   double limit_ = std::numeric_limits<double>::infinity();  ///< of the squared distance
   // At most the siblings of one region are open on each level.
-  InplaceVector<Open, 8 * (RegionTree::max_level + 1)> open_;
+  InplaceVector<Open, std::size_t{8} * (RegionTree::max_level + 1)> open_;
 };
 
 }  // namespace

@@ -88,7 +88,7 @@ class RayCount {
     return do_touch({{1, {}, {point_}}, simplex_of(solid_, piece)}, count_);
   }
 
-  const Eigen::Vector3d point_;
+  const Eigen::Vector3d& point_;
   const Surface& solid_;
   DecisionCount& count_;
   int winding_ = 0;

@@ -15,7 +15,7 @@ void visit_leaves(const Surface& surface, const Keep& keep, const Use& use) {
   const RegionTree& tree = surface.mesh().regions();
   const double slack = surface.motion_since_face_refit();
   // At most the siblings of one region are open on each level.
-  InplaceVector<std::uint32_t, 8 * (RegionTree::max_level + 1)> open;
+  InplaceVector<std::uint32_t, std::size_t{8} * (RegionTree::max_level + 1)> open;
   open.push_back(0);
   while (!open.empty()) {
     const std::uint32_t number = open.back();

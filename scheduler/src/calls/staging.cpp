@@ -447,7 +447,7 @@ void Staging::set_ignored(ObjectId a, std::uint8_t group_a, ObjectId b, std::uin
   });
 }
 
-bool Staging::check_both(Calls& calls, ObjectId a, ObjectId b, bool ignored) {
+bool Staging::check_both(Calls& calls, ObjectId a, ObjectId b, bool ignored) const {
   for (const ObjectId object : {a, b}) {
     if (contains(object)) continue;
     add_stale(calls, object, name_of_call(ignored));

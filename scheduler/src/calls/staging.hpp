@@ -159,7 +159,7 @@ class Staging {
   void try_change(Calls& calls, ObjectId object, double max_displacement) noexcept;
   void add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored);
   /// Returns whether both ids name objects, and adds a diagnostic if not.
-  bool check_both(Calls& calls, ObjectId a, ObjectId b, bool ignored);
+  bool check_both(Calls& calls, ObjectId a, ObjectId b, bool ignored) const;
 
   /// Returns whether there are as many `things` as objects, and adds a diagnostic if not.
   bool check_sizes(Calls& calls, std::size_t objects, std::size_t things, const char* what,

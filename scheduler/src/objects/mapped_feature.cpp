@@ -14,8 +14,8 @@ struct VertexSet {
   std::size_t count = 0;
 
   void add(std::uint32_t added) {
-    const auto end = vertex.begin() + static_cast<std::ptrdiff_t>(count);
-    const auto place = std::lower_bound(vertex.begin(), end, added);
+    std::uint32_t* const end = vertex.data() + count;
+    std::uint32_t* const place = std::lower_bound(vertex.data(), end, added);
     if (place != end && *place == added) return;
     std::copy_backward(place, end, end + 1);
     *place = added;

@@ -39,8 +39,9 @@ class IgnoredGroups {
   template <typename Visit>
   void visit(const Visit& visit) const {
     for (const auto& [serials, known] : pairs_) {
-      const auto [a, b] = serials;
-      known.filter.visit_ignored([&](std::uint8_t group_a, std::uint8_t group_b) {
+      const std::uint64_t a = serials.first;
+      const std::uint64_t b = serials.second;
+      known.filter.visit_ignored([&visit, a, b](std::uint8_t group_a, std::uint8_t group_b) {
         if (a != b || group_a <= group_b) visit(a, group_a, b, group_b);
       });
     }
