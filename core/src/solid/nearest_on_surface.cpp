@@ -1,9 +1,7 @@
 #include "solid/nearest_on_surface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <span>
 
 #include "base/inplace_vector.hpp"
 #include "closest_features/closest_features.hpp"
@@ -59,15 +57,16 @@ class NearestOnSurface {
     const Box& box = surface_.face_boxes()[region];
     return lower_squared(point_, slack_ == 0 ? box : grown(box, slack_));
   }
+  /// Puts the nearest child last, since that is taken first.
   void open_children(const Region& region) {
-    std::array<Open, 8> of_region;
-    const std::span<Open> children = std::span(of_region).first(region.child_count);
-    for (std::uint32_t i = 0; i < region.child_count; ++i)
-      children[i] = {lower_of(region.first_child + i), region.first_child + i};
-    std::sort(children.begin(), children.end(), [](const Open& left, const Open& right) {
-      return left.lower != right.lower ? left.lower > right.lower : left.region > right.region;
-    });
-    for (const Open& child : children) open_.push_back(child);
+    const std::size_t begin = open_.size();
+    for (std::uint32_t i = 0; i < region.child_count; ++i) {
+      const Open child{lower_of(region.first_child + i), region.first_child + i};
+      std::size_t at = open_.size();
+      open_.push_back(child);
+      for (; at > begin && open_[at - 1].lower < child.lower; --at) open_[at] = open_[at - 1];
+      open_[at] = child;
+    }
   }
   void shrink_limit(const SquaredRange& squared) { limit_ = std::min(limit_, squared.high); }
   [[nodiscard]] Box box_of(std::uint32_t face) const {
