@@ -22,7 +22,11 @@ using oracle::RandomSolids;
 using oracle::Shape;
 
 constexpr std::uint64_t solid_part_count = 10;
+#ifdef GRAZE_VALIDATE
+constexpr std::uint64_t solid_grid_scenes = 2'500 / solid_part_count;  // each takes ten times as long there
+#else
 constexpr std::uint64_t solid_grid_scenes = 10'000 / solid_part_count;
+#endif
 constexpr std::uint64_t solid_generic_scenes = solid_grid_scenes / 5;
 
 constexpr std::array<ContactDetail, 4> surface_details = {ContactDetail::none, ContactDetail::closest,
