@@ -1,6 +1,7 @@
 #include "examples/support/body.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace examples {
 namespace {
@@ -29,10 +30,10 @@ void add_edge_springs(Body& body, double compliance) {
 
 /// Returns the corner of a triangle that is not on an edge of it.
 std::uint32_t corner_opposite(const graze::Mesh& mesh, std::uint32_t face, std::uint32_t edge) {
-  const auto [a, b] = mesh.edge(edge);
+  const std::array<std::uint32_t, 2> ends = mesh.edge(edge);
   const auto corners = mesh.face(face);
   return *std::find_if(corners.begin(), corners.end(),
-                       [&](auto corner) { return corner != a && corner != b; });
+                       [&](auto corner) { return corner != ends[0] && corner != ends[1]; });
 }
 
 /// A spring for each two triangles that share an edge, between their corners opposite of it.
