@@ -189,7 +189,7 @@ std::string difference_of(ContactDetail detail, const PairAnswer& answer, const 
   return text;
 }
 
-/// What a test has met, so that it can assert that nothing is missing.
+/// Counts what a test has met, so that it can assert that nothing is missing.
 struct Met {
   std::size_t scenes = 0;
   std::size_t contacts = 0;

@@ -1,5 +1,5 @@
-// A step that cannot get its memory throws, leaves the last report published, and the next step says what a
-// scene built afresh says; calls for which there is no memory throw or leave a diagnostic. Every allocation
+// A step that cannot get its memory throws, and leaves the last report published. The next step says what a
+// scene built afresh says. Calls for which there is no memory throw or leave a diagnostic. Every allocation
 // of a frame fails in turn, in eleven small scenes.
 //
 // By default each configuration takes every so many places only (GRAZE_FAILURE_STRIDE), from another one on

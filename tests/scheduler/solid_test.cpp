@@ -63,7 +63,7 @@ std::string name_of(ContactDetail detail) {
   return detail == ContactDetail::features ? "features" : "nearest";
 }
 
-/// What brute force says of a pair. The scene has to outlive it.
+/// Holds what brute force says of a pair. The scene has to outlive it.
 struct SolidTruth {
   explicit SolidTruth(const RandomSolids& scene)
       : solid(oracle::solid_pair(scene.a, scene.b, scene.solids, scene.threshold)),

@@ -109,10 +109,10 @@ struct Solids {
 
 /// How two objects of which at least one is a solid lie in each other. The first line that holds counts:
 ///
-/// - an edge of one pierces a face of the other: `crossing`
-/// - all used vertices of a are inside the solid b: `a_in_b`
-/// - all used vertices of b are inside the solid a: `b_in_a`
-/// - a vertex of one is inside the other: `crossing`
+/// - An edge of one pierces a face of the other: `crossing`.
+/// - All used vertices of a are inside the solid b: `a_in_b`.
+/// - All used vertices of b are inside the solid a: `b_in_a`.
+/// - A vertex of one is inside the other: `crossing`.
 ///
 /// A point on the surface is not inside. Two surfaces that are no solids are `none`. The two lines in the
 /// middle never hold both: the outermost vertex of both shapes is in no solid.

@@ -26,8 +26,8 @@ namespace graze {
 /// features that are too large for float, with a bound from double. It calls `range.may_touch(segment,
 /// is_of_a)` for every segment that touches a face of the other surface, and perhaps for others.
 ///
-/// Where `Range::nearest_only` holds, the keys of a vertex and a face come with the range of their distance.
-/// Keys of two edges are left out where a closest point is an end.
+/// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance,
+/// and two edges have a key only if both closest points are inside.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
  public:

@@ -130,7 +130,7 @@ enum class Demand : std::uint8_t {
   blocks,   ///< some tested it and needed blocks of its vertices
 };
 
-/// What the last report knows an object by, where its mesh was replaced since.
+/// The mesh by which the last report knows an object, if it was replaced since.
 struct ReplacedMesh {
   std::shared_ptr<const IndexedMesh> mesh;  ///< the one that the last report speaks of
   std::vector<std::uint32_t> new_of_old;    ///< the vertex now of each vertex of it, or Mesh::no_vertex

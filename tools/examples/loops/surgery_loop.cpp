@@ -2,8 +2,8 @@
 // graze's step. A thread at 1 kHz computes the forces that the hands feel.
 //
 // Each instrument has a proxy, which stays outside the organs while the hand goes in. A spring between the
-// two gives the force. graze sees the proxies: so contacts are those of surfaces that hardly touch, and not
-// the ways out of a deep place, which turn from one moment to the next.
+// two gives the force. graze sees the proxies. So contacts are those of surfaces that hardly touch. The ways
+// out of a deep place would turn from one moment to the next.
 //
 // A step takes longer than a millisecond, so most ticks have no new report. The 1 kHz thread takes the latest
 // one and moves its contacts to where the proxies are now, with graze::evaluate(). Beside it the program
