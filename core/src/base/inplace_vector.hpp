@@ -28,6 +28,7 @@ class InplaceVector {
   }
   [[nodiscard]] const Element& back() const { return elements_[size_ - 1]; }
   void pop_back() { --size_; }
+  void clear() { size_ = 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] Element& operator[](std::size_t index) { return elements_[index]; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arithmetic/arithmetic.hpp"
+#include "arithmetic/certain.hpp"
 #include "base/working_memory.hpp"
 #include "core/base/box.hpp"
 #include "core/mesh/pair_room.hpp"
@@ -77,6 +78,13 @@ struct KnownInFloat {
   float lower = 0;
   float upper = 0;
 };
+
+/// The squared distance of a vertex and a triangle whose Voronoi region float knows.
+inline SquaredRange squared_range(const KnownInFloat& known, const FilterFrame& frame) {
+  const double lower = std::max(0.0, static_cast<double>(known.lower)) / frame.scale();
+  const double upper = static_cast<double>(known.upper) / frame.scale();
+  return {lower * lower * (1 - 0x1p-50) - 0x1p-1000, upper * upper * (1 + 0x1p-50) + 0x1p-1000};
+}
 
 /// Pairs of features whose distance float is to bound from below, which is done several at once.
 template <std::size_t CornersA, std::size_t CornersB>

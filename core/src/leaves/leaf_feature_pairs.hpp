@@ -334,9 +334,7 @@ class LeafFeaturePairs {
   /// near they are.
   [[nodiscard]] SquaredRange range_of(const KnownInFloat& known) const {
     if constexpr (!Range::nearest_only) return {0, 0};
-    const double lower = std::max(0.0, static_cast<double>(known.lower)) / batches_.frame.scale();
-    const double upper = static_cast<double>(known.upper) / batches_.frame.scale();
-    return {lower * lower * (1 - 0x1p-50) - 0x1p-1000, upper * upper * (1 + 0x1p-50) + 0x1p-1000};
+    return squared_range(known, batches_.frame);
   }
 
   /// Whether a pair that float has left may be near. Features that are too large for float have not been

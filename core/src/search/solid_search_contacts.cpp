@@ -1,7 +1,9 @@
 // The part of the search about solids that adds the contacts inside, and sets sides.
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "core/base/growth_policy.hpp"
@@ -40,14 +42,17 @@ void SolidSearch::add_contacts_inside() {
 /// Lists the keys of vertices inside, those of contacts left out, in their order and each once.
 void SolidSearch::list_keys_inside() {
   scratch_.keys.clear();
-  std::optional<VertexNearest> nearest;
-  const auto add = [&](VertexOfPair vertex) {
-    nearest = nearest_on_surface(worker_.pair, vertex, nearest);
-    if (nearest && !is_closer_than(worker_.pair, nearest->key, nearest->squared, pair_.query.threshold))
-      scratch_.keys.push_back(nearest->key);
+  const auto add_all = [&](bool are_of_a, std::span<const std::uint32_t> vertices) {
+    if (vertices.empty()) return;
+    NearestOnSurface nearest(worker_.pair, are_of_a, worker_.scratch.features);
+    for (const std::uint32_t vertex : vertices) {
+      const std::optional<VertexNearest> found = nearest.find(vertex);
+      if (found && !is_closer_than(worker_.pair, found->key, found->squared, pair_.query.threshold))
+        scratch_.keys.push_back(found->key);
+    }
   };
-  for (const std::uint32_t vertex : scratch_.a_in_b.inside()) add(VertexOfPair::of_a(vertex));
-  for (const std::uint32_t vertex : scratch_.b_in_a.inside()) add(VertexOfPair::of_b(vertex));
+  add_all(true, scratch_.a_in_b.inside());
+  add_all(false, scratch_.b_in_a.inside());
   std::sort(scratch_.keys.begin(), scratch_.keys.end());
   scratch_.keys.erase(std::unique(scratch_.keys.begin(), scratch_.keys.end()), scratch_.keys.end());
 }
