@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-DETAILS = ("none", "closest", "regions", "vertices", "features")
+DETAILS = ("none", "closest", "regions", "vertices", "nearest", "features")
 EDGE = 0.1  # of the squares that are cut into two triangles each
 GAP = 0.015
 CONTACT_DISTANCE = 0.06
@@ -117,11 +117,11 @@ def main():
         write_obj(work / "cloth.obj", (points, faces))
         write_obj(work / "ball.obj", ball(0.15, 40, 80))
         write_scene(work / "example.json", ["cloth", "ball"], 0.002)
-        print("\nball on cloth: contacts of features and vertices by contact distance in mm")
+        print("\nball on cloth: contacts of features, vertices and nearest by contact distance in mm")
         for millimetres in (4, 8, 16, 26.5):
             counts = [len(pair_of(program, work / "example.json", "--detail", detail,
                                   "--contact-distance", str(millimetres / 1000))["contacts"])
-                      for detail in ("features", "vertices")]
+                      for detail in ("features", "vertices", "nearest")]
             print("%g:" % millimetres, ", ".join(str(count) for count in counts))
 
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <graze/graze.hpp>
 #include <memory>
+#include <span>
 
 #include "bench/contender.hpp"
+#include "bench/shapes.hpp"
+#include "models/models.hpp"
 
 namespace graze::bench {
 namespace {
@@ -94,6 +97,30 @@ bool are_closed(const BenchScene& scene) {
   });
 }
 
+/// A body that goes up and down by a hundredth, so that each frame has something to do.
+Body almost_at_rest(const models::MeshData& data) {
+  Body body;
+  body.mesh = mesh_of(data);
+  body.place = [points = data.positions](std::size_t frame, std::span<float> out) {
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = static_cast<float>(points[i / 3][static_cast<Eigen::Index>(i % 3)]);
+    for (std::size_t i = 2; i < out.size(); i += 3) out[i] += frame % 2 == 0 ? 0.0F : 0.01F;
+    return true;
+  };
+  return body;
+}
+
+/// A flat grid of squares of side 1, and a triangle above it that is little larger than one of them.
+BenchScene triangle_over_grid() {
+  models::MeshData triangle;
+  triangle.positions = {{0.3, 0.2, 0.1}, {1.6, 0.525, 0.1}, {0.69, 1.5, 0.1}};
+  triangle.add_face({0, 2, 1});  // it faces the grid
+  BenchScene scene{"triangle over a flat grid", "", 1.6, 60, {}};
+  scene.bodies = {almost_at_rest(models::sheet(20, 20, 20, 20, models::Faces::triangles)),
+                  almost_at_rest(triangle)};
+  return scene;
+}
+
 void add_rows(const BenchScene& scene, std::size_t frames, tools::ResultTable& table) {
   MovingWorld world(scene);
   world.place(0);
@@ -119,6 +146,7 @@ tools::ResultTable compare_surface_details(const std::vector<BenchScene>& scenes
                                               "contacts: contacts", "agreement: how far pushes agree"})};
   table.timed = true;
   for (const BenchScene& scene : scenes) add_rows(scene, frames, table);
+  add_rows(triangle_over_grid(), frames, table);
   return table;
 }
 
