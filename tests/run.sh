@@ -1,8 +1,8 @@
 #!/bin/sh
 # The test command. It installs what is missing and checks how the sources are written. It builds graze as users do and
 # runs all tests. It runs them once more under the address and undefined-behaviour sanitizers, with the structure
-# validators on. It runs those with threads under the thread sanitizer, and each fuzzer for a short time. The last line
-# counts tests.
+# validators on, and with each fuzzer for a short time. It runs those with threads under the thread sanitizer. The last
+# line counts tests.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -36,20 +36,19 @@ run_preset release --parallel "$(nproc)"
 # The sanitizers' builds leave out and change what would take long and says nothing new:
 # - What measures graze is left out. It runs the library as the other programs do, and takes a third of the build.
 # - Undefined behaviour's checks of null, of object sizes and of virtual tables are left out. With them the build takes
-#   a tenth to a fifth longer. The address sanitizer sees what such accesses do, and the fuzzers have them.
+#   a tenth to a fifth longer. The address sanitizer sees what such accesses do, and the preset `fuzz` has them.
 # - The contract's programs are left out, since they build libraries of their own. So are the checks of pages and
 #   of includes, which run nothing of graze. The bowl of the examples would take minutes; the others do the same.
 # - An allocation is remembered with two of its callers. With thirty, what the exact oracles allocate takes a third of
 #   all tests' time.
 # - The libraries' sources are compiled in batches, as those of the demonstration are.
+# - The fuzzers are built here, with counters of what they reach. A build of their own took a fifth of all the time. The
+#   preset `fuzz` is for long runs: there comparisons guide them too (docs/fuzzing.md).
 run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_|^example_bowl'
 
 # The tests with threads once more under the thread sanitizer.
 tests/tsan_tbb.sh build/tsan-tbb
 run_preset tsan --parallel "$(nproc)"
-
-# Each fuzzer for a short time, from its seeds (docs/fuzzing.md).
-run_preset fuzz --parallel "$(nproc)"
 
 # ctest counts in each results file's first element.
 count() {

@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::uint32_t most_vertices = 24;
 constexpr std::uint32_t most_faces = 12;
-constexpr std::array details = {ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                                ContactDetail::vertices, ContactDetail::features};
-constexpr std::array detail_names = {"none", "closest", "regions", "vertices", "features"};
+constexpr std::array details = {ContactDetail::none,     ContactDetail::closest,  ContactDetail::regions,
+                                ContactDetail::vertices, ContactDetail::features, ContactDetail::nearest};
+constexpr std::array detail_names = {"none", "closest", "regions", "vertices", "features", "nearest"};
 
 enum class Numbers : std::uint8_t { coarse, fine, any };
 constexpr double coarse_step = 0.25;

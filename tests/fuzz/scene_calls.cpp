@@ -63,6 +63,14 @@ std::shared_ptr<const Mesh> read_mesh(ByteReader& reader) {
   return std::make_shared<const Mesh>(Mesh::from_polygons(data.positions, data.corners, data.corner_counts));
 }
 
+/// Mostly no groups, and now and then one too few.
+std::vector<std::uint8_t> read_face_groups(ByteReader& reader, const Mesh& mesh) {
+  if (!reader.once_in(3)) return {};
+  std::vector<std::uint8_t> groups(mesh.face_count() - (reader.once_in(64) ? 1 : 0));
+  for (std::uint8_t& group : groups) group = static_cast<std::uint8_t>(reader.below(3));
+  return groups;
+}
+
 ObjectSettings read_object_settings(ByteReader& reader) {
   ObjectSettings settings;
   const std::uint32_t motion = reader.below(4);
@@ -73,6 +81,7 @@ ObjectSettings read_object_settings(ByteReader& reader) {
     settings.margin = length(reader) / 4;
     settings.kind = reader.below(300) % 3 + (reader.once_in(64) ? 255 : 0);
   }
+  settings.solid = reader.once_in(3);
   return settings;
 }
 
@@ -132,15 +141,31 @@ void add(ByteReader& reader, SceneModel& model) {
   for (const ModelBody& body : model.bodies()) alive += body.is_alive ? 1 : 0;
   if (alive < most_alive && model.bodies().size() < most_bodies) {
     auto mesh = read_mesh(reader);
-    model.add(std::move(mesh), read_object_settings(reader));
+    ObjectSettings settings = read_object_settings(reader);
+    settings.face_groups = read_face_groups(reader, *mesh);
+    model.add(std::move(mesh), settings);
   }
+}
+
+/// Maps vertices at random, and now and then not as a map must be.
+void replace_mesh(ByteReader& reader, SceneModel& model, std::size_t body) {
+  const std::shared_ptr<const Mesh> mesh = read_mesh(reader);
+  std::vector<std::uint32_t> new_of_old(model.bodies()[body].mesh->vertex_count() +
+                                        (reader.once_in(64) ? 1 : 0));
+  const std::uint32_t count = mesh->vertex_count() + (reader.once_in(64) ? 1 : 0);
+  const bool is_shift = reader.flag();
+  for (std::uint32_t i = 0; i < new_of_old.size(); ++i) {
+    const std::uint32_t vertex = is_shift ? i : reader.below(count + 1);
+    new_of_old[i] = vertex < count ? vertex : Mesh::no_vertex;
+  }
+  model.replace_mesh(body, mesh, new_of_old, read_face_groups(reader, *mesh));
 }
 
 }  // namespace
 
 SceneSettings read_scene_settings(ByteReader& reader) {
   SceneSettings settings;
-  settings.detail = static_cast<ContactDetail>(reader.below(5));
+  settings.detail = static_cast<ContactDetail>(reader.below(6));
   settings.contact_distance = reader.below(64) / 64.0;
   settings.range = reader.below(64) / 16.0;
   if (reader.once_in(8)) settings.range = std::numeric_limits<double>::infinity();
@@ -157,7 +182,7 @@ SceneSettings read_scene_settings(ByteReader& reader) {
 }
 
 void make_call(ByteReader& reader, SceneModel& model) {
-  const std::uint32_t call = reader.below(20);
+  const std::uint32_t call = reader.below(24);
   if (call == 0 || model.bodies().empty()) return add(reader, model);
   const auto any_body = [&] { return reader.below(static_cast<std::uint32_t>(model.bodies().size())); };
   const std::size_t body = any_body();
@@ -183,6 +208,12 @@ void make_call(ByteReader& reader, SceneModel& model) {
     return model.write(body, positions, tell, read_promise(reader));
   }
   if (call == 14) return set_pose(reader, model, body);
+  if (call == 15) return replace_mesh(reader, model, body);
+  if (call == 16) {
+    const auto group = static_cast<std::uint8_t>(reader.below(3));
+    const auto other = static_cast<std::uint8_t>(reader.below(3));
+    return model.set_ignored_groups({body, group}, {any_body(), other}, reader.flag());
+  }
   model.step();
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <graze/scene.hpp>
 #include <map>
 #include <memory>
@@ -45,6 +47,14 @@ struct ModelBody {
 /// A promise of how far vertices move: none, one that is kept, or none that makes sense.
 enum class Promise { none, kept, senseless };
 
+/// The faces of one group of a body.
+struct BodyGroup {
+  std::size_t body = 0;
+  std::uint8_t group = 0;
+
+  friend auto operator<=>(const BodyGroup&, const BodyGroup&) = default;
+};
+
 /// Makes calls on a Scene, knows from the contract alone what each must come to, and compares every step with
 /// a scene built afresh. Bodies are named by the order in which they were added; those removed stay, as stale
 /// ids.
@@ -62,6 +72,10 @@ class SceneModel {
   void unbind(std::size_t body);
   void set_pose(std::size_t body, const PoseRows& rows, bool is_rotation);
   void set_ignored(std::size_t a, std::size_t b, bool ignored);
+  void set_ignored_groups(const BodyGroup& a, const BodyGroup& b, bool ignored);
+  void replace_mesh(std::size_t body, const std::shared_ptr<const Mesh>& mesh,
+                    const std::vector<std::uint32_t>& new_of_old,
+                    const std::vector<std::uint8_t>& face_groups);
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule);
   /// A view that no object takes: of a wrong count, or null.
   void give_bad_view(std::size_t body, bool is_null);
@@ -101,6 +115,7 @@ class SceneModel {
   std::map<ObjectId, std::size_t> body_of_;
   std::multiset<std::pair<ObjectId, DiagnosticKind>> expected_;
   std::set<BodyPair> ignored_;
+  std::set<std::pair<BodyGroup, BodyGroup>> ignored_groups_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, PairRule> rules_;
   std::set<BodyPair> in_contact_;  ///< of the last step
   std::uint64_t frame_ = 0;

@@ -23,6 +23,35 @@ DiagnosticKind problem_of(const Mesh& mesh, const Positions& positions) {
   finding("no problem with these positions");
 }
 
+/// Whether each edge has two faces that pass it in opposite directions.
+bool is_closed(const Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces_of;  // by direction
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const std::span<const std::uint32_t> corner = mesh.face(face);
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+      const std::uint32_t next = corner[(i + 1) % corner.size()];
+      if (corner[i] != next) faces_of[{corner[i], next}].push_back(face);
+    }
+  }
+  return std::all_of(faces_of.begin(), faces_of.end(), [&](const auto& passed) {
+    const auto& [ends, faces] = passed;
+    const auto back = faces_of.find({ends.second, ends.first});
+    return faces.size() == 1 && back != faces_of.end() && back->second.size() == 1 &&
+           back->second[0] != faces[0];
+  });
+}
+
+bool have_good_groups(const Mesh& mesh, const std::vector<std::uint8_t>& face_groups) {
+  return face_groups.empty() || face_groups.size() == mesh.face_count();
+}
+
+bool is_good_map(const Mesh& old, const Mesh& mesh, const std::vector<std::uint32_t>& new_of_old) {
+  return new_of_old.size() == old.vertex_count() &&
+         std::all_of(new_of_old.begin(), new_of_old.end(), [&](std::uint32_t vertex) {
+           return vertex == Mesh::no_vertex || vertex < mesh.vertex_count();
+         });
+}
+
 Positions posed(const Mesh& mesh, const PoseRows& m) {
   Positions positions;
   for (const Eigen::Vector3d& p : mesh.rest())
@@ -59,7 +88,8 @@ SceneModel::SceneModel(const SceneSettings& settings) : scene_(settings) {}
 
 void SceneModel::add(std::shared_ptr<const Mesh> mesh, ObjectSettings settings) {
   settings.user_data = bodies_.size() + 1;
-  const bool is_good = settings.margin >= 0 && std::isfinite(settings.margin) && settings.kind <= 255;
+  const bool is_good = settings.margin >= 0 && std::isfinite(settings.margin) && settings.kind <= 255 &&
+                       (!settings.solid || is_closed(*mesh)) && have_good_groups(*mesh, settings.face_groups);
   ModelBody body;
   try {
     body.id = scene_.add(mesh, settings);
@@ -192,6 +222,46 @@ void SceneModel::set_ignored(std::size_t a, std::size_t b, bool ignored) {
     ignored_.insert(std::minmax(a, b));
   else
     ignored_.erase(std::minmax(a, b));
+}
+
+void SceneModel::set_ignored_groups(const BodyGroup& a, const BodyGroup& b, bool ignored) {
+  const ObjectId id_a = bodies_[a.body].id;
+  const ObjectId id_b = bodies_[b.body].id;
+  if (ignored)
+    scene_.ignore(id_a, a.group, id_b, b.group);
+  else
+    scene_.watch(id_a, a.group, id_b, b.group);
+  for (const std::size_t body : {a.body, b.body})
+    if (!bodies_[body].is_alive) return expect_diagnostic(bodies_[body].id, DiagnosticKind::stale_id);
+  if (a.body == b.body) return;  // no object is looked at against itself
+  if (ignored)
+    ignored_groups_.insert(std::minmax(a, b));
+  else
+    ignored_groups_.erase(std::minmax(a, b));
+}
+
+/// What was to be read from the old mesh is forgotten. A pose stays.
+void SceneModel::replace_mesh(std::size_t index, const std::shared_ptr<const Mesh>& mesh,
+                              const std::vector<std::uint32_t>& new_of_old,
+                              const std::vector<std::uint8_t>& face_groups) {
+  ModelBody& body = bodies_[index];
+  const bool is_good = is_good_map(*body.mesh, *mesh, new_of_old) && have_good_groups(*mesh, face_groups) &&
+                       (!body.settings.solid || is_closed(*mesh));
+  try {
+    scene_.replace_mesh(body.id, mesh, new_of_old, face_groups);
+  } catch (const Error&) {
+    return expect(body.is_alive && !is_good, "a good mesh is refused");
+  }
+  if (!body.is_alive) return expect_diagnostic(body.id, DiagnosticKind::stale_id);
+  expect(is_good, "a bad mesh is taken");
+  body.mesh = mesh;
+  body.settings.face_groups = face_groups;
+  body.seen.assign(mesh->rest().begin(), mesh->rest().end());
+  if (body.settings.motion != Motion::deformable) return;
+  body.copied.reset();
+  body.doubles.reset();
+  body.floats.reset();
+  body.is_bound = body.is_told = body.is_newly_bound = body.is_promised = body.is_frozen = false;
 }
 
 void SceneModel::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {

@@ -66,6 +66,9 @@ std::map<SceneModel::BodyPair, SceneModel::Fresh> SceneModel::build_afresh() con
   }
   for (const auto& [a, b] : ignored_)
     if (ids[a] != ObjectId{} && ids[b] != ObjectId{}) afresh.ignore(ids[a], ids[b]);
+  for (const auto& [a, b] : ignored_groups_)
+    if (ids[a.body] != ObjectId{} && ids[b.body] != ObjectId{})
+      afresh.ignore(ids[a.body], a.group, ids[b.body], b.group);
   for (auto [kinds, rule] : rules_) {
     rule.range = settings.range;
     afresh.set_rule(kinds.first, kinds.second, rule);
