@@ -27,6 +27,7 @@
 #include "examples/loops/push_constraint.hpp"
 #include "examples/loops/terrain.hpp"
 #include "examples/loops/times.hpp"
+#include "examples/support/record_option.hpp"
 
 namespace {
 
@@ -215,7 +216,7 @@ int main(int argc, char** argv) {
   const loops::Options options = loops::read_options(argc, argv);
   const std::size_t frames = options.length > 0 ? static_cast<std::size_t>(options.length) : 600;
   Game game(options.threads);
-  const std::unique_ptr<graze::Recorder> recorder = make_recorder(options, game.scene());
+  const std::unique_ptr<graze::Recorder> recorder = examples::make_recorder(options.record, game.scene());
 
   FrameTimes times(frames);
   loops::EventCheck events;

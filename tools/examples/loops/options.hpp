@@ -1,8 +1,6 @@
 #pragma once
 
-#include <graze/graze.hpp>
 #include <graze/recorder.hpp>
-#include <memory>
 #include <string>
 
 namespace loops {
@@ -18,9 +16,6 @@ struct Options {
 
 /// Reads the options of a program's command line. Ends the program with exit code 2 if one is unknown.
 Options read_options(int argc, char** argv);
-
-/// Returns a recorder that is attached to a scene if the options ask for a recording, or else null.
-std::unique_ptr<graze::Recorder> make_recorder(const Options& options, graze::Scene& scene);
 
 /// Finishes a recording, and prints what it holds. Does nothing without one.
 void finish(const Options& options, graze::Recorder* recorder);

@@ -10,7 +10,7 @@ namespace {
 /// Returns a blob of 1,922 vertices: a ball of 40 mm with bumps. It lies beside the origin, and touches the
 /// other.
 Shape blob(double side) {
-  Shape shape = ball(40, 48, 40);
+  Shape shape = rounded(examples::ball(40, 48, 40));
   for (Eigen::Vector3f& point : shape.points) {
     point *= 1 + 0.04f * std::sin(0.12f * point.x()) * std::cos(0.15f * point.y());
     point.x() += static_cast<float>(side * 40.5);

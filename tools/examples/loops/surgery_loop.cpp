@@ -25,6 +25,7 @@
 #include "examples/loops/events.hpp"
 #include "examples/loops/haptic_reader.hpp"
 #include "examples/loops/options.hpp"
+#include "examples/support/record_option.hpp"
 
 namespace {
 
@@ -284,7 +285,8 @@ int main(int argc, char** argv) {
   const loops::Organs& organs = simulation.organs();
   std::printf("two %s of %zu and %zu vertices\n", organs.are_real ? "organs" : "blobs",
               organs.shapes[0].points.size(), organs.shapes[1].points.size());
-  const std::unique_ptr<graze::Recorder> recorder = make_recorder(options, simulation.scene());
+  const std::unique_ptr<graze::Recorder> recorder =
+      examples::make_recorder(options.record, simulation.scene());
 
   ForceTracks tracks;
   Outcome outcome;
