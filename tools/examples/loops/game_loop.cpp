@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <graze/graze.hpp>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "examples/loops/crowd.hpp"
@@ -49,6 +50,12 @@ Role role_of(std::uint64_t data) {
 }
 std::size_t index_of(std::uint64_t data) {
   return data & 0xffffffff;
+}
+
+/// Returns the name under which the viewer shows an object.
+std::string name_of(Role role, std::size_t index) {
+  if (role == Role::ground) return "terrain";
+  return (role == Role::character ? "walker " : "prop ") + std::to_string(index);
 }
 
 /// Layers. Characters walk on the ground and dodge each other by themselves, so graze need not look at that.
@@ -157,6 +164,7 @@ class Game {
   graze::ObjectId add(std::shared_ptr<const graze::Mesh> mesh, graze::Motion motion, Role role,
                       std::size_t index, std::uint32_t layer, std::uint32_t collides_with) {
     graze::ObjectSettings object;
+    object.name = name_of(role, index);
     object.motion = motion;
     object.layer = layer;
     object.collides_with = collides_with;

@@ -16,6 +16,8 @@ Options read_options(int argc, char** argv) {
     const bool has_value = i + 1 < argc;
     if (name == "--deterministic") {
       options.deterministic = true;
+    } else if (name == "--blobs") {
+      options.blobs = true;
     } else if (name == "--organs" && has_value) {
       options.organs = argv[++i];
     } else if (name == "--length" && has_value) {
@@ -26,7 +28,7 @@ Options read_options(int argc, char** argv) {
       std::fprintf(stderr,
                    "%s: unknown option, or no value: %s\n"
                    "usage: %s [--record FILE] [--length FRAMES_OR_TICKS] [--threads N]\n"
-                   "       surgery_loop also has [--organs FILE.obj] [--deterministic]\n",
+                   "       surgery_loop also has [--organs FILE.obj | --blobs] [--deterministic]\n",
                    argv[0], argv[i], argv[0]);
       std::exit(2);
     }
