@@ -237,7 +237,8 @@ const INSIDES = ['none', 'a_in_b', 'b_in_a', 'crossing'];
 const PHASES = { near: 0, began: 1, touching: 2, ended: 3 };
 const KINDS = { VV: 0, VE: 1, VF: 2, EE: 3, EF: 4, FF: 5 };
 
-function reportTable(reports, first, end) {
+/// Data of before pages knew of solids has no `pair_inside`.
+function reportTable(reports, first, end, isOld) {
   const a = {
     frame_pair_begin: ['u32', []], frame_pair_end: ['u32', []],
     pair_a: ['u32', []], pair_b: ['u32', []], pair_phase: ['u8', []], pair_flags: ['u8', []], pair_inside: ['u8', []],
@@ -289,6 +290,7 @@ function reportTable(reports, first, end) {
     for (const d of report.diagnostics) diagnostics.push({ frame: f, ...d });
     info.push(report.info);
   }
+  if (isOld) delete a.pair_inside;
   return tableBytes({ diagnostics, frames_info: info }, a);
 }
 
@@ -600,7 +602,7 @@ export function makePage(scene, level = 6) {
     frames: scene.frames, frame_numbers: reports.map((r) => r.info.frame), every: scene.every,
     source_frames: scene.frames * scene.every, block: scene.block,
     objects: scene.objects.map((o) => ({
-      serial: o.serial, name: o.name, motion: o.motion, solid: o.solid ?? false, mesh: meshes.indexOf(o.mesh), first: o.first, last: o.last,
+      serial: o.serial, name: o.name, motion: o.motion, ...(scene.isOld ? {} : { solid: o.solid ?? false }), mesh: meshes.indexOf(o.mesh), first: o.first, last: o.last,
       user_data: String(1000 + o.serial), position_error: o.motion === 'deformable' ? scene.quantum / 2 : 0 })),
     meshes: meshes.map((m, i) => ({
       chunk: `mesh/${i}`, vertices: m.points.length, edges: m.edges.length / 2, triangles: m.triangles.length,
@@ -615,7 +617,7 @@ export function makePage(scene, level = 6) {
   for (let k = 0; k * scene.block < scene.frames; ++k) {
     const [first, end] = [k * scene.block, Math.min((k + 1) * scene.block, scene.frames)];
     put(`motion/${k}`, motionTable(scene, first, end));
-    put(`report/${k}`, reportTable(reports, first, end));
+    put(`report/${k}`, reportTable(reports, first, end, scene.isOld));
   }
   return { chunks, head, reports };
 }

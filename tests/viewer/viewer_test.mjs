@@ -325,6 +325,18 @@ async function checkInside(page, made) {
   await page.evaluate(() => window.graze.select(null));
 }
 
+/** Data of before pages knew of solids. */
+async function checkOldData() {
+  const { chunks } = makePage({ ...smallScene(), isOld: true });
+  const page = await open(write('old.html', pageHtml(template, chunks)));
+  await goTo(page, 52);
+  await page.evaluate(() => window.graze.select('pair:4:90'));
+  const { selection } = await inspect(page);
+  const signs = await page.locator('[data-testid^=inside-]').count();
+  same('older data says nothing of solids', [selection.listed, 'inside' in selection, signs, page.errors], [true, false, 0, []]);
+  await page.close();
+}
+
 /** Faults of earlier pages: words that were cut off or hidden, and an empty picture. */
 async function checkLayout(page) {
   await page.evaluate(() => window.graze.select(null));
@@ -696,6 +708,7 @@ try {
     await page.close();
     await checkKeys(path);
     await checkFile(made);
+    await checkOldData();
     await checkLarge('1,000 frames of 10,000 vertices', longScene(), 4, { size: 60, open: 2000, seek: 50, seeks: 15 });
     await checkLarge('2 × 100,000 vertices', largeScene(), 1, { size: 60, seeks: 4 });
   }

@@ -5,7 +5,7 @@ namespace loops {
 Shape rounded(const examples::Shape& shape) {
   Shape result;
   result.triangles = shape.triangles;
-  for (const Eigen::Vector3d& point : shape.points) result.points.push_back(point.cast<float>());
+  for (const Eigen::Vector3d& point : shape.points) result.points.emplace_back(point.cast<float>());
   return result;
 }
 

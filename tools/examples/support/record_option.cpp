@@ -8,7 +8,7 @@
 namespace examples {
 
 std::string take_record_option(int& argc, char** argv) {
-  const auto found =
+  char** const found =
       std::find_if(argv + 1, argv + argc, [](std::string_view word) { return word == "--record"; });
   if (found + 1 >= argv + argc) return {};
   std::string file = found[1];

@@ -44,6 +44,8 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
   if (row < 0) return { ...names, listed: false };
   const { block } = report;
   const flags = block.flags[row]!;
+  // Without a solid there is no inside, and `none` would say nothing of surfaces that pierce each other.
+  const hasSolid = head.objects[a]!.solid || head.objects[b]!.solid;
   const features = block.witnessFeatures.subarray(4 * row, 4 * row + 4);
   const kinds: Record<string, number> = {};
   for (let c = block.contactBegin[row]!; c < block.contactEnd[row]!; ++c) {
@@ -58,7 +60,7 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
   return {
     ...names, listed: true, phase: PHASES[block.phase[row]!] ?? '?',
     lower: block.lower[row]!, upper: block.upper[row]!,
-    ...(block.inside.length ? { inside: INSIDES[block.insideOf(row)] ?? '?' } : {}),
+    ...(hasSolid ? { inside: INSIDES[block.insideOf(row)] ?? '?' } : {}),
     incomplete: (flags & 1) !== 0, stale: (flags & 2) !== 0, contacts_cut: (flags & 4) !== 0,
     witness_a: feature(viewer, a, features[0]!, features[1]!), witness_b: feature(viewer, b, features[2]!, features[3]!),
     point_a: triple(block.witnessPoints, 6 * row), point_b: triple(block.witnessPoints, 6 * row + 3),

@@ -105,7 +105,7 @@ export class SurfaceView {
       object.frustumCulled = false;
       this.object.add(object);
     }
-    this.edgeLength = meanEdge(state);
+    this.edgeLength = medianEdge(state);
   }
 
   /** Brings the vertices to where the object is now. */
@@ -185,16 +185,14 @@ function without(index: Uint32Array, size: number, bad: Set<number>): Uint32Arra
   return new Uint32Array(kept);
 }
 
-function meanEdge({ mesh, world }: ObjectState): number {
+/** The median of some edges. A mean says little where a few edges are much longer than the others. */
+function medianEdge({ mesh, world }: ObjectState): number {
   const step = Math.max(1, Math.floor(mesh.edgeCount / 500));
-  let sum = 0;
-  let count = 0;
+  const lengths: number[] = [];
   for (let e = 0; e < mesh.edgeCount; e += step) {
     const [v, w] = [3 * mesh.edges[2 * e]!, 3 * mesh.edges[2 * e + 1]!];
     const length = Math.hypot(world[v]! - world[w]!, world[v + 1]! - world[w + 1]!, world[v + 2]! - world[w + 2]!);
-    if (!Number.isFinite(length)) continue;
-    sum += length;
-    ++count;
+    if (Number.isFinite(length)) lengths.push(length);
   }
-  return count ? sum / count : 1;
+  return lengths.sort((p, q) => p - q)[lengths.length >> 1] ?? 1;
 }
