@@ -59,8 +59,8 @@ void ExportScene::record() {
   const auto sheet = std::make_shared<const Mesh>(mixed_sheet());
   const auto spike = std::make_shared<const Mesh>(tetrahedron(0.3));
   (void)scene.add(sheet, {.name = "sheet, \"wide\"", .motion = Motion::fixed});
-  const ObjectId moving = scene.add(spike, {.name = "spike\n2", .motion = Motion::rigid});
-  const ObjectId removed = scene.add(spike, {.name = "block", .motion = Motion::rigid});
+  const ObjectId moving = scene.add(spike, {.name = "spike\n2", .motion = Motion::rigid, .solid = true});
+  const ObjectId removed = scene.add(spike, {.name = "block", .motion = Motion::rigid, .solid = true});
   Recorder recorder(scene, path("run.graze"), {.keyframe_interval = 4, .waiting_frames = 1000});
   for (std::size_t frame = 0; frame < frame_count; ++frame) {
     const double height = 0.02 * std::abs(static_cast<double>(frame) - 5.3);

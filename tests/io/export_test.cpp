@@ -101,6 +101,8 @@ void check_contact(Cells cells, const io::SceneSnapshot& snapshot, const PairRep
   CHECK(cells.are(contact.normal));
   CHECK(cells.is(contact.distance));
   CHECK(cells.whole() == contact.since - 1);
+  CHECK(cells.is(contact.separation()));
+  CHECK(cells.are(contact.push()));
   CHECK(cells.are_done());
 }
 
@@ -117,6 +119,7 @@ void check_row(Cells cells, const io::SceneSnapshot& snapshot, const PairReport&
   CHECK(cells.text() == (pair.complete ? "true" : "false"));
   CHECK(cells.text() == (pair.contacts_cut ? "true" : "false"));
   CHECK(cells.text() == (pair.stale ? "true" : "false"));
+  CHECK(cells.text() == to_string(pair.inside));
   CHECK(cells.are_done());
 }
 
@@ -213,7 +216,9 @@ void check_vtp_lines(const std::filesystem::path& path, const io::SceneSnapshot&
   std::vector<double> points;
   std::vector<double> distances;
   std::vector<double> levels;
+  std::vector<double> insides;
   for (const PairReport& pair : snapshot.report->pairs()) {
+    insides.resize(insides.size() + 1 + pair.region_distance_count, static_cast<double>(pair.inside));
     append(points, pair.witness.point_a);
     append(points, pair.witness.point_b);
     distances.push_back(pair.distance.upper);
@@ -228,6 +233,7 @@ void check_vtp_lines(const std::filesystem::path& path, const io::SceneSnapshot&
   CHECK(Printed(arrays["Points/Points"]).numbers == points);
   CHECK(Printed(arrays["CellData/distance"]).numbers == distances);
   CHECK(Printed(arrays["CellData/level"]).numbers == levels);
+  CHECK(Printed(arrays["CellData/inside"]).numbers == insides);
   CHECK(arrays["counts"].at(2) == std::to_string(levels.size()));
 }
 
@@ -267,8 +273,8 @@ TEST_CASE("export: the tables are the reports, to the last bit and in any locale
   std::locale::global(before);
   const Rows contact_rows = read_csv(scene.path("contacts.csv"));
   const Rows distance_rows = read_csv(scene.path("distances.csv"));
-  CHECK(contact_rows.at(0).size() == 24);
-  CHECK(distance_rows.at(0).size() == 23);
+  CHECK(contact_rows.at(0).size() == 28);
+  CHECK(distance_rows.at(0).size() == 24);
   CHECK(contacts.row_count() + 1 == contact_rows.size());
   CHECK(distances.row_count() + 1 == distance_rows.size());
   std::size_t next_contact = 1;

@@ -74,8 +74,9 @@ Eigen::Isometry3d box_at(double moment) {
 
 PlayedObject& add(PlayedScene& played, Scene& scene, io::PageObject object, std::uint64_t frame) {
   PlayedObject added;
-  added.id =
-      scene.add(object.mesh, {.name = object.name, .motion = object.motion, .user_data = object.user_data});
+  added.id = scene.add(
+      object.mesh,
+      {.name = object.name, .motion = object.motion, .solid = object.solid, .user_data = object.user_data});
   added.page = std::move(object);
   added.added = frame;
   played.objects.push_back(std::move(added));
@@ -109,7 +110,7 @@ PlayedScene play() {
   const auto box_mesh = box();
   add(played, scene, {"cloth </script><b>\"", cloth_mesh, Motion::deformable, 7}, 0);
   add(played, scene, {"box", box_mesh, Motion::rigid, std::uint64_t{1} << 63U}, 0);
-  add(played, scene, {"stand", box_mesh, Motion::fixed, 0}, 0);
+  add(played, scene, {"stand", box_mesh, Motion::fixed, 0, true}, 0);
   for (std::uint64_t frame = 0; frame < frame_count; ++frame) {
     if (frame == 7) add(played, scene, {"late \xff cloth", cloth_mesh, Motion::deformable, 1}, frame);
     if (frame == 40) {

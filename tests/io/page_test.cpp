@@ -122,6 +122,7 @@ void compare_pair(Differences& differences, const DecodedReport& decoded, std::s
   differences.expect(decoded.byte("pair_phase", row) == static_cast<int>(pair.phase));
   const int flags = (pair.complete ? 0 : 1) + (pair.stale ? 2 : 0) + (pair.contacts_cut ? 4 : 0);
   differences.expect(decoded.byte("pair_flags", row) == flags);
+  differences.expect(decoded.byte("pair_inside", row) == static_cast<int>(pair.inside));
   differences.expect(decoded.real_bits("pair_lower", row) == bits(pair.distance.lower));
   differences.expect(decoded.real_bits("pair_upper", row) == bits(pair.distance.upper));
   compare_feature(differences, decoded, "witness_features", 4 * row, pair.witness.feature_a);
@@ -217,6 +218,8 @@ void compare_head(const DecodedPage& page, const PlayedScene& scene, std::uint64
   CHECK(head.at("objects").at(0).at("name") == "cloth </script><b>\"");
   CHECK(head.at("objects").at(1).at("user_data") == "9223372036854775808");
   CHECK(head.at("objects").at(2).at("motion") == "fixed");
+  CHECK(head.at("objects").at(0).at("solid") == false);
+  CHECK(head.at("objects").at(2).at("solid") == true);
   CHECK(head.at("meshes").size() == 2);
 }
 
@@ -225,10 +228,16 @@ void compare_series(const DecodedPage& page, const PlayedScene& scene, std::uint
   for (std::uint64_t frame = 0; frame < page.frame_count(); ++frame) {
     const graze::FrameReport& report = scene.reports[static_cast<std::size_t>(frame * every)];
     std::size_t ended = 0;
-    for (const graze::PairReport& pair : report.pairs()) ended += pair.phase == graze::PairPhase::ended;
+    std::size_t crossing = 0;
+    for (const graze::PairReport& pair : report.pairs()) {
+      ended += pair.phase == graze::PairPhase::ended;
+      crossing += pair.inside == graze::Inside::crossing;
+    }
     CHECK(series.at("contacts").at(frame) == report.contacts().size());
     CHECK(series.at("near").at(frame) == report.pairs().size());
     CHECK(series.at("ended").at(frame) == ended);
+    CHECK(series.at("crossing").at(frame) == crossing);
+    CHECK(series.at("inside").at(frame) == 0);
     CHECK(series.at("diagnostics").at(frame) == report.diagnostics().size());
     CHECK(series.at("step_ms").at(frame) == report.statistics().step_ms);
   }
@@ -289,12 +298,15 @@ TEST_CASE("page: the played scene has what a page must show") {
   const PlayedScene& scene = played_scene();
   std::size_t contacts = 0;
   std::size_t regions = 0;
+  std::size_t crossing = 0;
   for (const graze::FrameReport& report : scene.reports) {
+    for (const graze::PairReport& pair : report.pairs()) crossing += pair.inside == graze::Inside::crossing;
     contacts += report.contacts().size();
     regions += report.region_distances().size();
   }
   CHECK(contacts > 100);
   CHECK(regions > 1000);
+  CHECK(crossing > 10);
   CHECK(scene.reports[5].diagnostics().size() == 1);
 }
 

@@ -88,6 +88,24 @@ TEST_CASE("a scene of quads and a posed spike gives what brute force finds, fram
   CHECK(check_exactly(read_report(report), scene.frames(), {0.02, 0.05}) == 3);
 }
 
+TEST_CASE("the summary says which solid is inside another, and that they cross") {
+  const TemporaryFolder folder;
+  folder.write("crate.obj", obj_text(box({-1, -1, -1}, {2, 2, 2})));
+  folder.write("pebble.obj", obj_text(box({-0.25, -0.25, -0.25}, {0.5, 0.5, 0.5})));
+  const auto scene = folder.write("solids.json", R"({"graze": 1, "contact_distance": 0.125, "objects": [
+    {"name": "pebble", "mesh": "pebble.obj", "solid": true, "poses": [{"frame": 0, "translate": [1.5, 0, 0]},
+      {"frame": 4, "translate": [0, 0.03125, 0]}]},
+    {"name": "crate", "mesh": "crate.obj", "solid": true, "motion": "fixed"},
+    {"name": "marble", "mesh": "pebble.obj", "solid": true, "poses": [{"frame": 0, "translate": [0, 0, 4]},
+      {"frame": 4, "translate": [0, 0, 0.625]}]}]})");
+  const auto result = run_graze({"run", scene.string()});
+  CHECK(result.exit_code == 0);
+  // The pebble crosses the wall in the frames 1 and 2, at 1.125 and 0.75. The marble is inside in frame 4.
+  CHECK_THAT(result.out, Contains("pebble and crate: ") &&
+                             Contains("; they cross in 2 frames; pebble is inside crate in 2 frames\n"));
+  CHECK_THAT(result.out, Contains("crate and marble: ") && Contains("; marble is inside crate in 1 frame\n"));
+}
+
 TEST_CASE("two boxes of quads have the contacts that brute force finds") {
   const TemporaryFolder folder;
   const Shape below = box({0, 0, 0}, {1, 1, 0.5});

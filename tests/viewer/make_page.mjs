@@ -233,13 +233,15 @@ function motionTable(scene, first, end) {
 
 // ---- Reports ----
 
+const INSIDES = ['none', 'a_in_b', 'b_in_a', 'crossing'];
 const PHASES = { near: 0, began: 1, touching: 2, ended: 3 };
 const KINDS = { VV: 0, VE: 1, VF: 2, EE: 3, EF: 4, FF: 5 };
 
-function reportTable(reports, first, end) {
+/// Data of before pages knew of solids has no `pair_inside`.
+function reportTable(reports, first, end, isOld) {
   const a = {
     frame_pair_begin: ['u32', []], frame_pair_end: ['u32', []],
-    pair_a: ['u32', []], pair_b: ['u32', []], pair_phase: ['u8', []], pair_flags: ['u8', []],
+    pair_a: ['u32', []], pair_b: ['u32', []], pair_phase: ['u8', []], pair_flags: ['u8', []], pair_inside: ['u8', []],
     pair_lower: ['f64', []], pair_upper: ['f64', []], witness_features: ['u32', []], witness_points: ['f64', []],
     pair_contact_begin: ['u32', []], pair_contact_end: ['u32', []],
     pair_region_begin: ['u32', []], pair_region_end: ['u32', []],
@@ -259,6 +261,7 @@ function reportTable(reports, first, end) {
       put('pair_b', pair.b);
       put('pair_phase', PHASES[pair.phase]);
       put('pair_flags', (pair.incomplete ? 1 : 0) | (pair.stale ? 2 : 0) | (pair.contacts_cut ? 4 : 0));
+      put('pair_inside', INSIDES.indexOf(pair.inside));
       put('pair_lower', pair.lower);
       put('pair_upper', pair.upper);
       put('witness_features', ...pair.witness.features);
@@ -287,6 +290,7 @@ function reportTable(reports, first, end) {
     for (const d of report.diagnostics) diagnostics.push({ frame: f, ...d });
     info.push(report.info);
   }
+  if (isOld) delete a.pair_inside;
   return tableBytes({ diagnostics, frames_info: info }, a);
 }
 
@@ -302,6 +306,8 @@ function seriesOf(reports) {
     incomplete: count((p) => p.incomplete),
     stale: count((p) => p.stale),
     contacts_cut: count((p) => p.contacts_cut),
+    inside: count((p) => p.inside === 'a_in_b' || p.inside === 'b_in_a'),
+    crossing: count((p) => p.inside === 'crossing'),
     diagnostics: reports.map((r) => r.diagnostics.length),
     read_ms: times('read_ms'), pairs_ms: times('pairs_ms'), refit_ms: times('refit_ms'), jobs_ms: times('jobs_ms'),
     publish_ms: times('publish_ms'), step_ms: times('step_ms'),
@@ -439,7 +445,7 @@ export function makeReports(scene) {
       const first = near[0] ?? { va: 0, vb: 0, distance: scene.range };
       const points = [0, 1, 2].map((k) => (pa ?? pb)[3 * first.va + k]).concat([0, 1, 2].map((k) => (pb ?? pa)[3 * first.vb + k]));
       pairs.push({
-        a, b, phase, ...scene.flags(f, a, b),
+        a, b, phase, ...scene.flags(f, a, b), inside: scene.inside(f, a, b),
         lower: first.distance, upper: first.distance * (1 + 2 ** -52),
         witness: { features: [0, first.va, 0, first.vb], points },
         contacts: list.map((n) => contactAt(scene, a, b, n, pa, pb, frameNumber, ages)),
@@ -498,7 +504,7 @@ function finish(scene) {
     o.last ??= scene.frames - 1;
     o.serial = o.serial ?? i + 3;
   });
-  return { every: 2, origin: [-4, -4, -1], flags: () => ({}), diagnostics: () => [], diverged: undefined, block: BLOCK,
+  return { every: 2, origin: [-4, -4, -1], flags: () => ({}), inside: () => 'none', diagnostics: () => [], diverged: undefined, block: BLOCK,
            mostContacts: 400, linesPerLevel: 5, lineLevels: 3, ...scene };
 }
 
@@ -528,7 +534,7 @@ export function smallScene() {
     title: 'synthetic drops', frames: 96, accuracy: { paper: [0.3, 0.2, 0.1] }, quantum: 2 ** -16, range: 0.4, contactDistance: 0.1,
     objects: [
       posed('table', 'fixed', table, () => STILL),
-      deformable('ball', ball, bouncing(ball, 0.6, -0.7, 0.3, 48, 0.35)),
+      deformable('ball', ball, bouncing(ball, 0.6, -0.7, 0.3, 48, 0.35), { solid: true }),
       posed('box', 'rigid', boxMesh(0.3, 0.3, 0.3), turn),
       deformable('drop', drop, bouncing(drop, 0.3, 0.9, 0.8, 25, 0.8), { first: 20, last: 70 }),
       deformable('cloth </script> é', cloth, clothAt, { serial: 90 }),
@@ -536,6 +542,7 @@ export function smallScene() {
     pairs: [[0, 1], [0, 2], [0, 3], [1, 2], [1, 4], [2, 3]],
     flags: (f, a, b) => ({ stale: f >= 40 && f <= 42 && b === 4, incomplete: f === 60 && b === 1,
                            contacts_cut: f === 61 && b === 1 }),
+    inside: (f, a, b) => (a === 1 && b === 4 && { 52: 'crossing', 53: 'a_in_b', 54: 'b_in_a' }[f]) || 'none',
     diagnostics: (f) => (f >= 40 && f <= 42
       ? [{ object: 4, kind: 'not_finite', message: 'vertex 400 is not finite' }]
       : f === 44 ? [{ object: 4, kind: 'not_finite', message: 'vertex 0 is not finite' }]
@@ -595,7 +602,7 @@ export function makePage(scene, level = 6) {
     frames: scene.frames, frame_numbers: reports.map((r) => r.info.frame), every: scene.every,
     source_frames: scene.frames * scene.every, block: scene.block,
     objects: scene.objects.map((o) => ({
-      serial: o.serial, name: o.name, motion: o.motion, mesh: meshes.indexOf(o.mesh), first: o.first, last: o.last,
+      serial: o.serial, name: o.name, motion: o.motion, ...(scene.isOld ? {} : { solid: o.solid ?? false }), mesh: meshes.indexOf(o.mesh), first: o.first, last: o.last,
       user_data: String(1000 + o.serial), position_error: o.motion === 'deformable' ? scene.quantum / 2 : 0 })),
     meshes: meshes.map((m, i) => ({
       chunk: `mesh/${i}`, vertices: m.points.length, edges: m.edges.length / 2, triangles: m.triangles.length,
@@ -610,7 +617,7 @@ export function makePage(scene, level = 6) {
   for (let k = 0; k * scene.block < scene.frames; ++k) {
     const [first, end] = [k * scene.block, Math.min((k + 1) * scene.block, scene.frames)];
     put(`motion/${k}`, motionTable(scene, first, end));
-    put(`report/${k}`, reportTable(reports, first, end));
+    put(`report/${k}`, reportTable(reports, first, end, scene.isOld));
   }
   return { chunks, head, reports };
 }

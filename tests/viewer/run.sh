@@ -1,6 +1,6 @@
 #!/bin/sh
 # Drives the viewer's page in a browser: first with pages of its own, then with the page and the report of the
-# demonstration, whose numbers have to agree to the last digit. It ends with 77 where there is no viewer or no browser.
+# demonstration, whose numbers have to agree to the last digit, then with a recording of solids and its exported tables. It ends with 77 where there is no viewer or no browser.
 # Usage: tests/viewer/run.sh GRAZE GRAZE_DEMO_SCENE VIEWER_FOLDER
 set -eu
 
@@ -23,3 +23,10 @@ scene=$("$demo_scene" "$folder")
 # TIMES, the limits are asserted.
 TIMES=print node "$(dirname "$0")/viewer_test.mjs"
 node "$(dirname "$0")/viewer_test.mjs" "$folder/view.html" "$folder/report.jsonl"
+
+here=$(dirname "$0")
+node "$here/make_solids.mjs" "$folder"
+"$graze" run "$folder/solids.json" --record "$folder/solids.rec" >/dev/null
+"$graze" export "$folder/solids.rec" --csv "$folder/contacts.csv" --distances "$folder/rows.csv" >/dev/null
+"$graze" view "$folder/solids.rec" -o "$folder/solids.html" >/dev/null
+node "$here/viewer_test.mjs" "$folder/solids.html" "$folder/contacts.csv" "$folder/rows.csv"

@@ -1,6 +1,7 @@
 // Drives the viewer in a browser, without a network and without a graphics card.
-//   node tests/viewer/viewer_test.mjs [PAGE.html REPORT.jsonl]
-// Without arguments it makes its own pages. With a page of `graze` and its report it compares these two as well.
+//   node tests/viewer/viewer_test.mjs [PAGE.html REPORT.jsonl | PAGE.html CONTACTS.csv ROWS.csv]
+// Without arguments it makes its own pages. With a page of `graze` it compares the page's numbers with those of a report, or
+// with the tables that `graze export` writes of the same recording.
 // CHROMIUM names the browser, and GRAZE_VIEWER_FOLDER the folder in which the viewer was built. Times are asserted unless the machine is busy or TIMES=print is set.
 
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -186,7 +187,7 @@ async function checkLines(page, made) {
     const on = (await drawn(page)).lines[level] ?? 0;
     check(`lines of level ${level} on and off`, on === wanted && off === 0 && changed > 20, `${on} lines, ${changed} pixels`);
   }
-  for (const [key, name, what] of [['w', 'faces', 500], ['e', 'edges', 200], ['k', 'contacts', 100], ['m', 'normals', 50],
+  for (const [key, name, what] of [['w', 'faces', 500], ['e', 'edges', 200], ['k', 'contacts', 100], ['m', 'arrows', 50],
     ['d', 'witnesses', 5], ['c', 'the clip plane', 500], ['r', 'transparency', 500]]) {
     const before = await pixelsOf(page);
     await page.keyboard.press(key);
@@ -289,12 +290,59 @@ async function checkMarks(page) {
   await page.keyboard.press('Escape');
 }
 
+/** What a page says of a pair of which one object is inside the other. */
+async function checkInside(page, made) {
+  const words = {
+    none: 'Neither of ball and cloth </script> é is inside the other', crossing: 'ball and cloth </script> é cross',
+    a_in_b: 'ball is inside cloth </script> é', b_in_a: 'cloth </script> é is inside ball',
+  };
+  const marks = { none: '–', crossing: '✕', a_in_b: '⊂', b_in_a: '⊃' };
+  const ghosts = { none: [], crossing: [], a_in_b: [1], b_in_a: [4] };
+  await press(page, 'tab-pairs');
+  for (const frame of [51, 52, 53, 54]) {
+    const { inside } = made.reports[frame].pairs.find((pair) => pair.a === 1 && pair.b === 4);
+    await goTo(page, frame);
+    await page.evaluate(() => window.graze.select('pair:4:90'));
+    const shown = [
+      (await inspect(page)).selection.inside, await page.textContent('[data-testid=inside-words]'),
+      await page.textContent('[data-key="p1-4"] .mark'), (await drawn(page)).ghosts];
+    same(`a pair of which one is inside the other: ${inside}`, shown, [inside, words[inside], marks[inside], ghosts[inside]]);
+  }
+  await goTo(page, 52);
+  const rows = async () => (await drawn(page)).rows;
+  const all = await rows();
+  await press(page, 'inside-crossing');
+  same('the filter of pairs that cross', [all, await rows()], [all, all - 1]);
+  await press(page, 'inside-crossing');
+  await page.fill('[data-testid=search]', 'crossing');
+  same('the search finds what crosses', await rows(), 1);
+  await page.fill('[data-testid=search]', '');
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => window.graze.select('pair:3:4'));
+  same('a pair says it if one of both is solid', await page.locator('[data-testid=inside-words]').count(), 1);
+  await page.evaluate(() => window.graze.select('pair:3:5'));
+  same('and says nothing if neither is', await page.locator('[data-testid=inside-words]').count(), 0);
+  await page.evaluate(() => window.graze.select(null));
+}
+
+/** Data of before pages knew of solids. */
+async function checkOldData() {
+  const { chunks } = makePage({ ...smallScene(), isOld: true });
+  const page = await open(write('old.html', pageHtml(template, chunks)));
+  await goTo(page, 52);
+  await page.evaluate(() => window.graze.select('pair:4:90'));
+  const { selection } = await inspect(page);
+  const signs = await page.locator('[data-testid^=inside-]').count();
+  same('older data says nothing of solids', [selection.listed, 'inside' in selection, signs, page.errors], [true, false, 0, []]);
+  await page.close();
+}
+
 /** Faults of earlier pages: words that were cut off or hidden, and an empty picture. */
 async function checkLayout(page) {
   await page.evaluate(() => window.graze.select(null));
   await goTo(page, 41);
   const settings = await page.textContent('#source');
-  check('settings are words', /accuracy paper 0.3, 0.2, 0.1/.test(settings), settings);
+  check('settings are words', /accuracy paper 0.3, 0.2, 0.1 · 1 of 5 objects solid$/.test(settings), settings);
   const colours = await page.evaluate(() => {
     const track = document.getElementById('track');
     const x = Math.round((41.5 / 96) * track.width) + 4;
@@ -555,11 +603,90 @@ async function checkAgainstReport(path, reportPath) {
   await page.close();
 }
 
+// ---- A page of a recording ----
+
+/** The rows of a table that `graze export` wrote, by the names of the columns. No cell of ours has a comma. */
+function readTable(path) {
+  const [names, ...lines] = readFileSync(path, 'utf8').trim().split('\n').map((line) => line.split(','));
+  return lines.map((cells) => Object.fromEntries(cells.map((cell, i) => [names[i], cell])));
+}
+
+const pointOf = (row, name) => ['x', 'y', 'z'].map((axis) => Number(row[`${name}_${axis}`]));
+
+function insideSentence({ inside, name_a: a, name_b: b }) {
+  if (inside === 'a_in_b') return `${a} is inside ${b}`;
+  if (inside === 'b_in_a') return `${b} is inside ${a}`;
+  return inside === 'crossing' ? `${a} and ${b} cross` : `Neither of ${a} and ${b} is inside the other`;
+}
+
+/** Compares what the page says of one row of a report with the table. */
+async function comparePair(page, row) {
+  await page.evaluate((s) => window.graze.select(s), `pair:${row.object_a}:${row.object_b}`);
+  const { selection } = await inspect(page);
+  const inside = { a_in_b: [Number(row.object_a)], b_in_a: [Number(row.object_b)] }[row.inside] ?? [];
+  const { ghosts } = await drawn(page);
+  const got = [selection.phase, selection.lower, selection.upper, selection.inside, selection.contacts,
+    await page.textContent('[data-testid=inside-words]'), inside.every((object) => ghosts.includes(object))];
+  const wanted = [row.phase, Number(row.distance_lower), Number(row.distance_upper), row.inside, Number(row.contacts),
+    insideSentence(row), true];
+  return JSON.stringify(got) === JSON.stringify(wanted);
+}
+
+/** Compares the numbers of a contact with the table, and its arrow with where the push leads. */
+async function compareContact(page, row, arrows) {
+  const features = ['a', 'b'].map((side) => `${row[`feature_kind_${side}`]}.${row[`feature_${side}`]}`);
+  await page.evaluate((s) => window.graze.select(s), `contact:${row.object_a}:${row.object_b}:${row.kind}:${features.join(':')}`);
+  const { selection } = await inspect(page);
+  const push = pointOf(row, 'push');
+  const got = [selection.separation, selection.push, selection.distance, selection.side_a, selection.side_b];
+  const wanted = [Number(row.separation), push, Number(row.distance), row.side_a, row.side_b];
+  const { a, b, kind, features: numbers } = await page.evaluate(() => window.graze.selection);
+  const arrow = arrows.get(`c${a}-${b}-${kind}-${numbers.join('-')}`);
+  const way = arrow.to.map((x, k) => x - arrow.from[k]);
+  const size = Math.hypot(...way);
+  const begin = pointOf(row, 'point_b');
+  const leads = size > 0 && way.every((x, k) => Math.abs(x / size - push[k]) < 1e-6 && Math.abs(arrow.from[k] - begin[k]) < 1e-6);
+  return leads && JSON.stringify(got) === JSON.stringify(wanted);
+}
+
+async function checkAgainstTables(path, contactsPath, rowsPath) {
+  const [contacts, rows] = [readTable(contactsPath), readTable(rowsPath)];
+  const page = await open(path);
+  const wrong = { rows: 0, contacts: 0 };
+  let compared = 0;
+  for (const frame of new Set(rows.map((row) => row.frame))) {
+    await goTo(page, Number(frame));
+    const { contacts: count } = await drawn(page);
+    const arrows = new Map((await page.evaluate((n) => Array.from({ length: n }, (_, i) => window.graze.arrowOf(i)), count))
+      .map((arrow) => [arrow.key, arrow]));
+    for (const row of rows.filter((r) => r.frame === frame)) if (!(await comparePair(page, row))) ++wrong.rows;
+    for (const row of contacts.filter((r) => r.frame === frame).filter((_, i) => i % 5 === 0)) {
+      ++compared;
+      if (!(await compareContact(page, row, arrows))) ++wrong.contacts;
+    }
+  }
+  const behind = contacts.filter((row) => Number(row.separation) < 0).length;
+  check('the recording has all that a pair of solids can be', ['none', 'a_in_b', 'b_in_a', 'crossing'].every((inside) =>
+    rows.some((row) => row.inside === inside)) && behind > 20 && behind < contacts.length, `${behind} contacts behind`);
+  same(`numbers of ${rows.length} rows and ${compared} contacts that differ from the recording`, wrong, { rows: 0, contacts: 0 });
+  check('the settings name the detail and the solids', /detail nearest .*all 3 objects solid/.test(await page.textContent('#source')));
+  await page.evaluate(() => window.graze.select(null));
+  await press(page, 'tab-show');
+  const before = await pixelsOf(page);
+  await press(page, 'set-insides');
+  const changed = difference(before, await pixelsOf(page));
+  check('what is inside shows through, on and off', changed > 200, `${changed} pixels`);
+  same('no console error', page.errors, []);
+  await page.close();
+}
+
 // ---- All of it ----
 
 try {
-  const [givenPage, givenReport] = process.argv.slice(2);
-  if (givenPage) {
+  const [givenPage, givenReport, givenRows] = process.argv.slice(2);
+  if (givenRows) {
+    await checkAgainstTables(givenPage, givenReport, givenRows);
+  } else if (givenPage) {
     await checkAgainstReport(givenPage, givenReport);
   } else {
     const scene = smallScene();
@@ -572,6 +699,7 @@ try {
     await checkFilters(page, made);
     await checkLines(page, made);
     await checkNumbers(page, made);
+    await checkInside(page, made);
     await checkMarks(page);
     await checkLayout(page);
     await checkLink(page, path);
@@ -580,6 +708,7 @@ try {
     await page.close();
     await checkKeys(path);
     await checkFile(made);
+    await checkOldData();
     await checkLarge('1,000 frames of 10,000 vertices', longScene(), 4, { size: 60, open: 2000, seek: 50, seeks: 15 });
     await checkLarge('2 × 100,000 vertices', largeScene(), 1, { size: 60, seeks: 4 });
   }

@@ -92,7 +92,8 @@ PlayedPage::PlayedPage(const fs::path& path, io::Player& player, const SceneSett
     : page_(path, settings, player.frame_count(), options) {
   for (const io::SceneObject& object : player.objects()) {
     const ObjectSettings known = player.scene().object_settings(object.id);
-    page_.writer().add_object(object.id, {object.name, object.mesh, known.motion, known.user_data});
+    page_.writer().add_object(object.id,
+                              {object.name, object.mesh, known.motion, known.user_data, known.solid});
     is_deformable_.push_back(known.motion == Motion::deformable);
   }
 }

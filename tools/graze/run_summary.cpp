@@ -57,7 +57,19 @@ void RunSummary::add_touch(std::uint32_t frame, const PairReport& pair) {
   if (pair.phase == PairPhase::began) ++touch.spells;
   touch.last_frame = frame;
   ++touch.frames;
+  ++touch.insides[static_cast<std::size_t>(pair.inside)];
   touch.most_contacts = std::max(touch.most_contacts, pair.contact_count);
+}
+
+std::string RunSummary::inside_text(std::size_t a, std::size_t b, const Touch& touch) const {
+  const auto frames = [&touch](Inside inside) { return touch.insides[static_cast<std::size_t>(inside)]; };
+  const auto clause = [&](Inside inside, const std::string& words) {
+    return frames(inside) > 0 ? "; " + words + " in " + counted(frames(inside), "frame") : std::string();
+  };
+  const std::string& name_a = objects_[a].name;
+  const std::string& name_b = objects_[b].name;
+  return clause(Inside::crossing, "they cross") + clause(Inside::a_in_b, name_a + " is inside " + name_b) +
+         clause(Inside::b_in_a, name_b + " is inside " + name_a);
 }
 
 std::string RunSummary::touches_text() const {
@@ -69,7 +81,8 @@ std::string RunSummary::touches_text() const {
     text += "touching  " + objects_[pair.first].name + " and " + objects_[pair.second].name +
             ": first in frame " + std::to_string(touch.first_frame) + " at " + where + ", last in frame " +
             std::to_string(touch.last_frame) + "; " + counted(touch.frames, "frame") + " in " +
-            counted(touch.spells, "spell") + ", at most " + counted(touch.most_contacts, "contact") + "\n";
+            counted(touch.spells, "spell") + ", at most " + counted(touch.most_contacts, "contact") +
+            inside_text(pair.first, pair.second, touch) + "\n";
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <graze/io/scene_object.hpp>
 #include <graze/report.hpp>
@@ -28,13 +29,15 @@ class RunSummary {
     std::uint32_t first_frame = 0;
     std::uint32_t last_frame = 0;
     std::uint32_t frames = 0;
-    std::uint32_t spells = 0;  ///< times that they came together
+    std::uint32_t spells = 0;                ///< times that they came together
+    std::array<std::uint32_t, 4> insides{};  ///< frames, by Inside
     std::size_t most_contacts = 0;
     Eigen::Vector3d first_place = Eigen::Vector3d::Zero();
   };
 
   void add_touch(std::uint32_t frame, const PairReport& pair);
   [[nodiscard]] const std::string& name_of(ObjectId id) const;
+  [[nodiscard]] std::string inside_text(std::size_t a, std::size_t b, const Touch& touch) const;
   [[nodiscard]] std::string limits_text() const;
   [[nodiscard]] std::string touches_text() const;
   [[nodiscard]] std::string diagnostics_text() const;

@@ -102,6 +102,7 @@ class DistanceLines {
     file_.end_cell();
     serials_.add(pair);
     phases_.push_back(static_cast<std::uint8_t>(pair.phase));
+    insides_.push_back(static_cast<std::uint8_t>(pair.inside));
     distances_.push_back(distance);
     levels_.push_back(level);
   }
@@ -110,6 +111,7 @@ class DistanceLines {
     file_.set_cell_data("object_a", serials_.a);
     file_.set_cell_data("object_b", serials_.b);
     file_.set_cell_data("phase", phases_);
+    file_.set_cell_data("inside", insides_);
     file_.set_cell_data("distance", distances_);
     file_.set_cell_data("level", levels_);
     file_.write(path);
@@ -119,6 +121,7 @@ class DistanceLines {
   VtpFile file_{VtpCells::lines};
   PairSerials serials_;
   std::vector<std::uint8_t> phases_;
+  std::vector<std::uint8_t> insides_;
   std::vector<double> distances_;
   std::vector<std::uint32_t> levels_;
 };

@@ -39,7 +39,8 @@ void write_page_frame(JsonText& json, std::string_view key, std::int64_t frame) 
 
 void write_head_object(JsonText& json, const PageHeadObject& object, std::size_t serial) {
   json.open('{').key("serial").whole(serial).key("name").text(object.name);
-  json.key("motion").text(motion_word(object.motion)).key("mesh").whole(object.mesh);
+  json.key("motion").text(motion_word(object.motion)).key("solid").flag(object.solid);
+  json.key("mesh").whole(object.mesh);
   write_page_frame(json, "first", object.first);
   write_page_frame(json, "last", object.last);
   json.key("user_data").text(std::to_string(object.user_data));
@@ -56,13 +57,15 @@ void write_head_mesh(JsonText& json, const MeshCounts& mesh, std::size_t number)
 }  // namespace
 
 void PageSeries::add(const FrameReport& report, bool include_times) {
-  std::array<std::uint64_t, 5> rows{};
+  std::array<std::uint64_t, 7> rows{};
   for (const PairReport& pair : report.pairs()) {
     rows[0] += pair.phase == PairPhase::began ? 1 : 0;
     rows[1] += pair.phase == PairPhase::ended ? 1 : 0;
     rows[2] += pair.complete ? 0 : 1;
     rows[3] += pair.stale ? 1 : 0;
     rows[4] += pair.contacts_cut ? 1 : 0;
+    rows[5] += pair.inside == Inside::a_in_b || pair.inside == Inside::b_in_a ? 1 : 0;
+    rows[6] += pair.inside == Inside::crossing ? 1 : 0;
   }
   const StepStatistics& statistics = report.statistics();
   const std::array<std::uint64_t, count_names.size()> values{statistics.contacts,
@@ -73,6 +76,8 @@ void PageSeries::add(const FrameReport& report, bool include_times) {
                                                              rows[2],
                                                              rows[3],
                                                              rows[4],
+                                                             rows[5],
+                                                             rows[6],
                                                              report.diagnostics().size()};
   for (std::size_t i = 0; i < values.size(); ++i) counts_[i].push_back(values[i]);
   for (std::size_t i = 0; i < time_fields.size(); ++i)

@@ -20,9 +20,9 @@ class PageSeries {
   void write(JsonText& json) const;
 
  private:
-  static constexpr std::array<std::string_view, 9> count_names{"contacts", "near",         "in_contact",
-                                                               "began",    "ended",        "incomplete",
-                                                               "stale",    "contacts_cut", "diagnostics"};
+  static constexpr std::array<std::string_view, 11> count_names{
+      "contacts", "near",         "in_contact", "began",    "ended",      "incomplete",
+      "stale",    "contacts_cut", "inside",     "crossing", "diagnostics"};
 
   std::array<std::vector<std::uint64_t>, count_names.size()> counts_;
   std::array<std::vector<double>, 6> times_;
@@ -32,6 +32,7 @@ class PageSeries {
 struct PageHeadObject {
   std::string name;
   Motion motion = Motion::deformable;
+  bool solid = false;
   std::size_t mesh = 0;
   std::int64_t first = 0;
   std::int64_t last = 0;

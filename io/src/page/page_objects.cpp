@@ -35,6 +35,7 @@ void PageObjects::add(ObjectId id, const PageObject& object, std::size_t mesh_nu
   indices_[id] = static_cast<std::uint32_t>(index);
   written.name = object.name;
   written.motion = object.motion;
+  written.solid = object.solid;
   written.mesh_number = mesh_number;
   written.user_data = object.user_data;
   written.added = frame;

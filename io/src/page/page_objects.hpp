@@ -20,6 +20,7 @@ namespace graze::io {
 struct WrittenObject {
   std::string name;
   Motion motion = Motion::deformable;
+  bool solid = false;
   std::size_t mesh_number = 0;
   std::uint64_t user_data = 0;
   std::uint64_t added = 0;                              ///< the first frame in which it exists

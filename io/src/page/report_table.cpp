@@ -95,8 +95,9 @@ void PageColumns::add_to(PageTable& table) const {
 
 ReportBlock::ReportBlock()
     : pairs_({words_column("pair_a", 1), words_column("pair_b", 1), bytes_column("pair_phase"),
-              bytes_column("pair_flags"), reals_column("pair_lower", 1), reals_column("pair_upper", 1),
-              words_column("witness_features", 4), reals_column("witness_points", 6)}),
+              bytes_column("pair_flags"), bytes_column("pair_inside"), reals_column("pair_lower", 1),
+              reals_column("pair_upper", 1), words_column("witness_features", 4),
+              reals_column("witness_points", 6)}),
       contact_begin_{0},
       region_begin_{0},
       contacts_({bytes_column("contact_kind"), bytes_column("contact_sides"),
@@ -113,6 +114,7 @@ void ReportBlock::add_pair(std::uint64_t number, const FrameReport& report, cons
                            const IndexOf& index_of) {
   pairs_.begin_row().put(index_of(pair.a).value()).put(index_of(pair.b).value());
   pairs_.put(static_cast<std::uint8_t>(pair.phase)).put(flags_of(pair));
+  pairs_.put(static_cast<std::uint8_t>(pair.inside));
   pairs_.put(pair.distance.lower).put(pair.distance.upper);
   put_feature(pairs_, pair.witness.feature_a);
   put_feature(pairs_, pair.witness.feature_b);

@@ -30,7 +30,7 @@ Shape figure() {
     const int corner = std::min(static_cast<int>(along), corners - 1);
     line.push_back(outline[corner] + (along - corner) * (outline[corner + 1] - outline[corner]));
   }
-  return revolved(line, 20);
+  return rounded(examples::revolved(line, 20));
 }
 
 Eigen::Vector2d place_in_circle(std::uint32_t seed, double radius) {

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <graze/graze.hpp>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "examples/loops/crowd.hpp"
@@ -27,6 +28,7 @@
 #include "examples/loops/push_constraint.hpp"
 #include "examples/loops/terrain.hpp"
 #include "examples/loops/times.hpp"
+#include "examples/support/record_option.hpp"
 
 namespace {
 
@@ -48,6 +50,12 @@ Role role_of(std::uint64_t data) {
 }
 std::size_t index_of(std::uint64_t data) {
   return data & 0xffffffff;
+}
+
+/// Returns the name under which the viewer shows an object.
+std::string name_of(Role role, std::size_t index) {
+  if (role == Role::ground) return "terrain";
+  return (role == Role::character ? "walker " : "prop ") + std::to_string(index);
 }
 
 /// Layers. Characters walk on the ground and dodge each other by themselves, so graze need not look at that.
@@ -156,6 +164,7 @@ class Game {
   graze::ObjectId add(std::shared_ptr<const graze::Mesh> mesh, graze::Motion motion, Role role,
                       std::size_t index, std::uint32_t layer, std::uint32_t collides_with) {
     graze::ObjectSettings object;
+    object.name = name_of(role, index);
     object.motion = motion;
     object.layer = layer;
     object.collides_with = collides_with;
@@ -215,7 +224,7 @@ int main(int argc, char** argv) {
   const loops::Options options = loops::read_options(argc, argv);
   const std::size_t frames = options.length > 0 ? static_cast<std::size_t>(options.length) : 600;
   Game game(options.threads);
-  const std::unique_ptr<graze::Recorder> recorder = make_recorder(options, game.scene());
+  const std::unique_ptr<graze::Recorder> recorder = examples::make_recorder(options.record, game.scene());
 
   FrameTimes times(frames);
   loops::EventCheck events;

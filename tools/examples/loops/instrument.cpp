@@ -18,7 +18,7 @@ Shape rod() {
   }
   line.emplace_back(radius, length);
   line.emplace_back(0, length);
-  return revolved(line, 12);
+  return rounded(examples::revolved(line, 12));
 }
 
 }  // namespace

@@ -4,17 +4,20 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "examples/support/record_option.hpp"
+
 namespace loops {
 
 Options read_options(int argc, char** argv) {
   Options options;
+  options.record = examples::take_record_option(argc, argv);
   for (int i = 1; i < argc; ++i) {
     const std::string_view name = argv[i];
     const bool has_value = i + 1 < argc;
     if (name == "--deterministic") {
       options.deterministic = true;
-    } else if (name == "--record" && has_value) {
-      options.record = argv[++i];
+    } else if (name == "--blobs") {
+      options.blobs = true;
     } else if (name == "--organs" && has_value) {
       options.organs = argv[++i];
     } else if (name == "--length" && has_value) {
@@ -25,17 +28,12 @@ Options read_options(int argc, char** argv) {
       std::fprintf(stderr,
                    "%s: unknown option, or no value: %s\n"
                    "usage: %s [--record FILE] [--length FRAMES_OR_TICKS] [--threads N]\n"
-                   "       surgery_loop also has [--organs FILE.obj] [--deterministic]\n",
+                   "       surgery_loop also has [--organs FILE.obj | --blobs] [--deterministic]\n",
                    argv[0], argv[i], argv[0]);
       std::exit(2);
     }
   }
   return options;
-}
-
-std::unique_ptr<graze::Recorder> make_recorder(const Options& options, graze::Scene& scene) {
-  if (options.record.empty()) return nullptr;
-  return std::make_unique<graze::Recorder>(scene, options.record);
 }
 
 void finish(const Options& options, graze::Recorder* recorder) {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <graze/graze.hpp>
 #include <graze/recorder.hpp>
-#include <memory>
 #include <string>
 
 namespace loops {
@@ -10,7 +8,8 @@ namespace loops {
 /// The options that a loop is started with.
 struct Options {
   std::string record;          ///< the file of a recording, or empty; `graze view FILE` shows it
-  std::string organs;          ///< an OBJ file with the organs, or empty
+  std::string organs;          ///< an OBJ file with the organs; empty means the loop's own choice
+  bool blobs = false;          ///< organs are generated, not read
   int length = 0;              ///< frames or ticks; 0 means the loop's own number
   unsigned threads = 0;        ///< of graze's steps; 0 means one for each processor
   bool deterministic = false;  ///< ticks are counted, not timed
@@ -18,9 +17,6 @@ struct Options {
 
 /// Reads the options of a program's command line. Ends the program with exit code 2 if one is unknown.
 Options read_options(int argc, char** argv);
-
-/// Returns a recorder that is attached to a scene if the options ask for a recording, or else null.
-std::unique_ptr<graze::Recorder> make_recorder(const Options& options, graze::Scene& scene);
 
 /// Finishes a recording, and prints what it holds. Does nothing without one.
 void finish(const Options& options, graze::Recorder* recorder);

@@ -36,7 +36,8 @@ void Prop::push(const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse) {
 }
 
 Props::Props(std::size_t count)
-    : meshes_{make_mesh(box(sizes[0])), make_mesh(box(sizes[1])), make_mesh(ball(sizes[2].x() / 2, 16, 7))},
+    : meshes_{make_mesh(rounded(examples::box(sizes[0]))), make_mesh(rounded(examples::box(sizes[1]))),
+              make_mesh(rounded(examples::ball(sizes[2].x() / 2, 16, 7)))},
       props_(count),
       poses_(count) {
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));

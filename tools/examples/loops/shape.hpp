@@ -5,26 +5,20 @@
 #include <cstdint>
 #include <graze/graze.hpp>
 #include <memory>
-#include <span>
 #include <vector>
+
+#include "examples/support/shapes.hpp"
 
 namespace loops {
 
-/// A surface of triangles that face outward.
+/// A surface of triangles that face outward. Its points are floats, as most animations have them.
 struct Shape {
   std::vector<Eigen::Vector3f> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Turns a line of points (radius, height) about the z axis, upwards. Its first and last point lie on the
-/// axis. The surface is closed.
-Shape revolved(std::span<const Eigen::Vector2d> line, std::uint32_t segments);
-
-/// Returns a closed ball about the origin.
-Shape ball(double radius, std::uint32_t segments, std::uint32_t rings);
-
-/// Returns a closed box about the origin.
-Shape box(const Eigen::Vector3d& size);
+/// Rounds the points of a shape to float.
+Shape rounded(const examples::Shape& shape);
 
 std::shared_ptr<const graze::Mesh> make_mesh(const Shape& shape);
 

@@ -17,14 +17,19 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <graze/graze.hpp>
 #include <memory>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "examples/loops/events.hpp"
 #include "examples/loops/haptic_reader.hpp"
 #include "examples/loops/options.hpp"
+#include "examples/support/record_option.hpp"
 
 namespace {
 
@@ -42,17 +47,17 @@ enum Kind : std::uint32_t { organ_kind = 1, instrument_kind = 2 };
 /// The organs, the instruments, and the scene that looks at them.
 class Simulation {
  public:
-  explicit Simulation(const std::string& file)
-      : organs_(loops::load_organs(file)), history_(organs_), scene_(settings()) {
+  explicit Simulation(loops::Organs organs)
+      : organs_(std::move(organs)), history_(organs_), scene_(settings()) {
     for (std::uint64_t i = 0; i < 2; ++i) {
       meshes_.push_back(loops::make_mesh(organs_.shapes[i]));
-      ids_.push_back(add(meshes_.back(), graze::Motion::deformable, organ_kind, i));
+      ids_.push_back(add(meshes_.back(), organs_.names[i], graze::Motion::deformable, organ_kind, i));
       const Eigen::Vector3d outward = Eigen::Vector3d(i == 0 ? -0.2 : 0.2, -0.3, 1).normalized();
       instruments_.emplace_back(furthest(i, outward), outward, 2.0 * static_cast<double>(i));
     }
     for (std::uint64_t i = 0; i < 2; ++i)
-      instrument_ids_.push_back(
-          add(instruments_[i].mesh(), graze::Motion::rigid, instrument_kind, loops::first_instrument + i));
+      instrument_ids_.push_back(add(instruments_[i].mesh(), "instrument " + std::to_string(i + 1),
+                                    graze::Motion::rigid, instrument_kind, loops::first_instrument + i));
     scene_.set_rule(organ_kind, organ_kind, {organ_distance, 0, {}});
   }
 
@@ -83,9 +88,10 @@ class Simulation {
     return settings;
   }
 
-  graze::ObjectId add(const std::shared_ptr<const graze::Mesh>& mesh, graze::Motion motion, Kind kind,
-                      std::uint64_t user_data) {
+  graze::ObjectId add(const std::shared_ptr<const graze::Mesh>& mesh, const std::string& name,
+                      graze::Motion motion, Kind kind, std::uint64_t user_data) {
     graze::ObjectSettings object;
+    object.name = name;
     object.motion = motion;
     object.kind = kind;
     object.solid = true;
@@ -271,6 +277,16 @@ void print(const char* name, const ForceTrack& track) {
               name, track.ticks_with_force, track.largest, track.jumps, jump, track.largest_jump);
 }
 
+/// Ends the program with exit code 2 if the organs cannot be read.
+loops::Organs organs_or_exit(const loops::Options& options) {
+  try {
+    return load_organs(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "surgery_loop: %s\n", error.what());
+    std::exit(2);
+  }
+}
+
 bool hold(const ForceTrack& track) {
   return track.is_finite && track.largest < largest_force;
 }
@@ -280,11 +296,13 @@ bool hold(const ForceTrack& track) {
 int main(int argc, char** argv) {
   const loops::Options options = loops::read_options(argc, argv);
   const int ticks = options.length > 0 ? options.length : 6000;
-  Simulation simulation(options.organs);
+  Simulation simulation(organs_or_exit(options));
   const loops::Organs& organs = simulation.organs();
-  std::printf("two %s of %zu and %zu vertices\n", organs.are_real ? "organs" : "blobs",
-              organs.shapes[0].points.size(), organs.shapes[1].points.size());
-  const std::unique_ptr<graze::Recorder> recorder = make_recorder(options, simulation.scene());
+  for (std::size_t i = 0; i < 2; ++i)
+    std::printf("%s: %zu vertices\n", organs.names[i].c_str(), organs.shapes[i].points.size());
+  std::printf("both were %s\n", organs.source.c_str());
+  const std::unique_ptr<graze::Recorder> recorder =
+      examples::make_recorder(options.record, simulation.scene());
 
   ForceTracks tracks;
   Outcome outcome;

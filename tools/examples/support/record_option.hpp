@@ -3,12 +3,20 @@
 #include <graze/graze.hpp>
 #include <graze/recorder.hpp>
 #include <memory>
+#include <string>
 
 namespace examples {
 
-/// Returns a recorder of a scene if the program was started with `--record FILE`, else null. The recording
-/// begins with the next step and ends with the recorder. `graze view FILE` shows it. Ends the program with
-/// exit code 2 if it was started with anything else.
+/// Takes `--record FILE` out of a program's arguments, and returns the name of the file. Returns an empty
+/// name if the arguments have no such option.
+std::string take_record_option(int& argc, char** argv);
+
+/// Returns a recorder that writes a scene into a file, or null if the name is empty. The recording begins
+/// with the next step, and ends with the recorder. `graze view FILE` shows it.
+std::unique_ptr<graze::Recorder> make_recorder(const std::string& file, graze::Scene& scene);
+
+/// Returns a recorder of a scene if the program was started with `--record FILE`, else null. Ends the program
+/// with exit code 2 if it was started with anything else.
 std::unique_ptr<graze::Recorder> recorder_by_options(int argc, char** argv, graze::Scene& scene);
 
 }  // namespace examples

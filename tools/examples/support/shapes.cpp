@@ -2,15 +2,18 @@
 
 #include <cmath>
 #include <numbers>
-#include <span>
 
 namespace examples {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Turns a line of points (radius, height) about the z axis. The first and the last of them lie on the axis.
-/// The surface faces to the right of the line's way.
+Eigen::Vector2d on_circle(double radius, double angle) {
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+}  // namespace
+
 Shape revolved(std::span<const Eigen::Vector2d> line, int segments) {
   Shape shape;
   shape.points.emplace_back(0, 0, line.front().y());
@@ -36,12 +39,6 @@ Shape revolved(std::span<const Eigen::Vector2d> line, int segments) {
   return shape;
 }
 
-Eigen::Vector2d on_circle(double radius, double angle) {
-  return {radius * std::cos(angle), radius * std::sin(angle)};
-}
-
-}  // namespace
-
 Shape ball(double radius, int segments, int rings) {
   std::vector<Eigen::Vector2d> line;
   for (int i = 0; i <= rings + 1; ++i) line.push_back(on_circle(radius, pi * i / (rings + 1) - pi / 2));
@@ -57,14 +54,18 @@ Shape bowl(double radius, double thickness, int segments, int rings) {
   return revolved(line, segments);
 }
 
-Shape floor_box(double width, double thickness) {
+Shape box(const Eigen::Vector3d& size) {
   Shape shape;
-  for (const double z : {-thickness, 0.0})
-    for (const double y : {-width / 2, width / 2})
-      for (const double x : {-width / 2, width / 2}) shape.points.emplace_back(x, y, z);
+  for (const double z : {-0.5, 0.5})
+    for (const double y : {-0.5, 0.5})
+      for (const double x : {-0.5, 0.5}) shape.points.push_back(size.cwiseProduct(Eigen::Vector3d(x, y, z)));
   shape.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return shape;
+}
+
+Shape floor_box(double width, double thickness) {
+  return moved(box({width, width, thickness}), {0, 0, -thickness / 2});
 }
 
 Shape sheet(double width, int vertices) {

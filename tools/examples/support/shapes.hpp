@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 /// Shapes that the examples are made of. All lengths are in metres, and z is up.
@@ -16,12 +17,19 @@ struct Shape {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// Turns a line of points (radius, height) about the z axis. The first and the last of them lie on the axis.
+/// The surface faces to the right of the line's way. It is closed.
+Shape revolved(std::span<const Eigen::Vector2d> line, int segments);
+
 /// Returns a closed ball about the origin, of `rings` circles of `segments` vertices and two poles.
 Shape ball(double radius, int segments, int rings);
 
 /// Returns the lower half of a spherical shell about the origin, open at the top. It is a closed surface with
 /// an inside: its wall has the given thickness, and its rim is at z = 0. `radius` is that of the hollow.
 Shape bowl(double radius, double thickness, int segments, int rings);
+
+/// Returns a closed box about the origin.
+Shape box(const Eigen::Vector3d& size);
 
 /// Returns a closed box whose top is the middle of the plane z = 0. A floor is a large and thick one.
 Shape floor_box(double width, double thickness);

@@ -66,8 +66,8 @@ void print_objects(const Recording& recording) {
               recording.mesh_count());
   constexpr std::size_t most_listed = 40;
   for (const ReplayObject& object : replay.objects().first(std::min(most_listed, replay.objects().size())))
-    std::printf("    %llu \"%s\", %u vertices\n", number(object.serial), object.settings.name.c_str(),
-                object.mesh->vertex_count());
+    std::printf("    %llu \"%s\", %u vertices%s\n", number(object.serial), object.settings.name.c_str(),
+                object.mesh->vertex_count(), object.settings.solid ? ", solid" : "");
   if (replay.objects().size() > most_listed)
     std::printf("    and %zu more\n", replay.objects().size() - most_listed);
 }

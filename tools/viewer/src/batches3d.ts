@@ -54,8 +54,8 @@ const POINT_FRAGMENT = /* glsl */ `
 
 const SEGMENT_VERTEX = /* glsl */ `
   attribute vec3 start; attribute vec3 end; attribute vec4 tint;
-  uniform vec2 resolution; uniform float width; uniform float pull; uniform float near;
-  varying vec4 vTint; varying float vAcross;
+  uniform vec2 resolution; uniform float width; uniform float pull; uniform float near; uniform float taper;
+  varying vec4 vTint; varying float vAcross; varying float vWidth;
   void main() {
     vec4 a = modelViewMatrix * vec4(start, 1.0);
     vec4 b = modelViewMatrix * vec4(end, 1.0);
@@ -67,17 +67,18 @@ const SEGMENT_VERTEX = /* glsl */ `
     vec2 along = (cb.xy / cb.w - ca.xy / ca.w) * resolution;
     along = length(along) < 1e-6 ? vec2(1.0, 0.0) : normalize(along);
     vec4 clip = position.y < 0.5 ? ca : cb;
-    float half_width = 0.5 * width + 0.5;
+    vWidth = width * (1.0 - taper * position.y);
+    float half_width = 0.5 * vWidth + 0.5;
     clip.xy += vec2(-along.y, along.x) * position.x * 2.0 * half_width / resolution * clip.w;
     gl_Position = clip;
     vTint = tint; vAcross = position.x * half_width;
   }`;
 
 const SEGMENT_FRAGMENT = /* glsl */ `
-  uniform float opacity; uniform float width;
-  varying vec4 vTint; varying float vAcross;
+  uniform float opacity;
+  varying vec4 vTint; varying float vAcross; varying float vWidth;
   void main() {
-    float cover = clamp(0.5 * width + 0.5 - abs(vAcross), 0.0, 1.0);
+    float cover = clamp(0.5 * vWidth + 0.5 - abs(vAcross), 0.0, 1.0);
     gl_FragColor = vec4(vTint.rgb, vTint.a * opacity * cover);
   }`;
 
@@ -197,11 +198,12 @@ export class SegmentBatch {
   private readonly ends: Column;
   private readonly tints: Column;
   private readonly uniforms: { resolution: { value: THREE.Vector2 }; width: { value: number }; pull: { value: number };
-                               near: { value: number } };
+                               near: { value: number }; taper: { value: number } };
 
-  constructor(order: number, private readonly width: number) {
+  /** Segments that are pointed narrow to nothing at their end. */
+  constructor(order: number, private readonly width: number, isPointed = false) {
     this.uniforms = { resolution: { value: new THREE.Vector2(1, 1) }, width: { value: width }, pull: { value: PULL },
-                      near: { value: 0.01 } };
+                      near: { value: 0.01 }, taper: { value: isPointed ? 1 : 0 } };
     this.geometry.setAttribute('position', new THREE.Float32BufferAttribute([-1, 0, 0, 1, 0, 0, 1, 1, 0, -1, 1, 0], 3));
     this.geometry.setIndex([0, 1, 2, 0, 2, 3]);
     this.starts = new Column(this.geometry, 'start', 3, false, true);

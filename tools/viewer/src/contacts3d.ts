@@ -1,4 +1,4 @@
-// How are contacts drawn: points, normals, kinds and sides, and where diagnostics happened?
+// How are contacts drawn: points, pushes, kinds and sides, and where diagnostics happened?
 
 import { PointBatch, SegmentBatch, SHAPE, type Vec3 } from './batches3d';
 import type { ObjectState } from './motion';
@@ -43,33 +43,46 @@ function lastKnownPlace(stage: Stage, object: number): ArrayLike<number> {
   return stage.sceneBounds().isEmpty ? stage.origin : stage.sceneBounds().centre();
 }
 
+/** Arrows are short beside the smaller object and beside the scene, so that many small objects stay in sight. */
+function arrowLength(stage: Stage, a: number, b: number): number {
+  const sizes = [a, b].map((index) => {
+    const object = stage.viewer.page!.objects[index]!;
+    return object.isThere && object.hasBox ? Math.hypot(...object.low.map((x, k) => object.high[k]! - x)) : Infinity;
+  });
+  return Math.min(0.05 * stage.radius, 0.25 * Math.min(...sizes));
+}
+
 export class ContactsLayer implements Layer {
   /** The contacts that are drawn, as rows of the report, in the order of `places`. */
   shown: [contact: number, pair: number][] = [];
   places: Vec3[] = [];
   private readonly points = new PointBatch(40);
   private readonly warnings = new PointBatch(60);
-  private readonly normals = new SegmentBatch(30, 1.8);
-  readonly objects = [this.normals.object, this.points.object, this.warnings.object];
+  /** Where each arrow begins and ends, in the order of `places`. There are none where arrows are off. */
+  arrows: [from: Vec3, to: Vec3][] = [];
+  private readonly segments = new SegmentBatch(30, 1.8);
+  private readonly heads = new SegmentBatch(32, 6.5, true);
+  readonly objects = [this.segments.object, this.heads.object, this.points.object, this.warnings.object];
 
-  get normalCount(): number { return this.normals.count; }
   get warningCount(): number { return this.warnings.count; }
 
   update(stage: Stage): void {
-    for (const batch of [this.points, this.warnings, this.normals]) batch.clear();
+    for (const batch of [this.points, this.warnings, this.segments, this.heads]) batch.clear();
     this.shown = [];
     this.places = [];
+    this.arrows = [];
     const { display } = stage.viewer;
     if (display.contacts) this.addContacts(stage);
     if (display.diagnostics) this.addDiagnostics(stage);
     const { outline } = palette();
     this.points.finish(stage.ratio, outline);
     this.warnings.finish(stage.ratio, outline);
-    this.normals.finish();
+    this.segments.finish();
+    this.heads.finish();
   }
 
   resize(width: number, height: number, ratio: number, near: number): void {
-    this.normals.resize(width, height, ratio, near);
+    for (const batch of [this.segments, this.heads]) batch.resize(width, height, ratio, near);
   }
 
   private addContacts(stage: Stage): void {
@@ -77,7 +90,6 @@ export class ContactsLayer implements Layer {
     const { report, display } = viewer;
     if (!report || report.pairEnd === report.pairBegin) return;
     const { block } = report;
-    const length = 0.05 * stage.radius * display.normalLength;
     const contacts = block.contactEnd[report.pairEnd - 1]! - block.contactBegin[report.pairBegin]!;
     // Where there are many, smaller points keep their colours apart.
     const pointSize = display.pointSize * Math.min(1, Math.max(0.5, Math.sqrt(300 / Math.max(1, contacts))));
@@ -93,15 +105,23 @@ export class ContactsLayer implements Layer {
       this.points.add(a, colour, CLASS_SHAPES[group]!, size);
       if (block.distance[contact]! > 0) {
         this.points.add(b, colour, CLASS_SHAPES[group]!, 0.62 * size);
-        this.normals.add(a, b, colour, 150);
+        this.segments.add(a, b, colour, 150);
       }
-      if (display.normals) {
-        const n = block.normal.subarray(3 * contact, 3 * contact + 3);
-        this.normals.add(middle, [middle[0] + length * n[0]!, middle[1] + length * n[1]!, middle[2] + length * n[2]!], colour);
+      if (display.pushes) {
+        const length = display.arrowLength * arrowLength(stage, block.pairA[pair]!, block.pairB[pair]!);
+        this.addArrow(b, report.push(contact), length, colour);
       }
       this.shown.push([contact, pair]);
       this.places.push(middle);
     }
+  }
+
+  private addArrow(from: Vec3, direction: Vec3, length: number, colour: string): void {
+    const along = (share: number) => from.map((x, k) => x + share * length * direction[k]!) as unknown as Vec3;
+    const to = along(1);
+    this.segments.add(from, along(0.7), colour);
+    this.heads.add(along(0.55), to, colour);
+    this.arrows.push([from, to]);
   }
 
   private addDiagnostics(stage: Stage): void {

@@ -1,5 +1,6 @@
 // What are the numbers of what is selected?
 
+import { INSIDES } from './inside';
 import { FEATURE_KINDS, KINDS, PHASES, SIDES } from './report';
 import type { Selection, Viewer } from './viewer';
 
@@ -25,7 +26,8 @@ export function objectFacts(viewer: Viewer, index: number): Facts {
   const mesh = head.meshes[object.mesh]!;
   const state = objects[index]!;
   return {
-    type: 'object', name: object.name, serial: object.serial, motion: object.motion, exists: state.isThere,
+    type: 'object', name: object.name, serial: object.serial, motion: object.motion,
+    ...(object.solid === undefined ? {} : { solid: object.solid }), exists: state.isThere,
     frames: [object.first, object.last], user_data: object.user_data, position_error: object.position_error,
     vertices: mesh.vertices, edges: mesh.edges, triangles: mesh.triangles, quads: mesh.quads, levels: mesh.levels,
     ...(state.isThere && state.hasBox ? { box_low: [...state.low], box_high: [...state.high] } : {}),
@@ -42,6 +44,8 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
   if (row < 0) return { ...names, listed: false };
   const { block } = report;
   const flags = block.flags[row]!;
+  // Without a solid there is no inside, and `none` would say nothing of surfaces that pierce each other.
+  const hasSolid = head.objects[a]!.solid || head.objects[b]!.solid;
   const features = block.witnessFeatures.subarray(4 * row, 4 * row + 4);
   const kinds: Record<string, number> = {};
   for (let c = block.contactBegin[row]!; c < block.contactEnd[row]!; ++c) {
@@ -56,6 +60,7 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
   return {
     ...names, listed: true, phase: PHASES[block.phase[row]!] ?? '?',
     lower: block.lower[row]!, upper: block.upper[row]!,
+    ...(hasSolid ? { inside: INSIDES[block.insideOf(row)] ?? '?' } : {}),
     incomplete: (flags & 1) !== 0, stale: (flags & 2) !== 0, contacts_cut: (flags & 4) !== 0,
     witness_a: feature(viewer, a, features[0]!, features[1]!), witness_b: feature(viewer, b, features[2]!, features[3]!),
     point_a: triple(block.witnessPoints, 6 * row), point_b: triple(block.witnessPoints, 6 * row + 3),
@@ -77,9 +82,9 @@ export function contactFacts(viewer: Viewer, s: Selection & { type: 'contact' })
   if (row < 0) return { ...names, listed: false };
   const report = viewer.report!;
   return {
-    ...names, listed: true, distance: block.distance[row]!,
+    ...names, listed: true, distance: block.distance[row]!, separation: report.separation(row),
     point_a: triple(block.points, 6 * row), point_b: triple(block.points, 6 * row + 3),
-    normal: triple(block.normal, 3 * row),
+    normal: triple(block.normal, 3 * row), push: report.push(row),
     side_a: SIDES[report.sideA(row)] ?? '?', side_b: SIDES[report.sideB(row)] ?? '?',
     since: block.since[row]!, age: report.age(row),
   };

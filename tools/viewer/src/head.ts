@@ -4,6 +4,8 @@ export interface ObjectHead {
   serial: number;
   name: string;
   motion: 'deformable' | 'rigid' | 'fixed';
+  /** Not in older data. */
+  solid?: boolean;
   mesh: number;
   first: number;
   last: number;
@@ -22,7 +24,8 @@ export interface MeshHead {
 
 export const STAGES = ['read_ms', 'pairs_ms', 'refit_ms', 'jobs_ms', 'publish_ms'] as const;
 export const COUNTS = [
-  'contacts', 'near', 'in_contact', 'began', 'ended', 'incomplete', 'stale', 'contacts_cut', 'diagnostics',
+  'contacts', 'near', 'in_contact', 'began', 'ended', 'incomplete', 'stale', 'contacts_cut', 'inside', 'crossing',
+  'diagnostics',
 ] as const;
 export type Stage = (typeof STAGES)[number];
 export type Count = (typeof COUNTS)[number];

@@ -23,10 +23,11 @@ export function fillHelp(dialog: HTMLDialogElement): void {
     h('div', { class: 'columns' }, ...[...groups].map(([name, rows]) => h('section', {}, h('h2', {}, name),
       h('dl', {}, ...rows.flatMap(([keys, text]) => [h('dt', {}, keys), h('dd', {}, text)]))))),
     h('section', {}, h('h2', {}, 'What is drawn'), h('p', {},
-      'A contact is a point on each of the two features and a short line along its normal, which goes from a to b. Its colour is ' +
-      'its kind. A disc lies in front of both surfaces, a ring behind one, a diamond where the two sides disagree, and a small ' +
+      'A contact is a point on each of the two features. Its arrow begins on b, and leads where b is pushed out: along the ' +
+      'normal, or against it where the separation is negative. Its colour is its kind. A disc lies in front of both surfaces, a ring behind one, a diamond where the two sides disagree, and a small ' +
       'dot where there is no side. Lines join the middle vertices of regions: red for level 1, green for 2, blue for 3. Grey ' +
-      'lines are the witnesses of pairs. What lies behind a surface is fainter. Vertices of deformable objects are drawn to ' +
+      'lines are the witnesses of pairs. In lists, a ⊂ b says that a is inside b, and a ✕ b that they cross; an object inside another ' +
+      'one is seen through it. What lies behind a surface is fainter. Vertices of deformable objects are drawn to ' +
       'within the position error that the inspector shows; all numbers of reports are exact.')),
     h('section', {}, h('h2', {}, 'Licences'), ...LICENCES.map(({ name, version, text }) =>
       h('details', {}, h('summary', {}, `${name} ${version}`), h('pre', {}, text)))));

@@ -22,6 +22,8 @@ export interface Hooks {
   drawn(): Record<string, unknown>;
   /** Where a contact that is shown stands on the screen, in pixels of the canvas. */
   contactAt(index: number): { x: number; y: number; key: string } | null;
+  /** The arrow of a contact that is shown, in the coordinates of the scene; null where arrows are off. */
+  arrowOf(index: number): { from: number[]; to: number[]; key: string } | null;
   pixels(): { width: number; height: number; data: Uint8Array };
   link(): string;
   stats(): Record<string, number>;
@@ -44,8 +46,9 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
     drawn() {
       stage.draw();
       return {
-        contacts: stage.contacts.shown.length, normals: stage.contacts.normalCount, warnings: stage.contacts.warningCount,
+        contacts: stage.contacts.shown.length, arrows: stage.contacts.arrows.length, warnings: stage.contacts.warningCount,
         lines: stage.lines.counts(), hiddenLevels: [...viewer.display.hiddenLevels], bounds: stage.lines.boundCount, highlights: stage.highlight.count,
+        ghosts: stage.surfaces.flatMap((s, i) => (s.isGhost ? [i] : [])),
         surfaces: stage.surfaces.filter((s) => s.object.visible).length, rows: lists.rows.length,
         isPlaying: player.isPlaying, selection: viewer.selection && selectionText(viewer, viewer.selection),
       };
@@ -56,6 +59,13 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
       if (!p) return null;
       const [contact, pair] = stage.contacts.shown[index]!;
       return { x: p[0], y: p[1], key: selectionKey(viewer.contactSelection(contact, pair)) };
+    },
+    arrowOf(index) {
+      const arrow = stage.contacts.arrows[index];
+      if (!arrow) return null;
+      const [from, to] = arrow.map((end) => end.map((x, k) => x + stage.origin[k]!)) as [number[], number[]];
+      const [contact, pair] = stage.contacts.shown[index]!;
+      return { from, to, key: selectionKey(viewer.contactSelection(contact, pair)) };
     },
     pixels: () => stage.pixels(),
     link: () => link.text(),

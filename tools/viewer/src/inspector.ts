@@ -2,6 +2,7 @@
 
 import { button, copy, h } from './dom';
 import { frameFacts, numberText, selectionFacts, type Fact, type Facts } from './facts';
+import { insideWords } from './inside';
 import { KINDS } from './report';
 import type { Selection, Viewer } from './viewer';
 
@@ -37,7 +38,17 @@ export class Inspector {
       h('h2', {}, h('span', { title }, title), h('button', {
         type: 'button', class: 'small', title: 'Copy all as JSON', 'data-testid': `copy-${what}`,
         click: () => void copy(JSON.stringify(facts, null, 1)) }, 'Copy')),
-      links, table);
+      what === 'selection' ? this.insideLine() : null, links, table);
+  }
+
+  /** Whether one object of the selected pair is inside the other, in words, where one of them is a solid. */
+  private insideLine(): HTMLElement | null {
+    const pair = this.viewer.selectedPair();
+    const row = pair ? this.viewer.report!.rowOf(pair.a, pair.b) : -1;
+    const objects = pair ? [this.viewer.page!.head.objects[pair.a]!, this.viewer.page!.head.objects[pair.b]!] : [];
+    if (row < 0 || !objects.some((object) => object.solid)) return null;
+    const inside = this.viewer.report!.block.insideOf(row);
+    return h('p', { class: `inside in${inside}`, 'data-testid': 'inside-words' }, insideWords(objects[0]!.name, objects[1]!.name, inside));
   }
 
   /** Ways from what is selected to what belongs to it. */

@@ -48,7 +48,8 @@ export class Legend {
       this.group('Contacts', KINDS.map((_, kind) => this.kindItem(kind, shown[kind]!, kinds[kind]!))),
       this.group('Sides', classes.map((n, i) => h('span', { class: 'key', title: `Contacts shown whose side is: ${CLASS_NAMES[i]}` },
         swatch(palette().neutral, CLASS_STYLES[i]!), CLASS_NAMES[i]!, h('small', {}, count(n))))),
-      this.group('Lines', this.levelItems()));
+      // Only scenes that ask for region distances have any.
+      report.block.regionLevels.length > 0 ? this.group('Lines', this.levelItems()) : '');
   }
 
   private group(title: string, items: HTMLElement[]): HTMLElement {

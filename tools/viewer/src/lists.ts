@@ -1,13 +1,19 @@
 // Which objects, pairs and contacts are there, and how does one find one of them?
 
 import { count, h, short, swatch } from './dom';
+import { groupOf, INSIDE_GROUPS, INSIDE_MARKS, INSIDES, insideWords, SHORT_GROUPS } from './inside';
 import { KIND_COLOURS, palette, PHASE_COLOURS } from './palette';
 import { KINDS, PHASES } from './report';
 import type { Selection, Viewer } from './viewer';
 import { VirtualList } from './virtual_list';
 
 type Tab = 'objects' | 'pairs' | 'contacts';
-interface Row { key: string; selection: Selection; text: string; cells: (string | number)[]; colour: string; isFaint: boolean }
+interface Row {
+  key: string; selection: Selection; text: string; cells: (string | number)[]; colour: string; isFaint: boolean;
+  names?: Names;
+}
+/** The names of a pair's objects, whether one is inside the other, and what stands before them. */
+interface Names { lead?: string; a: string; b: string; inside: number }
 interface ColumnHead { name: string; title: string; isNumber: boolean }
 
 const COLUMNS: Record<Tab, ColumnHead[]> = {
@@ -23,7 +29,7 @@ const COLUMNS: Record<Tab, ColumnHead[]> = {
   ],
   contacts: [
     { name: 'contact', title: 'Kind and objects', isNumber: false },
-    { name: 'distance', title: 'Distance', isNumber: true },
+    { name: 'separation', title: 'Distance, negative where it lies behind a surface', isNumber: true },
     { name: 'age', title: 'Frames since it began', isNumber: true },
   ],
 };
@@ -35,12 +41,24 @@ export function selectionKey(s: Selection): string {
   return `f${s.object}-${s.kind}-${s.index}`;
 }
 
+const joined = ({ lead, a, b, inside }: Names): string => `${lead ? `${lead}  ` : ''}${a} ${INSIDE_MARKS[inside]} ${b}`;
+
+function titleOf({ cells, names }: Row): string {
+  return names?.inside ? `${cells[0]}\n${insideWords(names.a, names.b, names.inside)}` : String(cells[0]);
+}
+
+/** Each of two names gives way where both do not fit, so that the end of neither pushes the other out. */
+function twoNames({ lead, a, b, inside }: Names): HTMLElement {
+  return h('span', { class: 'two' }, lead && h('i', {}, lead), h('span', {}, a), h('i', { class: `mark in${inside}` }, INSIDE_MARKS[inside]), h('span', {}, b));
+}
+
 export class Lists {
   readonly element = h('div', { class: 'panel' });
   tab: Tab = 'pairs';
   rows: Row[] = [];
   private selectedAt = -1;
   private readonly phases = [true, true, true, true];
+  private readonly insides = [true, true, true];
   private readonly search = h('input', {
     type: 'search', id: 'search', 'data-testid': 'search', placeholder: 'Search  ( / )', 'aria-label': 'Search the list',
     input: () => this.show() }) as HTMLInputElement;
@@ -117,15 +135,18 @@ export class Lists {
     const rows: Row[] = [];
     for (const row of this.viewer.report!.pairs()) {
       const phase = block.phase[row]!;
-      if (!this.phases[phase]) continue;
+      const inside = block.insideOf(row);
+      if (!this.phases[phase] || !this.insides[groupOf(inside)]) continue;
       const [a, b] = [block.pairA[row]!, block.pairB[row]!];
       const flags = block.flags[row]!;
       const marks = (flags & 1 ? ' incomplete' : '') + (flags & 2 ? ' stale' : '') + (flags & 4 ? ' contacts_cut' : '');
-      const name = `${head.objects[a]!.name} – ${head.objects[b]!.name}`;
+      const names = { a: head.objects[a]!.name, b: head.objects[b]!.name, inside };
+      const name = joined(names);
       rows.push({
         key: `p${a}-${b}`, selection: { type: 'pair', a, b }, colour: PHASE_COLOURS[phase]!, isFaint: phase === 3,
-        text: `${name} ${PHASES[phase]}${marks} ${head.objects[a]!.serial} ${head.objects[b]!.serial}`.toLowerCase(),
-        cells: [name + (flags ? ' ⚠' : ''), block.lower[row]!, block.contactEnd[row]! - block.contactBegin[row]!],
+        text: `${name} ${PHASES[phase]} ${inside ? `${INSIDES[inside]} ${INSIDE_GROUPS[groupOf(inside)]}` : ''}${marks} ${head.objects[a]!.serial} ${head.objects[b]!.serial}`.toLowerCase(),
+        names: { ...names, b: names.b + (flags ? ' ⚠' : '') },
+        cells: [name, block.lower[row]!, block.contactEnd[row]! - block.contactBegin[row]!],
       });
     }
     return rows;
@@ -141,11 +162,14 @@ export class Lists {
       if (!viewer.passes(contact, pair)) continue;
       const selection = viewer.contactSelection(contact, pair);
       const kind = block.kind[contact]!;
-      const names = `${head.objects[block.pairA[pair]!]!.name} – ${head.objects[block.pairB[pair]!]!.name}`;
+      const names = {
+        lead: KINDS[kind] ?? '?', a: head.objects[block.pairA[pair]!]!.name, b: head.objects[block.pairB[pair]!]!.name,
+        inside: block.insideOf(pair),
+      };
       rows.push({
         key: selectionKey(selection), selection, colour: KIND_COLOURS[kind] ?? '#999999', isFaint: false,
-        text: `${KINDS[kind]} ${names}`.toLowerCase(),
-        cells: [`${KINDS[kind]}  ${names}`, block.distance[contact]!, report.age(contact)],
+        text: joined(names).toLowerCase(), names,
+        cells: [joined(names), report.separation(contact), report.age(contact)],
       });
     }
     return rows;
@@ -177,15 +201,30 @@ export class Lists {
     this.chips.hidden = this.tab !== 'pairs';
     if (this.chips.hidden) return;
     const report = this.viewer.report!;
-    const counts = [0, 0, 0, 0];
-    for (const row of report.pairs()) ++counts[report.block.phase[row]!]!;
-    this.chips.replaceChildren(...PHASES.map((name, i) => h('button', {
-      type: 'button', class: 'chip', 'aria-pressed': String(this.phases[i]), 'data-testid': `phase-${name}`,
-      title: `Show pairs that are ${name}`,
+    const phases = [0, 0, 0, 0];
+    const insides = [0, 0, 0];
+    for (const row of report.pairs()) {
+      ++phases[report.block.phase[row]!]!;
+      ++insides[groupOf(report.block.insideOf(row))]!;
+    }
+    const hasSolids = this.viewer.page!.head.objects.some((object) => object.solid);
+    const marks = ['–', '⊂', '✕'];
+    this.chips.replaceChildren(
+      ...PHASES.map((name, i) => this.chip(this.phases, i, `phase-${name}`, `Show pairs that are ${name}`,
+        swatch(PHASE_COLOURS[i]!), name, phases[i]!)),
+      ...(hasSolids ? INSIDE_GROUPS.map((name, i) => this.chip(this.insides, i, `inside-${name}`,
+        ['Show pairs of which neither is inside the other', 'Show pairs of which one is inside the other', 'Show pairs that cross'][i]!,
+        h('i', { class: `mark in${[0, 1, 3][i]}` }, marks[i]!), SHORT_GROUPS[i]!, insides[i]!)) : []));
+  }
+
+  /** A button that shows or hides the pairs of one sort. */
+  private chip(shown: boolean[], i: number, id: string, title: string, sign: HTMLElement, name: string, n: number): HTMLElement {
+    return h('button', {
+      type: 'button', class: 'chip', 'aria-pressed': String(shown[i]), 'data-testid': id, title,
       click: () => {
-        this.phases[i] = !this.phases[i];
+        shown[i] = !shown[i];
         this.show();
-      } }, swatch(PHASE_COLOURS[i]!), name, h('small', {}, count(counts[i]!)))));
+      } }, sign, name, h('small', {}, count(n)));
   }
 
   private showHeads(): void {
@@ -209,8 +248,8 @@ export class Lists {
     const [name, ...numbers] = row.cells;
     const element = h('div', {
       class: `row${row.isFaint ? ' faint' : ''}`, role: 'option', 'aria-selected': String(isSelected), 'data-key': row.key,
-      title: String(name), click: () => this.viewer.select(row.selection, true) },
-      swatch(row.colour, this.tab === 'objects' ? 'square' : ''), h('span', {}, String(name)),
+      title: titleOf(row), click: () => this.viewer.select(row.selection, true) },
+      swatch(row.colour, this.tab === 'objects' ? 'square' : ''), row.names ? twoNames(row.names) : h('span', {}, String(name)),
       ...numbers.map((x) => h('b', {}, typeof x === 'number' ? short(x) : x)));
     if (row.selection.type === 'object') element.append(this.eye(row.selection.object));
     return element;

@@ -4,6 +4,7 @@ import { PageChunks } from './chunks';
 import { button, byId, copy, h, note } from './dom';
 import { fillHelp } from './help';
 import { makeHooks, type Hooks } from './hooks';
+import { solidsText } from './inside';
 import { Inspector } from './inspector';
 import { listenForKeys, setCommands, type Command } from './keys';
 import { Legend, toggleLevel } from './legend';
@@ -69,7 +70,8 @@ function showTitle(): void {
   const { head } = viewer.page!;
   document.title = `${head.title} – graze`;
   byId('title').textContent = head.title;
-  const settings = Object.entries(head.settings).map(([key, value]) => `${key.replaceAll('_', ' ')} ${settingText(value)}`).join(' · ');
+  const values = Object.entries(head.settings).map(([key, value]) => `${key.replaceAll('_', ' ')} ${settingText(value)}`);
+  const settings = [...values, solidsText(head)].filter((text) => text).join(' · ');
   byId('source').textContent = settings;
   byId('source').title = `${head.source} · graze ${head.graze} · ${head.frames} frames of ${head.source_frames}\n${settings}`;
   document.body.classList.add('loaded');
@@ -178,7 +180,7 @@ function viewCommands(): Command[] {
     } },
     { group, keys: ['<', '>'], text: 'move the clip plane', run: () => {} },
     { group, keys: ['k'], text: 'contacts', run: () => flip('contacts') },
-    { group, keys: ['m'], text: 'normals', run: () => flip('normals') },
+    { group, keys: ['m'], text: 'push directions', run: () => flip('pushes') },
     { group, keys: ['o'], text: 'only contacts of the selection', run: () => {
       viewer.filter.onlySelected = !viewer.filter.onlySelected;
       viewer.changed();

@@ -38,7 +38,9 @@ export class Plots {
       { title: 'Contacts', id: 'contacts', lines: [{ label: 'contacts', colour: palette().warning, values: series('contacts') }] },
       { title: 'Pairs', id: 'pairs', lines: [
         { label: 'near', colour: neutral, values: series('near') },
-        { label: 'in contact', colour: green, values: series('in_contact') }] },
+        { label: 'in contact', colour: green, values: series('in_contact') },
+        ...(['inside', 'crossing'] as const).map((name) => ({ label: name, colour: palette()[name], values: series(name) }))
+          .filter((line) => line.values.some((n) => n > 0))] },
       { title: 'ms', id: 'ms', lines: [
         { label: 'step', colour: neutral, values: series('step_ms') },
         ...STAGES.map((stage, i) => ({ label: stage.replace('_ms', ''), colour: STAGE_COLOURS[i]!, values: series(stage) }))] },

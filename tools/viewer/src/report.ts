@@ -21,6 +21,8 @@ export class ReportBlock {
   readonly pairB: Uint32Array;
   readonly phase: Uint8Array;
   readonly flags: Uint8Array;
+  /** Empty in older data. */
+  readonly inside: Uint8Array;
   readonly lower: Float64Array;
   readonly upper: Float64Array;
   readonly witnessFeatures: Uint32Array;
@@ -51,6 +53,7 @@ export class ReportBlock {
     this.pairB = table.u32('pair_b');
     this.phase = table.u8('pair_phase');
     this.flags = table.u8('pair_flags');
+    this.inside = table.u8('pair_inside');
     this.lower = table.f64('pair_lower');
     this.upper = table.f64('pair_upper');
     this.witnessFeatures = table.u32('witness_features');
@@ -70,6 +73,11 @@ export class ReportBlock {
     this.regionIds = table.u32('region_ids');
     this.regionPoints = table.f64('region_points');
     this.regionDistance = table.f64('region_distance');
+  }
+
+  /** Whether an object of a pair is inside the other, as a number of INSIDES. */
+  insideOf(row: number): number {
+    return this.inside[row] ?? 0;
   }
 
   /** The row of a pair in the i-th frame of the block, or -1. */
@@ -116,5 +124,27 @@ export class FrameReport {
 
   sideA(contact: number): number { return this.block.sides[contact]! & 3; }
   sideB(contact: number): number { return (this.block.sides[contact]! >> 2) & 3; }
+
+  /** The distance with a sign, and the direction along which b is moved to make it grow, as docs/answers.md says. */
+  separation(contact: number): number {
+    const distance = this.block.distance[contact]!;
+    return this.isBehind(contact) ? -distance : distance;
+  }
+
+  push(contact: number): [number, number, number] {
+    const [x, y, z] = this.block.normal.subarray(3 * contact, 3 * contact + 3) as unknown as [number, number, number];
+    return this.isBehind(contact) ? [-x, -y, -z] : [x, y, z];
+  }
+
+  /** With a vertex, its side of the other surface decides; without one, both sides do. At distance 0 nothing is behind. */
+  private isBehind(contact: number): boolean {
+    const { distance, features } = this.block;
+    if (distance[contact] === 0) return false;
+    const [isVertexA, isVertexB] = [features[4 * contact] === 0, features[4 * contact + 2] === 0];
+    const [isBehindA, isBehindB] = [SIDES[this.sideA(contact)] === 'back', SIDES[this.sideB(contact)] === 'back'];
+    if (!isVertexA && !isVertexB) return isBehindA && isBehindB;
+    return (isVertexB && isBehindA) || (isVertexA && isBehindB);
+  }
+
   age(contact: number): number { return this.info.frame - this.block.since[contact]!; }
 }

@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import { Bounds, Eye } from './camera3d';
 import { ContactsLayer } from './contacts3d';
+import { objectsInside } from './inside';
 import { HighlightLayer } from './highlight3d';
 import { LinesLayer } from './lines3d';
 import { channels, palette } from './palette';
@@ -161,8 +162,24 @@ export class Stage {
     this.viewer.display.up = this.guessUp();
     const { up } = this.viewer.display;
     this.eye.setUp(up);
-    this.fitAll(true, up === 'z' ? new THREE.Vector3(0.75, -1.25, 0.8) : new THREE.Vector3(0.75, 0.8, 1.25));
+    const start = this.startBounds(bounds);
+    // A ground around what moves is looked at from higher up, so that its rim hides nothing.
+    const height = start === bounds ? 0.8 : 1.3;
+    if (!start.isEmpty)
+      this.eye.fit(this.local(start.low), this.local(start.high),
+        up === 'z' ? new THREE.Vector3(0.75, -1.25, height) : new THREE.Vector3(0.75, height, 1.25), true);
     this.refresh();
+  }
+
+  /** What the first picture shows: all objects, or those that move where a fixed one is much larger than they are together. */
+  private startBounds(all: Bounds): Bounds {
+    const moving = new Bounds();
+    for (const object of this.viewer.page!.objects) {
+      if (!this.isDrawn(object.index) || this.viewer.page!.head.objects[object.index]!.motion === 'fixed') continue;
+      moving.add(object.low);
+      moving.add(object.high);
+    }
+    return moving.isEmpty || all.radius() < 1.3 * moving.radius() ? all : moving;
   }
 
   /** The axis across the largest flat object, which is likely a ground; z where there is none. */
@@ -187,10 +204,11 @@ export class Stage {
     this.renderer.setClearColor(new THREE.Color(...channels(colours.background).map((x) => x / 255)));
     if (!page) return;
     const chosen = this.viewer.selectedObjects();
+    const inside = display.insides && this.viewer.report ? objectsInside(this.viewer.report) : new Set<number>();
     this.surfaces.forEach((surface, i) => {
       surface.sync();
       const selected = selection?.type === 'object' || selection?.type === 'pair' ? chosen.indexOf(i) + 1 : 0;
-      const look = { faces: display.surfaces, edges: display.edges, opacity: display.opacity, selected };
+      const look = { faces: display.surfaces, edges: display.edges, opacity: display.opacity, selected, isInside: inside.has(i) };
       surface.look(look, colours, display.hiddenObjects.has(i));
     });
     this.measure();

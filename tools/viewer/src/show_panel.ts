@@ -38,7 +38,7 @@ export class ShowPanel {
     return h('label', { class: 'flag' }, input, h('span', {}, text), key && h('kbd', {}, key));
   }
 
-  private slider(name: 'opacity' | 'clipAt' | 'pointSize' | 'normalLength', text: string, from: number, to: number): HTMLElement {
+  private slider(name: 'opacity' | 'clipAt' | 'pointSize' | 'arrowLength', text: string, from: number, to: number): HTMLElement {
     const { display } = this.viewer;
     return h('label', { class: 'slider' }, h('span', {}, text), h('input', {
       type: 'range', min: from, max: to, step: 'any', value: display[name], 'data-testid': `set-${name}`,
@@ -61,7 +61,8 @@ export class ShowPanel {
   private surfaces(): HTMLElement {
     return this.group('Surfaces',
       this.flag('surfaces', 'Faces (off: wireframe)', 'W'), this.flag('edges', 'Edges', 'E'),
-      this.slider('opacity', 'Opacity', 0.05, 1), this.flag('names', 'Names', 'N'),
+      this.slider('opacity', 'Opacity', 0.05, 1),
+      this.flag('insides', 'Objects inside others show through'), this.flag('names', 'Names', 'N'),
       h('div', { class: 'line' }, h('span', {}, 'Up axis'), this.choice('up', ['z', 'y'])));
   }
 
@@ -92,9 +93,9 @@ export class ShowPanel {
   }
 
   private contacts(): HTMLElement {
-    return this.group('Contacts', this.flag('contacts', 'Points', 'K'), this.flag('normals', 'Normals', 'M'),
+    return this.group('Contacts', this.flag('contacts', 'Points', 'K'), this.flag('pushes', 'Push directions', 'M'),
       this.flag('diagnostics', 'Diagnostics'),
-      this.slider('pointSize', 'Point size', 3, 20), this.slider('normalLength', 'Normal length', 0.1, 4));
+      this.slider('pointSize', 'Point size', 3, 20), this.slider('arrowLength', 'Arrow length', 0.1, 4));
   }
 
   private filter(): HTMLElement {

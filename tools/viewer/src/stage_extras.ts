@@ -2,6 +2,7 @@
 
 import * as THREE from 'three';
 import { button, byId, h, short } from './dom';
+import { INSIDE_MARKS } from './inside';
 import { KINDS, SIDES } from './report';
 import { pick, Screen } from './picking';
 import type { Stage } from './scene3d';
@@ -52,11 +53,11 @@ export class StageExtras {
     const report = this.viewer.report;
     const { block } = report;
     const row = report.rowOf(found.a, found.b);
-    const names = `${head.objects[found.a]!.name} – ${head.objects[found.b]!.name}`;
+    const names = `${head.objects[found.a]!.name} ${INSIDE_MARKS[block.insideOf(row)]} ${head.objects[found.b]!.name}`;
     let text = `${names} · ${short(block.lower[row]!)}`;
     if (found.type === 'contact') {
       const contact = report.contactOf(row, found.kind, found.features);
-      text = `${KINDS[found.kind]} · ${short(block.distance[contact]!)} · ` +
+      text = `${KINDS[found.kind]} · ${short(report.separation(contact))} · ` +
         `${SIDES[report.sideA(contact)]}/${SIDES[report.sideB(contact)]} · age ${report.age(contact)} · ${names}`;
     }
     const tip = byId('tip');
@@ -68,7 +69,7 @@ export class StageExtras {
 
   private showBar(): void {
     const { display } = this.viewer;
-    const flag = (name: 'edges' | 'surfaces' | 'clip' | 'contacts' | 'normals' | 'lines', text: string, key: string) => {
+    const flag = (name: 'edges' | 'surfaces' | 'clip' | 'contacts' | 'pushes' | 'lines', text: string, key: string) => {
       const element = button(text, `quick-${name}`, `${text} (${key})`, () => {
         display[name] = !display[name];
         this.viewer.changed();
@@ -86,7 +87,7 @@ export class StageExtras {
     });
     byId('stagebar').replaceChildren(
       h('span', { class: 'choice' }, flag('surfaces', 'Faces', 'W'), flag('edges', 'Edges', 'E'), flag('contacts', 'Contacts', 'K'),
-        flag('normals', 'Normals', 'M'), flag('lines', 'Lines', 'L'), flag('clip', 'Clip', 'C')),
+        flag('pushes', 'Pushes', 'M'), flag('lines', 'Lines', 'L'), flag('clip', 'Clip', 'C')),
       h('span', { class: 'choice', title: 'What a click selects' }, ...picks),
       h('span', { class: 'choice' },
         button('Fit', 'fit', 'Fit the selection (F), or all (A)', () => this.stage.fitSelection())));
@@ -103,6 +104,21 @@ export class StageExtras {
     byId('axes').innerHTML = parts.sort((p, q) => p.z - q.z).map((p) => p.svg).join('');
   }
 
+  /** Names of the objects in sight and where they stand: the selected ones, then the nearest first. */
+  private namesByDistance(screen: Screen): [name: string, x: number, y: number][] {
+    const { page } = this.viewer;
+    const chosen = this.viewer.selectedObjects();
+    const found: { rank: number; label: [string, number, number] }[] = [];
+    for (const object of page!.objects) {
+      if (!this.stage.isDrawn(object.index) || !object.hasBox) continue;
+      const p = screen.at(this.stage.local(object.centre()));
+      if (!p || p[0] < 0 || p[1] < 0 || p[0] > this.stage.canvas.clientWidth || p[1] > this.stage.canvas.clientHeight) continue;
+      found.push({ rank: chosen.includes(object.index) ? -1 : p[2], label: [page!.head.objects[object.index]!.name, p[0], p[1]] });
+    }
+    return found.sort((p, q) => p.rank - q.rank).map(({ label }) => label);
+  }
+
+  /** A name that would cover one before it is left out. */
   private showNames(): void {
     const box = byId('names');
     const { page, display } = this.viewer;
@@ -112,10 +128,13 @@ export class StageExtras {
     }
     const screen = new Screen(this.stage);
     const labels: HTMLElement[] = [];
-    for (const object of page.objects.slice(0, 300)) {
-      if (!this.stage.isDrawn(object.index)) continue;
-      const p = screen.at(this.stage.local(object.centre()));
-      if (p) labels.push(h('span', { style: `left:${p[0].toFixed(0)}px;top:${p[1].toFixed(0)}px` }, page.head.objects[object.index]!.name));
+    const taken: [x: number, y: number, halfWidth: number][] = [];
+    for (const [name, x, y] of this.namesByDistance(screen)) {
+      const half = 4 * name.length + 6;
+      if (taken.some(([tx, ty, other]) => Math.abs(tx - x) < half + other && Math.abs(ty - y) < 17)) continue;
+      taken.push([x, y, half]);
+      labels.push(h('span', { style: `left:${x.toFixed(0)}px;top:${y.toFixed(0)}px` }, name));
+      if (labels.length >= 300) break;
     }
     box.replaceChildren(...labels);
   }

@@ -1,4 +1,4 @@
-// How is one object drawn: its faces, and the edges over them?
+// How is one object drawn: its faces, the edges over them, and what other objects hide of it?
 
 import * as THREE from 'three';
 import type { ObjectState } from './motion';
@@ -51,7 +51,12 @@ export interface SurfaceLook {
   opacity: number;
   /** 0 is not selected, 1 the selected object or the first of a pair, 2 the second of a pair. */
   selected: number;
+  /** Whether it is inside another object, through which it is seen then. */
+  isInside: boolean;
 }
+
+/** How strongly an object is seen through the one that it is inside of. */
+const GHOST = 0.5;
 
 const colour3 = (colour: string) => new THREE.Vector3(...channels(colour).map((x) => x / 255));
 
@@ -62,8 +67,10 @@ export class SurfaceView {
   private readonly edgeGeometry = new THREE.BufferGeometry();
   private readonly faceMaterial: THREE.ShaderMaterial;
   private readonly edgeMaterial: THREE.ShaderMaterial;
+  private readonly ghostMaterial: THREE.ShaderMaterial;
   private readonly faces: THREE.Mesh;
   private readonly edges: THREE.LineSegments;
+  private readonly ghost: THREE.Mesh;
   private readonly edgeLength: number;
   private shownVersion = -1;
   private hadHoles = false;
@@ -84,14 +91,21 @@ export class SurfaceView {
       vertexShader: EDGE_VERTEX, fragmentShader: EDGE_FRAGMENT, transparent: true, depthWrite: false,
       uniforms: { clip: { value: clip }, colour: { value: colour3('#000000') }, opacity: { value: 1 } },
     });
+    this.ghostMaterial = new THREE.ShaderMaterial({
+      vertexShader: FACE_VERTEX, fragmentShader: FACE_FRAGMENT, transparent: true, depthWrite: false, depthFunc: THREE.GreaterDepth,
+      uniforms: { clip: { value: clip }, front: { value: colour3('#ffffff') }, back: { value: colour3('#000000') },
+                  opacity: { value: GHOST } },
+    });
     this.faces = new THREE.Mesh(this.faceGeometry, this.faceMaterial);
     this.edges = new THREE.LineSegments(this.edgeGeometry, this.edgeMaterial);
     this.edges.renderOrder = 5;
-    for (const object of [this.faces, this.edges]) {
+    this.ghost = new THREE.Mesh(this.faceGeometry, this.ghostMaterial);
+    this.ghost.renderOrder = 6;
+    for (const object of [this.faces, this.edges, this.ghost]) {
       object.frustumCulled = false;
       this.object.add(object);
     }
-    this.edgeLength = meanEdge(state);
+    this.edgeLength = medianEdge(state);
   }
 
   /** Brings the vertices to where the object is now. */
@@ -117,12 +131,18 @@ export class SurfaceView {
     this.faces.visible = look.faces;
     this.faceMaterial.uniforms.front!.value = colour3(palette.objects[this.state.index % palette.objects.length]!);
     this.faceMaterial.uniforms.back!.value = colour3(palette.back);
+    this.ghost.visible = look.isInside && look.faces;
+    this.ghostMaterial.uniforms.front!.value = colour3(palette.inside);
     this.faceMaterial.uniforms.opacity!.value = look.opacity;
     this.faceMaterial.transparent = look.opacity < 1;
     this.faceMaterial.depthWrite = look.opacity >= 1;
     const edge = look.selected === 1 ? palette.selected : look.selected === 2 ? palette.second : palette.edge;
     this.edgeMaterial.uniforms.colour!.value = colour3(look.faces || look.selected ? edge : palette.neutral);
     this.edgeOpacity = !look.edges && !look.selected ? 0 : look.selected ? 0.85 : look.faces ? 0.4 : 0.75;
+  }
+
+  get isGhost(): boolean {
+    return this.object.visible && this.ghost.visible;
   }
 
   /** Edges fade where they are so dense on the screen that they would cover the faces. */
@@ -137,7 +157,7 @@ export class SurfaceView {
   }
 
   dispose(): void {
-    for (const part of [this.faceGeometry, this.edgeGeometry, this.faceMaterial, this.edgeMaterial]) part.dispose();
+    for (const part of [this.faceGeometry, this.edgeGeometry, this.faceMaterial, this.edgeMaterial, this.ghostMaterial]) part.dispose();
   }
 
   private setIndices(faces: Uint32Array, edges: Uint32Array): void {
@@ -165,16 +185,14 @@ function without(index: Uint32Array, size: number, bad: Set<number>): Uint32Arra
   return new Uint32Array(kept);
 }
 
-function meanEdge({ mesh, world }: ObjectState): number {
+/** The median of some edges. A mean says little where a few edges are much longer than the others. */
+function medianEdge({ mesh, world }: ObjectState): number {
   const step = Math.max(1, Math.floor(mesh.edgeCount / 500));
-  let sum = 0;
-  let count = 0;
+  const lengths: number[] = [];
   for (let e = 0; e < mesh.edgeCount; e += step) {
     const [v, w] = [3 * mesh.edges[2 * e]!, 3 * mesh.edges[2 * e + 1]!];
     const length = Math.hypot(world[v]! - world[w]!, world[v + 1]! - world[w + 1]!, world[v + 2]! - world[w + 2]!);
-    if (!Number.isFinite(length)) continue;
-    sum += length;
-    ++count;
+    if (Number.isFinite(length)) lengths.push(length);
   }
-  return count ? sum / count : 1;
+  return lengths.sort((p, q) => p - q)[lengths.length >> 1] ?? 1;
 }

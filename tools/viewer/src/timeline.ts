@@ -5,7 +5,8 @@ import { palette, PHASE_COLOURS } from './palette';
 import { SPEEDS, type Player } from './player';
 import type { Viewer } from './viewer';
 
-interface Lane { name: string; colour: () => string; test: (frame: number) => boolean }
+/** A lane of a state marks each frame in which it lasts. */
+interface Lane { name: string; colour: () => string; test: (frame: number) => boolean; isState?: boolean }
 
 export class Timeline {
   readonly element = h('div', { id: 'timeline' });
@@ -62,12 +63,12 @@ export class Timeline {
     });
   }
 
-  /** The nearest frame, from the one shown on in a direction, where something is marked. */
+  /** The nearest frame, from the one shown on in a direction, where something is marked, or where a state begins. */
   nextMark(direction: 1 | -1): number | null {
     const { page, frame } = this.viewer;
     if (!page) return null;
     for (let f = frame + direction; f >= 0 && f < page.head.frames; f += direction)
-      if (this.lanes().some((lane) => lane.test(f))) return f;
+      if (this.lanes().some((lane) => lane.test(f) && !(lane.isState && lane.test(f - 1)))) return f;
     return null;
   }
 
@@ -78,6 +79,8 @@ export class Timeline {
     return [
       { name: 'began', colour: () => PHASE_COLOURS[1]!, test: has('began') },
       { name: 'ended', colour: () => PHASE_COLOURS[3]!, test: has('ended') },
+      { name: 'inside', colour: () => palette().inside, test: has('inside'), isState: true },
+      { name: 'crossing', colour: () => palette().crossing, test: has('crossing'), isState: true },
       { name: 'incomplete', colour: () => '#cc79a7', test: (f) => has('incomplete')(f) || has('contacts_cut')(f) },
       { name: 'stale', colour: () => palette().neutral, test: has('stale') },
       { name: 'diagnostics', colour: () => '#b8a800', test: has('diagnostics') },
@@ -114,8 +117,11 @@ export class Timeline {
       pen.fillStyle = lane.colour();
       const least = lane.name === 'DIVERGED' ? 4 * ratio : 2 * ratio;
       const wide = Math.max(least, width / head.frames - ratio);
+      // Whole pixels, since with many rows half of one is a large part of its height.
+      const [top, bottom] = [Math.round(row * size), Math.round((row + 1) * size)];
+      const gap = Math.min(ratio, Math.floor((bottom - top) / 4));
       for (let f = 0; f < head.frames; ++f)
-        if (lane.test(f)) pen.fillRect(((f + 0.5) * width) / head.frames - wide / 2, row * size + ratio, wide, size - 2 * ratio);
+        if (lane.test(f)) pen.fillRect(((f + 0.5) * width) / head.frames - wide / 2, top + gap, wide, bottom - top - 2 * gap);
     }
     this.keys.replaceChildren(...used.map((lane) => h('span', { class: 'key' },
       h('i', { class: 'swatch square', style: `--c:${lane.colour()}` }), lane.name)));

@@ -29,10 +29,12 @@ export interface Display {
   boundsLevel: number;
   boundsOfAll: boolean;
   contacts: boolean;
-  normals: boolean;
-  normalLength: number;
+  pushes: boolean;
+  arrowLength: number;
   pointSize: number;
   diagnostics: boolean;
+  /** What is inside another object is seen through it. */
+  insides: boolean;
   names: boolean;
   hiddenObjects: Set<number>;
   up: 'y' | 'z';
@@ -64,7 +66,7 @@ function newDisplay(): Display {
   return {
     surfaces: true, edges: true, opacity: 1, clip: false, clipAxis: 'x', clipAt: 0.5, clipFlipped: false,
     lines: true, hiddenLevels: new Set(), witnesses: true, bounds: 'off', boundsLevel: 1, boundsOfAll: false,
-    contacts: true, normals: true, normalLength: 1, pointSize: 9, diagnostics: true, names: false,
+    contacts: true, pushes: true, arrowLength: 1, pointSize: 9, diagnostics: true, insides: true, names: false,
     hiddenObjects: new Set(), up: 'z', pick: 'auto',
   };
 }

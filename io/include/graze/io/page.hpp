@@ -30,6 +30,9 @@ struct PageObject {
   Motion motion = Motion::deformable;
   /// ObjectSettings::user_data of the object.
   std::uint64_t user_data = 0;
+  /// ObjectSettings::solid of the object. The page says it, and draws a solid that is inside another one
+  /// through the other.
+  bool solid = false;
 };
 
 /// Says what a page is of, and how large it may become.
