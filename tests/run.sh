@@ -38,13 +38,13 @@ run_preset release --parallel "$(nproc)"
 # - Undefined behaviour's checks of null, of object sizes and of virtual tables are left out. With them the build takes
 #   a tenth to a fifth longer. The address sanitizer sees what such accesses do, and the preset `fuzz` has them.
 # - The contract's programs are left out, since they build libraries of their own. So are the checks of pages and
-#   of includes, which run nothing of graze. The bowl of the examples would take minutes; the others do the same.
+#   of includes, which run nothing of graze.
 # - An allocation is remembered with two of its callers. With thirty, what the exact oracles allocate takes a third of
 #   all tests' time.
 # - The libraries' sources are compiled in batches, as those of the demonstration are.
 # - The fuzzers are built here, with counters of what they reach. A build of their own took a fifth of all the time. The
 #   preset `fuzz` is for long runs: there comparisons guide them too (docs/fuzzing.md).
-run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_|^example_bowl'
+run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_'
 
 # The tests with threads once more under the thread sanitizer.
 tests/tsan_tbb.sh build/tsan-tbb

@@ -1,5 +1,5 @@
-// Drops 50 soft balls of 98 vertices into a bowl, with XPBD. None of them goes through it, and their energy
-// falls.
+// Drops 50 soft balls of 98 vertices into a bowl, or as many as `--balls N` says, with XPBD. None of them
+// goes through it, and their energy falls.
 //
 // The bowl is a closed shell with a thickness, and solid. So a vertex that a fast ball drives into the wall
 // has a way out, and graze knows the side of every vertex exactly. Of an open surface it only knows the side
@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <graze/graze.hpp>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "examples/support/record_option.hpp"
 #include "examples/support/world.hpp"
@@ -21,7 +23,6 @@ namespace {
 constexpr double bowl_radius = 0.8;  // m, of the hollow
 constexpr double bowl_thickness = 0.1;
 constexpr double ball_radius = 0.1;
-constexpr int balls = 50;
 constexpr int frames = 600;
 constexpr int steps_per_frame = 2;
 constexpr double time_step = 1.0 / 60 / steps_per_frame;  // s
@@ -53,6 +54,8 @@ std::size_t vertices_out(const examples::World& world) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::string wanted = examples::take_option("--balls", argc, argv);
+  const int balls = wanted.empty() ? 50 : std::atoi(wanted.c_str());
   examples::WorldSettings settings;
   settings.contact_distance = 0.015;
   settings.gravity = gravity;

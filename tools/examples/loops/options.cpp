@@ -10,7 +10,7 @@ namespace loops {
 
 Options read_options(int argc, char** argv) {
   Options options;
-  options.record = examples::take_record_option(argc, argv);
+  options.record = examples::take_option("--record", argc, argv);
   for (int i = 1; i < argc; ++i) {
     const std::string_view name = argv[i];
     const bool has_value = i + 1 < argc;

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <string_view>
 
 namespace examples {
 
-std::string take_record_option(int& argc, char** argv) {
-  char** const found =
-      std::find_if(argv + 1, argv + argc, [](std::string_view word) { return word == "--record"; });
+std::string take_option(std::string_view name, int& argc, char** argv) {
+  char** const found = std::find(argv + 1, argv + argc, name);
   if (found + 1 >= argv + argc) return {};
-  std::string file = found[1];
+  std::string value = found[1];
   std::copy(found + 2, argv + argc, found);
   argc -= 2;
-  return file;
+  return value;
 }
 
 std::unique_ptr<graze::Recorder> make_recorder(const std::string& file, graze::Scene& scene) {
@@ -23,7 +21,7 @@ std::unique_ptr<graze::Recorder> make_recorder(const std::string& file, graze::S
 }
 
 std::unique_ptr<graze::Recorder> recorder_by_options(int argc, char** argv, graze::Scene& scene) {
-  const std::string file = take_record_option(argc, argv);
+  const std::string file = take_option("--record", argc, argv);
   if (argc == 1) return make_recorder(file, scene);
   std::fprintf(stderr, "usage: %s [--record FILE]\n", argv[0]);
   std::exit(2);

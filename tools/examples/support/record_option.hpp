@@ -4,12 +4,13 @@
 #include <graze/recorder.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace examples {
 
-/// Takes `--record FILE` out of a program's arguments, and returns the name of the file. Returns an empty
-/// name if the arguments have no such option.
-std::string take_record_option(int& argc, char** argv);
+/// Takes an option with a value, as `--record FILE`, out of a program's arguments, and returns the value.
+/// Returns an empty string if the arguments have no such option.
+std::string take_option(std::string_view name, int& argc, char** argv);
 
 /// Returns a recorder that writes a scene into a file, or null if the name is empty. The recording begins
 /// with the next step, and ends with the recorder. `graze view FILE` shows it.
