@@ -143,6 +143,21 @@ TEST_CASE("bench: graze takes part with each instruction set asked for") {
   CHECK(contender(run, "graze, scalar").at("found") == contender(run, "graze").at("found"));
 }
 
+TEST_CASE("bench: soft bodies move under contacts of graze, and of Bullet where that was built in") {
+  const TemporaryFolder folder;
+  const std::string csv = (folder / "soft_bodies.csv").string();
+  const ProgramResult result = run_graze({"bench", "--soft-bodies", "--frames", "12", "--csv", csv});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const std::string lines = read_file(csv);
+  INFO(lines);
+  CHECK(lines.starts_with("scene,looks,contacts_from,through,most_through,contacts,look_ms,frame_ms\n"));
+  const bool has_bullet = result.out.find("No rows of Bullet") == std::string::npos;
+  CHECK(std::count(lines.begin(), lines.end(), '\n') == 1 + 6 * (has_bullet ? 3 : 1));
+  CHECK((lines.find("Bullet, margin 10 mm") != std::string::npos) == has_bullet);
+  CHECK(lines.find("two soft balls inside each other,5,graze,") != std::string::npos);
+}
+
 TEST_CASE("bench: bad arguments are one line") {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"bench", "--scenes", "S11"},
