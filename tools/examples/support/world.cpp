@@ -31,7 +31,7 @@ Body& World::add(Body body) {
 }
 
 graze::ReportHandle World::step(double time_step) {
-  const graze::ReportHandle report = scene_.step();
+  graze::ReportHandle report = scene_.step();
   collect_constraints(*report, bodies_, constraints_);
   move(constraints_, time_step);
   return report;

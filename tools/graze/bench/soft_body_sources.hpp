@@ -10,7 +10,7 @@
 
 namespace graze::bench {
 
-/// Where a step of the solver has its constraints from.
+/// Gives a step of the solver its constraints.
 class ContactSource {
  public:
   ContactSource() = default;

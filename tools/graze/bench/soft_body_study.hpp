@@ -12,7 +12,7 @@
 
 namespace graze::bench {
 
-/// What a scene was like with one source of contacts. Times are medians of the frames.
+/// Describes how a scene went with one source of contacts. Times are medians of the frames.
 struct SoftBodyFigures {
   std::size_t through = 0;       ///< vertices through after the last frame
   std::size_t most_through = 0;  ///< after any frame

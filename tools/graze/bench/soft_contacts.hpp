@@ -7,8 +7,8 @@
 
 #include "bench/world.hpp"
 
-/// What a library that finds contacts of soft bodies is asked, and what it answers. It consists of plain
-/// numbers only, as `World` does.
+/// Questions to a library that finds contacts of soft bodies, and its answers. They are plain numbers, since
+/// the library's module is compiled for other instruction sets than the rest of the program.
 namespace graze::bench {
 
 /// A ball and a box stand for rigid bodies of that shape. A box lies along the axes, and both only move in
