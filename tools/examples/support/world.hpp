@@ -33,8 +33,8 @@ class World {
   /// Returns what graze sees now, and moves nothing.
   graze::ReportHandle look() { return scene_.step(); }
 
-  /// Moves all bodies by a time step, under constraints that were found at its beginning. `step` does so with
-  /// those that graze finds.
+  /// Moves all bodies by a time step, under constraints that were found at its beginning, and updates these.
+  /// `step` does so with those that graze finds.
   void move(std::vector<ContactConstraint>& constraints, double time_step);
 
   [[nodiscard]] graze::Scene& scene() { return scene_; }

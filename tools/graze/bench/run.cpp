@@ -14,7 +14,6 @@
 #include "bench/graze_contender.hpp"
 #include "bench/near_pairs.hpp"
 #include "bench/stopwatch.hpp"
-#include "bench/stopwatch.hpp"
 #include "bench/verification.hpp"
 #include "check_failed.hpp"
 #include "distribution.hpp"

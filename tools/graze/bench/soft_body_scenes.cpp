@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "examples/support/body.hpp"
 #include "examples/support/shapes.hpp"

@@ -37,7 +37,7 @@ SoftBodyScene cloth_on_ball();
 /// Soft balls that fall into a bowl, as in tools/examples/bowl.cpp, but only 20 of them.
 SoftBodyScene balls_in_bowl();
 
-/// Those balls fall into a tray of five boxes.
+/// Twenty such balls fall into a tray of five boxes.
 SoftBodyScene balls_in_tray();
 
 /// Two soft balls that start half inside each other, as in tools/examples/recovery.cpp.

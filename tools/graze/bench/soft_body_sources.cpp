@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <utility>
 
