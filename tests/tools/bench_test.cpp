@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -141,6 +142,31 @@ TEST_CASE("bench: graze takes part with each instruction set asked for") {
   REQUIRE(run.at("contenders").size() == 4);
   for (const char* const name : {"graze", "graze, scalar"}) check_times(contender(run, name));
   CHECK(contender(run, "graze, scalar").at("found") == contender(run, "graze").at("found"));
+}
+
+TEST_CASE("bench: soft bodies move under contacts of graze, and of Bullet where that was built in") {
+  const TemporaryFolder folder;
+  const std::string csv = (folder / "soft_bodies.csv").string();
+  const ProgramResult result = run_graze({"bench", "--soft-bodies", "--frames", "12", "--csv", csv});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const std::string lines = read_file(csv);
+  INFO(lines);
+  CHECK(lines.starts_with("scene,looks,contacts_from,through,most_through,contacts,look_ms,frame_ms\n"));
+  const bool has_bullet = result.out.find("No rows of Bullet") == std::string::npos;
+  CHECK(std::count(lines.begin(), lines.end(), '\n') == 1 + 6 * (has_bullet ? 3 : 1));
+  const std::string bullet = "two soft balls inside each other,5,\"Bullet, margin 10 mm\",";
+  const std::size_t row = lines.find(bullet);
+  REQUIRE((row != std::string::npos) == has_bullet);
+  if (has_bullet) {
+    std::istringstream numbers(lines.substr(row + bullet.size()));
+    double through = 0, most = 0, contacts = 0;
+    char comma = 0;
+    numbers >> through >> comma >> most >> comma >> contacts;
+    CHECK(most >= through);
+    CHECK(contacts > 0);
+  }
+  CHECK(lines.find("two soft balls inside each other,5,graze,") != std::string::npos);
 }
 
 TEST_CASE("bench: bad arguments are one line") {

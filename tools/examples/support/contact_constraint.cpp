@@ -36,6 +36,7 @@ void collect_constraints(const graze::FrameReport& report, std::deque<Body>& bod
 }
 
 void update(ContactConstraint& constraint) {
+  if (constraint.is_plane) return;
   const Body& a = *constraint.a;
   const Body& b = *constraint.b;
   const graze::ContactGeometry now =
@@ -50,9 +51,13 @@ void update(ContactConstraint& constraint) {
 }
 
 void solve(const ContactConstraint& constraint, const ContactSettings& settings, double time_step) {
-  const auto& [a, b, feature_a, feature_b, weights_a, weights_b, direction, separation_before] = constraint;
+  Body* const a = constraint.a;
+  Body* const b = constraint.b;
+  const graze::SurfaceWeights& weights_a = constraint.weights_a;
+  const graze::SurfaceWeights& weights_b = constraint.weights_b;
+  const Eigen::Vector3d& direction = constraint.direction;
   const Eigen::Vector3d apart = carried(weights_b, b->positions) - carried(weights_a, a->positions);
-  const double wanted = std::min(settings.gap, separation_before + settings.recovery_speed * time_step);
+  const double wanted = std::min(settings.gap, constraint.separation + settings.recovery_speed * time_step);
   const double depth = wanted - direction.dot(apart);
   const double yielding = inverse_mass(weights_a, *a) + inverse_mass(weights_b, *b);
   if (depth <= 0 || yielding == 0) return;

@@ -27,6 +27,7 @@ struct ContactConstraint {
   graze::SurfaceWeights weights_b;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   double separation = 0;  ///< where the report saw it, or update() did
+  bool is_plane = false;  ///< of a plane that `a` carries, in place of features: update() leaves it as it is
 };
 
 /// Replaces constraints by those of a report. `user_data` of each object is its index in `bodies`. Contacts

@@ -31,22 +31,26 @@ Body& World::add(Body body) {
 }
 
 graze::ReportHandle World::step(double time_step) {
-  const graze::ReportHandle report = scene_.step();
+  graze::ReportHandle report = scene_.step();
   collect_constraints(*report, bodies_, constraints_);
-  for (int i = 0; i < settings_.substeps; ++i) {
-    if (i > 0)
-      for (ContactConstraint& constraint : constraints_) update(constraint);
-    substep(time_step / settings_.substeps);
-  }
+  move(constraints_, time_step);
   return report;
 }
 
-void World::substep(double time_step) {
+void World::move(std::vector<ContactConstraint>& constraints, double time_step) {
+  for (int i = 0; i < settings_.substeps; ++i) {
+    if (i > 0)
+      for (ContactConstraint& constraint : constraints) update(constraint);
+    substep(constraints, time_step / settings_.substeps);
+  }
+}
+
+void World::substep(const std::vector<ContactConstraint>& constraints, double time_step) {
   const Eigen::Vector3d gravity(0, 0, -settings_.gravity);
   for (Body& body : bodies_) predict(body, gravity, settings_.damping, time_step);
   for (int i = 0; i < settings_.iterations; ++i) {
     for (Body& body : bodies_) solve_springs(body, time_step);
-    for (const ContactConstraint& constraint : constraints_) solve(constraint, settings_.contacts, time_step);
+    for (const ContactConstraint& constraint : constraints) solve(constraint, settings_.contacts, time_step);
   }
   for (Body& body : bodies_) update_velocities(body, time_step);
 }

@@ -33,11 +33,16 @@ class World {
   /// Returns what graze sees now, and moves nothing.
   graze::ReportHandle look() { return scene_.step(); }
 
+  /// Moves all bodies by a time step, under constraints that were found at its beginning, and updates these.
+  /// `step` does so with those that graze finds.
+  void move(std::vector<ContactConstraint>& constraints, double time_step);
+
   [[nodiscard]] graze::Scene& scene() { return scene_; }
+  [[nodiscard]] std::deque<Body>& bodies() { return bodies_; }
   [[nodiscard]] const std::deque<Body>& bodies() const { return bodies_; }
 
  private:
-  void substep(double time_step);
+  void substep(const std::vector<ContactConstraint>& constraints, double time_step);
 
   WorldSettings settings_;
   graze::Scene scene_;

@@ -14,6 +14,7 @@
 #include "bench/growth_figures.hpp"
 #include "bench/run.hpp"
 #include "bench/slow_motion.hpp"
+#include "bench/soft_body_study.hpp"
 #include "bench/surface_details.hpp"
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
@@ -36,6 +37,7 @@ struct BenchOptions {
   bool is_recorded = false;
   bool aims = false;
   bool details = false;
+  bool soft_bodies = false;
   std::size_t slow = 1;
   std::vector<std::string> instruction_sets;
   std::string data = GRAZE_SHARED_DATA;
@@ -115,6 +117,17 @@ void compare_details(const BenchOptions& options) {
   if (options.csv) write_text_file(*options.csv, csv_of(table));
 }
 
+void compare_soft_bodies(const BenchOptions& options) {
+  const bench::PeerModule module;
+  if (!module.has_soft_contact_finder())
+    print("No rows of Bullet: its soft bodies were not there when this program was built.\n\n");
+  constexpr std::size_t usual_frames = 300;
+  const ResultTable table =
+      bench::compare_soft_bodies(module, options.frames == 0 ? usual_frames : options.frames);
+  print(markdown_of(table));
+  if (options.csv) write_text_file(*options.csv, csv_of(table));
+}
+
 std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
                                 const bench::PeerModule& module) {
   std::vector<bench::Run> runs;
@@ -149,6 +162,7 @@ void run(const BenchOptions& options) {
   if (options.csv) check_output_file("--csv", *options.csv);
   if (options.json) check_output_file("--json", *options.json);
   if (options.details) return compare_details(options);
+  if (options.soft_bodies) return compare_soft_bodies(options);
   const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);
   const bench::PeerModule module;
   const bench::Surroundings surroundings = bench::surroundings(module, sets);
@@ -193,6 +207,9 @@ void add_bench_command(CLI::App& app) {
                     "End with a table of graze's own aims beside what was measured (docs/performance.md)");
   command->add_flag("--details", options->details,
                     "Instead compare the details features and nearest, with and without solids");
+  command->add_flag(
+      "--soft-bodies", options->soft_bodies,
+      "Instead compare graze and Bullet as the source of contacts of one solver of soft bodies");
   command->add_flag("--recorded", options->is_recorded, "Measure graze once more, with a recorder attached");
   command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
   command->add_option("--slow", options->slow, "Play scenes so many times slower")

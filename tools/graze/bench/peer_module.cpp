@@ -17,6 +17,15 @@ PeerModule::PeerModule() {
   const auto list = reinterpret_cast<ListPeers>(dlsym(module, "graze_bench_peers"));
   if (list == nullptr) throw io::InputError(file.string() + ": is not what graze bench was built with");
   list(entries_, compiled_for_);
+  make_soft_contact_finder_ =
+      reinterpret_cast<MakeSoftContactFinder>(dlsym(module, "graze_bench_soft_contacts"));
+}
+
+std::unique_ptr<SoftContactFinder> PeerModule::soft_contact_finder(
+    std::span<const SoftBodyView> bodies, const SoftContactSettings& settings) const {
+  std::unique_ptr<SoftContactFinder> finder;
+  if (make_soft_contact_finder_ != nullptr) make_soft_contact_finder_(bodies, settings, finder);
+  return finder;
 }
 
 const PeerEntry& PeerModule::entry(std::string_view name) const {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "bench/contender.hpp"
+#include "bench/soft_contacts.hpp"
 
 namespace graze::bench {
 
@@ -16,12 +19,18 @@ class PeerModule {
   [[nodiscard]] PeerList entries() const { return entries_; }
   /// The entry of a name; throws io::InputError where there is none.
   [[nodiscard]] const PeerEntry& entry(std::string_view name) const;
+  /// Whether the module was built with a library that finds contacts of soft bodies.
+  [[nodiscard]] bool has_soft_contact_finder() const { return make_soft_contact_finder_ != nullptr; }
+  /// Returns null where it was not.
+  [[nodiscard]] std::unique_ptr<SoftContactFinder> soft_contact_finder(
+      std::span<const SoftBodyView> bodies, const SoftContactSettings& settings) const;
   /// Compiler flags.
   [[nodiscard]] std::string compiled_for() const { return std::string(compiled_for_); }
 
  private:
   PeerList entries_;
   std::string_view compiled_for_;
+  MakeSoftContactFinder make_soft_contact_finder_ = nullptr;
 };
 
 }  // namespace graze::bench
