@@ -45,11 +45,10 @@ bool have_good_groups(const Mesh& mesh, const std::vector<std::uint8_t>& face_gr
   return face_groups.empty() || face_groups.size() == mesh.face_count();
 }
 
-bool is_good_map(const Mesh& old, const Mesh& mesh, const std::vector<std::uint32_t>& new_of_old) {
-  return new_of_old.size() == old.vertex_count() &&
-         std::all_of(new_of_old.begin(), new_of_old.end(), [&](std::uint32_t vertex) {
-           return vertex == Mesh::no_vertex || vertex < mesh.vertex_count();
-         });
+bool is_map_into(const Mesh& mesh, const std::vector<std::uint32_t>& new_of_old) {
+  return std::all_of(new_of_old.begin(), new_of_old.end(), [&](std::uint32_t vertex) {
+    return vertex == Mesh::no_vertex || vertex < mesh.vertex_count();
+  });
 }
 
 Positions posed(const Mesh& mesh, const PoseRows& m) {
@@ -240,20 +239,23 @@ void SceneModel::set_ignored_groups(const BodyGroup& a, const BodyGroup& b, bool
     ignored_groups_.erase(std::minmax(a, b));
 }
 
-/// What was to be read from the old mesh is forgotten. A pose stays.
+/// The object forgets what it was to read from the old mesh, but keeps its pose. A stale id has no mesh that
+/// the map could not fit.
 void SceneModel::replace_mesh(std::size_t index, const std::shared_ptr<const Mesh>& mesh,
                               const std::vector<std::uint32_t>& new_of_old,
                               const std::vector<std::uint8_t>& face_groups) {
   ModelBody& body = bodies_[index];
-  const bool is_good = is_good_map(*body.mesh, *mesh, new_of_old) && have_good_groups(*mesh, face_groups) &&
-                       (!body.settings.solid || is_closed(*mesh));
+  const bool fits =
+      new_of_old.size() == body.mesh->vertex_count() && (!body.settings.solid || is_closed(*mesh));
+  const bool is_good =
+      is_map_into(*mesh, new_of_old) && have_good_groups(*mesh, face_groups) && (fits || !body.is_alive);
   try {
     scene_.replace_mesh(body.id, mesh, new_of_old, face_groups);
   } catch (const Error&) {
-    return expect(body.is_alive && !is_good, "a good mesh is refused");
+    return expect(!is_good, "a good mesh is refused");
   }
-  if (!body.is_alive) return expect_diagnostic(body.id, DiagnosticKind::stale_id);
   expect(is_good, "a bad mesh is taken");
+  if (!body.is_alive) return expect_diagnostic(body.id, DiagnosticKind::stale_id);
   body.mesh = mesh;
   body.settings.face_groups = face_groups;
   body.seen.assign(mesh->rest().begin(), mesh->rest().end());
