@@ -286,6 +286,20 @@ TEST_CASE("evaluate and weights refuse features that a mesh has not, and positio
   const std::vector<Vector3d> two{{0, 0, 0}, {1, 0, 0}};
   CHECK_THROWS_AS(weights(*one.mesh, two, corner, {0, 0, 0}), Error);
   CHECK_THROWS_AS(graze::evaluate(*one.mesh, one.shape.positions, corner, *one.mesh, two, corner), Error);
+  const PositionView null(static_cast<const double*>(nullptr), 3);
+  CHECK_THROWS_WITH(weights(*one.mesh, null, corner, {0, 0, 0}), "weights: the positions are null memory");
+  CHECK_THROWS_WITH(evaluate(one, {FeatureKind::face, 9}, one, corner), "evaluate: the mesh has no face 9");
+}
+
+TEST_CASE("evaluate: a distance that is not a number is neither at 0 nor inside") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Placed still(triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+  Placed lost = still;
+  lost.shape.positions[0].setConstant(nan);
+  const ContactGeometry found = evaluate(still, {FeatureKind::face, 0}, lost, {FeatureKind::vertex, 0});
+  CHECK(std::isnan(found.distance));
+  CHECK(std::isnan(found.separation));
+  CHECK_FALSE(found.is_interior);
 }
 
 }  // namespace graze::tests

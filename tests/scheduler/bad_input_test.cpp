@@ -115,7 +115,7 @@ TEST_CASE("copied positions that are not finite are refused") {
         stage.scene.set_positions(stage.needle, positions);
         const std::string message = stage.expect(DiagnosticKind::not_finite, stage.needle);
         CHECK(message.find("needle") != std::string::npos);
-        CHECK(message.find("vertex " + std::to_string(vertex)) != std::string::npos);
+        CHECK(message.find("vertex " + std::to_string(vertex) + " is at ") != std::string::npos);
       }
   std::vector<Eigen::Vector3f> floats(3, Eigen::Vector3f(0, 0, std::numeric_limits<float>::infinity()));
   stage.scene.set_positions(stage.needle, floats);

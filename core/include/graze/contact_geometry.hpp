@@ -29,8 +29,8 @@ struct SurfaceWeights {
 /// that one of its four weights is 0.
 ///
 /// `positions` are those of the vertices of `mesh`, and the point is in the same units. The call computes in
-/// double and takes no memory. Any thread may make it. Throws Error if the mesh has no such feature, or if
-/// the number of positions is not its number of vertices.
+/// double and takes no memory. Any thread may make it. Throws Error if the mesh has no such feature, if the
+/// number of positions is not its number of vertices, or if they are null memory.
 GRAZE_API SurfaceWeights weights(const Mesh& mesh, PositionView positions, const Feature& feature,
                                  const Eigen::Vector3d& point);
 
@@ -45,7 +45,10 @@ struct ContactGeometry {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   /// The distance of the two points.
   double distance = 0;
-  /// The #distance with a sign, as Contact::separation() gives it, with the sides at these positions.
+  /// The #distance with a sign, as Contact::separation() gives it. Sides go by the normals of the two
+  /// features at these positions. A report takes the winding number for the vertices of a solid with
+  /// ContactDetail::nearest. So the signs may differ where a solid is wound inside out or passes through
+  /// itself.
   double separation = 0;
   /// Whether both points lie inside their features, as those of a contact do. If not, another pair of
   /// features may be nearer by now.
@@ -62,8 +65,9 @@ struct ContactGeometry {
 ///
 /// The call computes in double, so the sign of a separation near 0 is that of rounded numbers. It takes no
 /// memory, but for the first call for edges or vertices of a mesh for which no step has needed their
-/// neighbours. Any thread may make it. Throws Error if a mesh has no such feature, or if the number of
-/// positions is not its number of vertices.
+/// neighbours. Any thread may make it. The positions of the features have to be finite: with others the
+/// answer means nothing. Throws Error if a mesh has no such feature, if the number of positions is not its
+/// number of vertices, or if they are null memory.
 GRAZE_API ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a, const Feature& feature_a,
                                    const Mesh& mesh_b, PositionView positions_b, const Feature& feature_b);
 

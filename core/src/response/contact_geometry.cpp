@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <cmath>
 #include <graze/contact_geometry.hpp>
 #include <optional>
 
@@ -141,11 +142,12 @@ ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a, const Fea
   const ClosestPoints at =
       feature_a.kind <= feature_b.kind ? closest_in_order(a, b) : closest_in_order(b, a).swapped();
   ContactGeometry geometry{at.a, at.b, {}, at.gap.norm(), 0, at.are_interior};
-  if (geometry.distance > 0) {
+  if (geometry.distance == 0) {
+    geometry.normal = touching_normal(a, b, at);
+  } else {
     geometry.normal = at.gap / geometry.distance;
     geometry.separation = is_behind(a, b, at) ? -geometry.distance : geometry.distance;
-  } else {
-    geometry.normal = touching_normal(a, b, at);
+    geometry.is_interior = at.are_interior && !std::isnan(geometry.distance);
   }
   return geometry;
 }

@@ -43,11 +43,12 @@ inline TrianglePoints triangle_of(const PlacedMesh& placed, std::uint32_t face, 
 [[noreturn]] void refuse_feature(const PlacedMesh& placed, const Feature& feature, const char* function);
 
 /// Throws Error, with the name of the caller's function, unless the mesh has the feature and as many vertices
-/// as there are positions.
+/// as there are positions, and unless these have memory.
 inline void check_feature(const PlacedMesh& placed, const Feature& feature, const char* function) {
   const std::array counts{placed.mesh.vertex_count(), placed.mesh.edge_count(), placed.mesh.face_count()};
   const auto kind = static_cast<std::size_t>(feature.kind);
-  if (placed.positions.size() != counts[0] || kind >= counts.size() || feature.index >= counts[kind])
+  if (placed.positions.size() != counts[0] || placed.positions.data() == nullptr || kind >= counts.size() ||
+      feature.index >= counts[kind])
     refuse_feature(placed, feature, function);
 }
 

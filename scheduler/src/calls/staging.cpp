@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/bad_vertex_text.hpp"
 #include "base/object_name.hpp"
 #include "base/pose.hpp"
 #include "base/settings_check.hpp"
@@ -330,9 +331,9 @@ SparePositions::Loan Staging::copy_good(ObjectId object, NamedObject& named, con
   box = all.box;
   if (all.bad_vertex == Surface::ReadResult::no_vertex) return positions;
   const bool finite = all.bad_position.allFinite();
-  problem = Diagnostic{object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
-                       name_of(object, named) + ": vertex " + std::to_string(all.bad_vertex) +
-                           (finite ? " has a coordinate beyond 2^120; " : " is not finite; ") + consequence};
+  problem = Diagnostic{
+      object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite,
+      name_of(object, named) + ": " + bad_vertex_text(all.bad_vertex, all.bad_position) + "; " + consequence};
   return nullptr;
 }
 

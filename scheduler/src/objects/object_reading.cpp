@@ -6,18 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "base/bad_vertex_text.hpp"
 #include "base/object_name.hpp"
 #include "core/base/number_text.hpp"
 #include "objects/leaf_test_slack.hpp"
 
 namespace graze {
 namespace {
-
-std::string coordinates(const Eigen::Vector3d& point) {
-  std::string text = number_text(point.x());
-  text.append(", ").append(number_text(point.y())).append(", ").append(number_text(point.z()));
-  return text;
-}
 
 /// Makes a diagnostic with the text of `message`, or without a text if there is no memory for it. It does not
 /// throw, since a read that has begun to change an object must be completed.
@@ -36,8 +31,7 @@ Diagnostic bad_vertex(const Object& object, std::uint32_t vertex, const Eigen::V
                       const char* consequence) {
   const bool finite = position.allFinite();
   return diagnostic_of(object, finite ? DiagnosticKind::too_large : DiagnosticKind::not_finite, [&] {
-    return name_of(object.id, object) + ": vertex " + std::to_string(vertex) + " is at " +
-           coordinates(position) + (finite ? ", beyond 2^120" : "") + "; " + consequence;
+    return name_of(object.id, object) + ": " + bad_vertex_text(vertex, position) + "; " + consequence;
   });
 }
 
