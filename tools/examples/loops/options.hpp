@@ -7,7 +7,7 @@ namespace loops {
 
 /// The options that a loop is started with.
 struct Options {
-  std::string record;          ///< the file of a recording, or empty; `graze view FILE` shows it
+  std::string record;          ///< the file of a recording, or empty; see `graze view`
   std::string organs;          ///< an OBJ file with the organs; empty means the loop's own choice
   bool blobs = false;          ///< organs are generated, not read
   int length = 0;              ///< frames or ticks; 0 means the loop's own number

@@ -101,18 +101,11 @@ bool is_out_of_tray(const Eigen::Vector3d& point) {
   return point.z() < 0 || point.head<2>().cwiseAbs().maxCoeff() > tray_width / 2;
 }
 
-bool is_never_out(const Eigen::Vector3d& /*point*/) {
-  return false;
-}
-
-void lead_nothing(examples::World& /*world*/, std::size_t /*frame*/) {}
-
 SoftBodyScene scene_of_balls() {
   SoftBodyScene scene;
   scene.settings.contact_distance = 0.015;
   scene.settings.substeps = 5;
   scene.steps_per_frame = 2;
-  scene.lead = lead_nothing;
   return scene;
 }
 
@@ -145,7 +138,6 @@ SoftBodyScene balls_in_bowl() {
   scene.name = "20 soft balls in a bowl";
   scene.fill = fill_bowl;
   scene.is_out = is_out_of_bowl;
-  scene.margins = {0.005, 0.01};
   return scene;
 }
 
@@ -154,7 +146,6 @@ SoftBodyScene balls_in_tray() {
   scene.name = "20 soft balls in a tray";
   scene.fill = fill_tray;
   scene.is_out = is_out_of_tray;
-  scene.margins = {0.005, 0.01};
   return scene;
 }
 
@@ -164,9 +155,6 @@ SoftBodyScene balls_inside_each_other() {
   scene.settings.gravity = 0;
   scene.steps_per_frame = 5;
   scene.fill = fill_with_entangled;
-  scene.lead = lead_nothing;
-  scene.is_out = is_never_out;
-  scene.margins = {0.005, 0.01};
   return scene;
 }
 

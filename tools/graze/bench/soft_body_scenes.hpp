@@ -18,11 +18,11 @@ struct SoftBodyScene {
   /// Adds the bodies, and returns what each of them is.
   std::vector<SoftBodyKind> (*fill)(examples::World& world) = nullptr;
   /// Sets the velocities of bodies that nothing pushes, at the beginning of a frame of 1/60 s.
-  void (*lead)(examples::World& world, std::size_t frame) = nullptr;
+  void (*lead)(examples::World& world, std::size_t frame) = [](examples::World&, std::size_t) {};
   /// Whether a vertex of what is not fixed has left the scene.
-  bool (*is_out)(const Eigen::Vector3d& point) = nullptr;
-  /// The margins of Bullet's soft bodies to compare, in m.
-  std::vector<double> margins;
+  bool (*is_out)(const Eigen::Vector3d& point) = [](const Eigen::Vector3d&) { return false; };
+  /// The margins of Bullet's soft bodies to compare, in m. These are the best ones for balls.
+  std::vector<double> margins{0.005, 0.01};
 };
 
 inline constexpr double frame_time = 1.0 / 60;  // s
