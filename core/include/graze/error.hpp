@@ -2,6 +2,7 @@
 
 #include <graze/export.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace graze {
 
@@ -16,6 +17,10 @@ class GRAZE_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws Error. Inline functions of graze call it, so that programs compile without exceptions
+/// (`-fno-exceptions`). In such a program an Error ends the process.
+[[noreturn]] GRAZE_API void throw_error(const std::string& message);
 
 /// @}
 

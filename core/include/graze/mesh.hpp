@@ -7,6 +7,7 @@
 #include <cstring>
 #include <graze/error.hpp>
 #include <graze/export.hpp>
+#include <graze/link_guard.hpp>
 #include <graze/number_tuple.hpp>
 #include <graze/position_view.hpp>
 #include <limits>
@@ -216,7 +217,7 @@ class GRAZE_API Mesh {
   template <typename Faces>
   static Mesh from_rows(PositionView rest, std::uint32_t each, const Eigen::MatrixBase<Faces>& faces) {
     if (faces.cols() != static_cast<Eigen::Index>(each))
-      throw Error("mesh: a matrix of " + std::to_string(faces.rows()) + " rows and " +
+      throw_error("mesh: a matrix of " + std::to_string(faces.rows()) + " rows and " +
                   std::to_string(faces.cols()) + " columns; give a face in each row, in " +
                   std::to_string(each) + " columns");
     std::vector<std::uint32_t> corners;

@@ -169,14 +169,14 @@ class PositionView {
     const auto* const found = reinterpret_cast<const std::byte*>(std::addressof(first.*position));
     const std::byte* const end = reinterpret_cast<const std::byte*>(std::addressof(first)) + sizeof first;
     if (end - found < static_cast<std::ptrdiff_t>(3 * sizeof(NumberOf<Member>)))
-      throw Error("positions: a member that is x has no y and z after it in its struct of " +
+      throw_error("positions: a member that is x has no y and z after it in its struct of " +
                   std::to_string(sizeof first) + " bytes");
     return found;
   }
   template <typename Matrix>
   static Eigen::Index rows_of_three(const Matrix& matrix) {
     if (matrix.cols() != 3)
-      throw Error("positions: a matrix of " + std::to_string(matrix.rows()) + " rows and " +
+      throw_error("positions: a matrix of " + std::to_string(matrix.rows()) + " rows and " +
                   std::to_string(matrix.cols()) + " columns; give a point in each row, in 3 columns");
     return matrix.rows();
   }

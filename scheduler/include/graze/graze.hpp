@@ -14,3 +14,4 @@
 #include <graze/report.hpp>
 #include <graze/scene.hpp>
 #include <graze/settings.hpp>
+#include <graze/weld.hpp>

@@ -1,0 +1,3 @@
+#include <graze/graze.hpp>
+
+int main() {}
