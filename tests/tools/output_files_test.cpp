@@ -170,6 +170,8 @@ TEST_CASE("commands about recordings write over no recording") {
 
 TEST_CASE("a time series writes over no recording and no other output in its folder") {
   const RecordedFile files;
+  files.check_refused({"export", files.file, "--csv", files.in("p"), "--paraview", files.in("p.pvd")},
+                      "--paraview: " + files.in("p") + " cannot be written: it is the file of --csv too");
   fs::create_directory(files.in("p"));
   fs::create_hard_link(files.file, files.in("p/lines_000001.vtp"));
   files.check_refused({"export", files.file, "--paraview", files.in("p.pvd")},

@@ -36,7 +36,7 @@ bool is_standard_output(const fs::path& file) {
          output.st_dev == other.st_dev && output.st_ino == other.st_ino;
 }
 
-[[noreturn]] void refuse(const std::string& option, const fs::path& file, const std::string& why) {
+[[noreturn]] void refuse_output(const std::string& option, const fs::path& file, const std::string& why) {
   throw io::InputError(option + ": " + file.string() + " cannot be written: " + why + "; name another file");
 }
 
@@ -44,8 +44,9 @@ bool is_standard_output(const fs::path& file) {
 
 bool OutputFiles::is_written_by(const Output& output, const fs::path& file) {
   if (!output.is_series) return is_one_file(output.file, file);
-  if (file.extension() == series_ending && target_of(file).parent_path() == target_of(output.file))
-    return true;
+  const fs::path folder = target_of(output.file);
+  const fs::path target = target_of(file);
+  if (target == folder || (file.extension() == series_ending && target.parent_path() == folder)) return true;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(output.file, ignored))
     if (entry.path().extension() == series_ending && is_one_file(entry.path(), file)) return true;
@@ -54,11 +55,11 @@ bool OutputFiles::is_written_by(const Output& output, const fs::path& file) {
 
 void OutputFiles::add_unique(Output output) {
   if (!output.is_series && is_standard_output(output.file))
-    refuse(output.option, output.file, "standard output goes into it");
+    refuse_output(output.option, output.file, "standard output goes into it");
   for (const Output& other : outputs_) {
     const bool is_other =
         output.is_series ? is_written_by(output, other.file) : is_written_by(other, output.file);
-    if (is_other) refuse(output.option, output.file, "it is the file of " + other.option + " too");
+    if (is_other) refuse_output(output.option, output.file, "it is the file of " + other.option + " too");
   }
   outputs_.push_back(std::move(output));
 }
@@ -93,7 +94,7 @@ void OutputFiles::check_inputs(std::span<const fs::path> inputs) const {
   for (const Output& output : outputs_) {
     if (!fs::exists(output.file, ignored)) continue;
     for (const fs::path& input : inputs)
-      if (is_written_by(output, input)) refuse(output.option, output.file, "it is what the run reads");
+      if (is_written_by(output, input)) refuse_output(output.option, output.file, "it is what the run reads");
   }
 }
 

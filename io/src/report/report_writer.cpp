@@ -60,7 +60,7 @@ void write_witness(JsonText& json, const Witness& witness, const Mesh& mesh_a, c
   json.key("point_a").point(witness.point_a).key("point_b").point(witness.point_b).close('}');
 }
 
-ReportWriter::Options checked(const ReportWriter::Options& options) {
+ReportWriter::Options checked_options(const ReportWriter::Options& options) {
   if (options.every == 0) throw Error("report: each 0th frame was asked for; give 1 or more as every");
   return options;
 }
@@ -124,7 +124,7 @@ void ReportWriter::State::write_line() {
 
 ReportWriter::ReportWriter(const std::filesystem::path& path, std::span<const SceneObject> objects,
                            const SceneSettings& settings, Options options)
-    : state_(std::make_unique<State>(path, checked(options))) {
+    : state_(std::make_unique<State>(path, checked_options(options))) {
   state_->objects.assign(objects.begin(), objects.end());
   for (std::size_t number = 0; number < objects.size(); ++number)
     state_->numbers.emplace_back(objects[number].id, number);
