@@ -68,8 +68,8 @@ TEST_CASE("buffers of glTF outside its folder are refused, unless they are asked
   const fs::path file = folders.folder / "scene/mesh.gltf";
   const std::string absolute = (folders.folder / "outside.bin").string();
   for (const std::string& uri : {std::string("../outside.bin"), absolute, std::string("link.bin"),
-                                std::string("below/../../outside.bin"), std::string("%2E%2E/outside.bin"),
-                                std::string("../none.bin")}) {
+                                 std::string("below/../../outside.bin"), std::string("%2E%2E/outside.bin"),
+                                 std::string("../none.bin")}) {
     INFO(uri);
     folders.folder.write("scene/mesh.gltf", folders.triangle.gltf(uri));
     CHECK_THAT(refusal_of(file),

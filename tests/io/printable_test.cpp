@@ -71,3 +71,9 @@ TEST_CASE("messages and warnings about files hold no control character of the fi
   CHECK_THAT(file.warnings()[0], Catch::Matchers::Contains("object '\\x1b]0;x\\x07'"));
   CHECK(file.objects()[0].name == "\x1b]0;x\x07");  // a name itself stays as it is
 }
+
+TEST_CASE("a message about damaged glTF says where it is damaged, without a library's name for it") {
+  const TemporaryFolder folder;
+  CHECK_THAT(refusal_of(folder.write("a.gltf", "{\n  x")),
+             Catch::Matchers::Contains("its JSON cannot be read (parse error at line 2, column 3"));
+}

@@ -97,7 +97,9 @@ void GltfDocument::read_json(std::string_view text) {
   try {
     root_ = json::parse(text.begin(), text.end(), check_depth);
   } catch (const json::exception& error) {
-    fail(path_, joined("its JSON cannot be read (", error.what(), "); write the file again"));
+    std::string_view what = error.what();  // behind the library's own name of the error, which is in brackets
+    what.remove_prefix(std::min(what.size(), what.find("] ") + 2));
+    fail(path_, joined("its JSON cannot be read (", what, "); write the file again"));
   }
 }
 
