@@ -37,7 +37,9 @@ class Seeds {
     for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(random.below(256));
     add(bytes);
   }
-  [[nodiscard]] std::filesystem::path next_path() { return folder_ / ("seed_" + std::to_string(count_++)); }
+  [[nodiscard]] std::filesystem::path next_path(const std::string& ending = "") {
+    return folder_ / ("seed_" + std::to_string(count_++) + ending);
+  }
 
  private:
   std::filesystem::path folder_;
@@ -109,8 +111,10 @@ void write_reports(Seeds& seeds) {
       const std::string name = "o\"" + std::to_string(count);
       objects.push_back({scene.add(mesh, {.name = name}), name, mesh});
     }
-    io::ReportWriter writer(seeds.next_path(), objects, settings,
-                            {.include_times = detail == ContactDetail::none});
+    const std::string ending = detail == ContactDetail::closest ? ".gz" : "";
+    io::ReportWriter writer(seeds.next_path(ending), objects, settings,
+                            {.include_times = detail == ContactDetail::none,
+                             .include_contacts = detail != ContactDetail::vertices});
     std::vector<Eigen::Vector3d> positions(3, Eigen::Vector3d(0, 0.125, 0));
     for (std::uint64_t frame = 0; frame < 2; ++frame) {
       scene.set_positions(objects[0].id, positions);

@@ -79,7 +79,7 @@ std::vector<std::string> scene_file_seeds() {
  "transform": {"translate": [0, 0, 0.1], "rotate_degrees": [0, 0, 45], "scale": 0.5}},
  {"name": "c", "mesh": "plate.obj", "positions": "plate.mdd", "collides_with": 3}],
  "ignore": [["both", "both"], ["both/left", "c"]]})",
-      R"({"graze": 1, "detail": "regions", "objects": [{"mesh": "tent.ply", "transform": {"scale": 1e300}}]})"};
+      R"({"graze": 1, "detail": "regions", "outside_files": true, "objects": [{"mesh": "tent.ply", "transform": {"scale": 1e300}}]})"};
 }
 
 }  // namespace graze::fuzz

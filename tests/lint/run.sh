@@ -5,7 +5,7 @@
 #
 # text    every C++ file is as clang-format 14 writes it; shell scripts pass shellcheck and Python scripts pyflakes;
 #         lines end as .editorconfig says
-# order   no folder of the sources includes one that is not above it
+# order   no folder of the sources includes one that is not above it, and sources keep the rules of source_rules.py
 # tidy    clang-tidy 14 finds nothing in core and scheduler, names included (.clang-tidy)
 # paths   its analyzer finds nothing on any path through them; this takes a quarter of an hour on two cores
 set -eu
@@ -72,6 +72,7 @@ check_text() {
 
 check_order() {
   python3 tests/lint/include_order.py || complain "a folder includes one that is not above it"
+  python3 tests/lint/source_rules.py || complain "a rule of the sources is broken"
 }
 
 # configure ON|OFF: writes down how the sources are compiled, in batches or each by itself.

@@ -89,7 +89,7 @@ TEST_CASE("graze export refuses what it cannot write before it reads anything") 
   check_refused({}, "name a file to write");
   check_refused({"--csv", run.in("none/c.csv")}, "--csv: " + run.in("none/c.csv") + " cannot be written");
   check_refused({"--csv", run.file}, "it is what the run reads");
-  check_refused({"--csv", run.in("t"), "--distances", run.in("t")}, "is the file of another option too");
+  check_refused({"--csv", run.in("t"), "--distances", run.in("t")}, "it is the file of --csv too");
   check_refused({"--csv", "/dev/full"}, "/dev/full: cannot be written");
   check_refused({"--paraview", run.in("p.pvd")}, "it is a file, and the frames need a folder");
   check_refused({"--paraview", run.in("q.vtp")}, "end it in .pvd");

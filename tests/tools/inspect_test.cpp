@@ -1,6 +1,9 @@
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "support/catch.hpp"
+#include "tools/gltf_file.hpp"
 #include "tools/program.hpp"
 #include "tools/shapes.hpp"
 #include "tools/temporary_folder.hpp"
@@ -78,4 +81,26 @@ TEST_CASE("inspect shows what a file says of its axes and what a scene file make
   CHECK(scene.exit_code == 0);
   CHECK_THAT(scene.out, Contains("thing.obj: converted: x y z become x -z y, times 0.01"));
   CHECK_THAT(scene.out, Contains("stands     from 1 -0.34 0.01 to 1.1 -0.02 0.22"));
+}
+
+TEST_CASE("graze inspect and graze run read files outside a mesh file's folder only if they are told to") {
+  const TemporaryFolder folder;
+  GltfFile file;
+  file.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3");
+  const std::string mesh = file.write(
+      folder.path().string(), "mesh",
+      R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])");
+  std::filesystem::create_directory(folder / "below");
+  std::string text = read_file(mesh);
+  text.replace(text.find("mesh.bin"), 0, "../");
+  const std::string inner = folder.write("below/mesh.gltf", text).string();
+  const std::string scene =
+      folder.write("scene.json", R"({"graze": 1, "objects": [{"mesh": "below/mesh.gltf"}]})").string();
+  for (const std::string command : {"run", "inspect"})
+    for (const std::string& input : {inner, scene}) {
+      const ProgramResult refused = run_graze({command, input});
+      CHECK(refused.exit_code == 2);
+      CHECK_THAT(refused.err, Catch::Matchers::Contains("is outside the folder of this file; put it there"));
+      CHECK(run_graze({command, input, "--outside-files"}).exit_code == 0);
+    }
 }

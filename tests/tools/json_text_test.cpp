@@ -68,6 +68,14 @@ TEST_CASE("doubles that JSON has no number for are words") {
   CHECK(json.line() == R"(["infinity","-infinity",null])");
 }
 
+TEST_CASE("texts hold no control character, and come back as they were") {
+  const std::string text = "a\x1b[2J\x7f\xC2\x9B\xC2\x80\xC2\xA0\n\xE2\x82\xAC";
+  JsonText json;
+  json.text(text);
+  CHECK(json.line() == "\"a\\u001b[2J\\u007f\\u009b\\u0080\xC2\xA0\\n\xE2\x82\xAC\"");
+  CHECK(nlohmann::json::parse(json.line()) == text);
+}
+
 TEST_CASE("commas stand between values and nowhere else, and texts are escaped") {
   JsonText json;
   json.open('{')

@@ -20,11 +20,19 @@ std::string quoted(const std::string& argument) {
 
 ProgramResult run_graze(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
+  ProgramResult result = run_graze_redirected(arguments, ">" + quoted((folder / "out").string()));
+  result.out = read_file(folder / "out");
+  return result;
+}
+
+ProgramResult run_graze_redirected(const std::vector<std::string>& arguments,
+                                   const std::string& redirection) {
+  const TemporaryFolder folder;
   std::string command = quoted(GRAZE_PROGRAM);
   for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " >" + quoted((folder / "out").string()) + " 2>" + quoted((folder / "err").string());
+  command += " " + redirection + " 2>" + quoted((folder / "err").string());
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder / "out"), read_file(folder / "err")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read_file(folder / "err")};
 }
 
 bool is_one_line(const std::string& text) {

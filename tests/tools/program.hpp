@@ -14,6 +14,10 @@ struct ProgramResult {
 /// Runs the built `graze` with these arguments, its output piped.
 ProgramResult run_graze(const std::vector<std::string>& arguments);
 
+/// Runs the built `graze` with standard output redirected by the shell, such as by `>/dev/full`. `out` is
+/// empty.
+ProgramResult run_graze_redirected(const std::vector<std::string>& arguments, const std::string& redirection);
+
 /// Whether a text is exactly one line.
 bool is_one_line(const std::string& text);
 

@@ -1,3 +1,5 @@
+#include <zlib.h>
+
 #include <bit>
 #include <cmath>
 #include <graze/graze.hpp>
@@ -209,7 +211,116 @@ std::size_t check_round_trip(CrumpledSheets& sheets, int frames, bool with_times
   return contacts;
 }
 
+/// What a scene of crumpled sheets reports in so many frames, written as `options` say.
+std::vector<ReportHandle> write_report(const std::filesystem::path& file, std::uint64_t frames,
+                                       const ReportWriter::Options& options) {
+  CrumpledSheets sheets(1, 3);
+  std::vector<ReportHandle> reports;
+  ReportWriter writer(file, sheets.objects(), sheets.settings(), options);
+  for (std::uint64_t frame = 0; frame < frames; ++frame) {
+    reports.push_back(sheets.step());
+    writer.write(frame, *reports.back());
+  }
+  writer.close();
+  return reports;
+}
+
 }  // namespace
+
+TEST_CASE("a report of each k-th frame has the first, and every k-th after it") {
+  const TemporaryFolder folder;
+  for (const std::uint64_t every : {1U, 2U, 3U, 50U}) {
+    const auto reports = write_report(folder / "r.jsonl", 8, {.every = every});
+    ReportReader reader(folder / "r.jsonl");
+    CHECK(reader.every() == every);
+    CHECK(reader.has_contacts());
+    for (std::uint64_t frame = 0; frame < 8; frame += every) {
+      const auto read = reader.next();
+      REQUIRE(read);
+      CHECK(read->frame == frame);
+      CHECK(read->statistics.contacts == reports[frame]->contacts().size());
+    }
+    CHECK_FALSE(reader.next());
+  }
+  CHECK_THROWS_AS(ReportWriter(folder / "none.jsonl", {}, {}, {.every = 0}), graze::Error);
+  CHECK_FALSE(std::filesystem::exists(folder / "none.jsonl"));
+}
+
+TEST_CASE("a report of pairs alone has all of a pair but its contacts, which it counts") {
+  const TemporaryFolder folder;
+  const auto reports = write_report(folder / "pairs.jsonl", 3, {.include_contacts = false});
+  (void)write_report(folder / "all.jsonl", 3, {});
+  ReportReader pairs(folder / "pairs.jsonl");
+  ReportReader all(folder / "all.jsonl");
+  CHECK_FALSE(pairs.has_contacts());
+  std::size_t contacts = 0;
+  for (const ReportHandle& report : reports) {
+    const auto short_frame = pairs.next();
+    const auto full_frame = all.next();
+    REQUIRE((short_frame && full_frame));
+    REQUIRE(short_frame->pairs.size() == report->pairs().size());
+    for (std::size_t i = 0; i < short_frame->pairs.size(); ++i) {
+      const ReportedPair& read = short_frame->pairs[i];
+      CHECK(read.contacts.empty());
+      CHECK(read.contact_count == report->pairs()[i].contact_count);
+      CHECK(full_frame->pairs[i].contact_count == read.contact_count);
+      CHECK((read.phase == report->pairs()[i].phase && read.inside == report->pairs()[i].inside));
+      CHECK(same_bits(read.distance.upper, report->pairs()[i].distance.upper));
+      CHECK(same_bits(read.witness.point_a, report->pairs()[i].witness.point_a));
+      contacts += read.contact_count;
+    }
+  }
+  CHECK(contacts > 30);
+  CHECK(std::filesystem::file_size(folder / "pairs.jsonl") <
+        std::filesystem::file_size(folder / "all.jsonl") / 2);
+}
+
+TEST_CASE("a report that is compressed reads back as the same lines, whatever its name is then") {
+  const TemporaryFolder folder;
+  const ReportWriter::Options options{.include_times = false};
+  (void)write_report(folder / "r.jsonl", 40, options);
+  (void)write_report(folder / "r.jsonl.gz", 40, options);
+  (void)write_report(folder / "again.GZ", 40, options);
+  const std::string packed = graze::tests::read_file(folder / "r.jsonl.gz");
+  const std::string plain = graze::tests::read_file(folder / "r.jsonl");
+  CHECK(packed == graze::tests::read_file(folder / "again.GZ"));
+  CHECK(packed.size() < plain.size() / 2);
+  std::filesystem::rename(folder / "r.jsonl.gz", folder / "renamed");
+  gzFile file = gzopen((folder / "renamed").c_str(), "rb");
+  std::string unpacked(plain.size() + 1, ' ');
+  REQUIRE(gzread(file, unpacked.data(), static_cast<unsigned>(unpacked.size())) ==
+          static_cast<int>(plain.size()));
+  gzclose(file);
+  CHECK(unpacked.compare(0, plain.size(), plain) == 0);
+  ReportReader reader(folder / "renamed");
+  std::size_t frames = 0;
+  while (reader.next()) ++frames;
+  CHECK(frames == 40);
+}
+
+TEST_CASE("a compressed report that is cut off or damaged is refused in a line") {
+  const TemporaryFolder folder;
+  (void)write_report(folder / "r.gz", 10, {});
+  const std::string packed = graze::tests::read_file(folder / "r.gz");
+  const auto error_of = [&](const std::string& bytes) -> std::string {
+    try {
+      ReportReader reader(folder.write("bad.gz", bytes));
+      while (reader.next()) continue;
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  CHECK(error_of(packed) == "accepted");
+  for (std::size_t bytes = 2; bytes < packed.size(); bytes += 1 + packed.size() / 97) {
+    INFO(bytes << " of " << packed.size());
+    CHECK_THAT(error_of(packed.substr(0, bytes)), Catch::Matchers::Contains("is damaged or cut off") ||
+                                                      Catch::Matchers::Contains("line 1: not valid JSON"));
+  }
+  std::string damaged = packed;
+  damaged[packed.size() / 2] = static_cast<char>(damaged[packed.size() / 2] ^ 0x55);
+  CHECK(error_of(damaged) != "accepted");
+}
 
 TEST_CASE("a report that is read back has the same bits, at every scale") {
   for (const double scale : {1.0, 0x1p-60, 0x1p60}) {

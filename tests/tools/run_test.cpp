@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -145,6 +146,46 @@ TEST_CASE("runs without times are one file, byte for byte, for any number of thr
   CHECK(reports[0].find("_ms") == std::string::npos);
   CHECK(reports[0] == reports[1]);
   CHECK(reports[0] == reports[2]);
+}
+
+TEST_CASE("options make the report smaller: each k-th frame, pairs alone, compressed") {
+  const SpikeScene scene;
+  const auto path = scene.write(R"("contact_distance": 0.02, "range": 1)");
+  const auto write = [&](const std::string& name, std::vector<std::string> options) {
+    const auto report = scene.folder / name;
+    options.insert(options.begin(), {"run", path, "--no-times", "--report", report.string()});
+    const auto result = run_graze(options);
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+    return report;
+  };
+  const auto whole = write("whole.jsonl", {});
+  const auto frames = read_report(whole);
+  REQUIRE(frames.size() == 9);
+  const auto every = read_report(write("every.jsonl", {"--report-every", "4"}));
+  REQUIRE(every.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(every[i].frame == 4 * i);
+    REQUIRE(every[i].pairs.size() == 1);
+    REQUIRE(frames[4 * i].pairs.size() == 1);
+    CHECK(every[i].pairs[0].contacts.size() == frames[4 * i].pairs[0].contacts.size());
+  }
+  const auto pairs = read_report(write("pairs.jsonl.gz", {"--report-pairs"}));
+  REQUIRE(pairs.size() == 9);
+  CHECK(pairs[4].pairs[0].contacts.empty());
+  CHECK(pairs[4].pairs[0].contact_count == frames[4].pairs[0].contacts.size());
+  CHECK(pairs[4].pairs[0].contact_count > 0);
+  const auto packed = write("whole.jsonl.gz", {});
+  CHECK(std::filesystem::file_size(packed) < std::filesystem::file_size(whole) / 2);
+  CHECK(read_report(packed).size() == 9);
+  for (const std::vector<std::string>& lone :
+       {std::vector<std::string>{"--report-pairs"}, {"--report-every", "2"}}) {
+    std::vector<std::string> arguments = {"run", path};
+    arguments.insert(arguments.end(), lone.begin(), lone.end());
+    const auto result = run_graze(arguments);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("add --report FILE"));
+  }
 }
 
 TEST_CASE("layers, ignored pairs, margins and rules reach the scene") {

@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <graze/io/mesh_file.hpp>
 #include <graze/io/player.hpp>
+#include <graze/io/printable.hpp>
 #include <graze/io/scene_file.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mesh_summary.hpp"
+#include "output/terminal.hpp"
 #include "output/text.hpp"
 
 namespace graze::tools {
@@ -26,40 +28,43 @@ std::string frame_line(const io::FileFrame& frame) {
          "; coordinates as they stand in it";
 }
 
-void inspect_scene(const std::filesystem::path& path) {
-  const io::Player player(io::read_scene_file(path));
-  std::printf("%s: %s\n", path.string().c_str(), counted(player.objects().size(), "object").c_str());
-  for (const std::string& warning : player.warnings()) std::printf("  note       %s\n", warning.c_str());
+void inspect_scene(const std::filesystem::path& path, bool outside_files) {
+  io::SceneDescription scene = io::read_scene_file(path);
+  if (outside_files) scene.outside_files = true;
+  const io::Player player(scene);
+  say("%s: %s\n", path.string().c_str(), counted(player.objects().size(), "object").c_str());
+  for (const std::string& warning : player.warnings()) say("  note       %s\n", warning.c_str());
   for (std::size_t i = 0; i < player.objects().size(); ++i) {
     const io::SceneObject& object = player.objects()[i];
-    std::printf("  object %zu \"%s\"\n", i, object.name.c_str());
+    say("  object %zu \"%s\"\n", i, io::printable(object.name).c_str());
     std::vector<Eigen::Vector3d> positions;
     player.read_positions(i, positions);
-    std::printf("    stands     %s\n", bounds_text(positions).c_str());
-    std::fputs(summarise_mesh(*object.mesh, "    ").c_str(), stdout);
+    say("    stands     %s\n", bounds_text(positions).c_str());
+    say("%s", summarise_mesh(*object.mesh, "    ").c_str());
   }
 }
 
-void inspect_mesh(const std::filesystem::path& path) {
-  const io::MeshFile file = io::MeshFile::read(path);
-  std::printf("%s: %s\n", path.string().c_str(), counted(file.objects().size(), "object").c_str());
-  for (const std::string& warning : file.warnings()) std::printf("  note       %s\n", warning.c_str());
-  std::printf("  frame      %s\n", frame_line(file.frame()).c_str());
+void inspect_mesh(const std::filesystem::path& path, bool outside_files) {
+  const io::MeshFile file = io::MeshFile::read(path, {.outside_files = outside_files});
+  say("%s: %s\n", path.string().c_str(), counted(file.objects().size(), "object").c_str());
+  for (const std::string& warning : file.warnings()) say("  note       %s\n", warning.c_str());
+  say("  frame      %s\n", frame_line(file.frame()).c_str());
   for (std::size_t i = 0; i < file.animations().size(); ++i)
-    std::printf("  animation  %zu \"%s\", %.3g s\n", i, file.animations()[i].c_str(),
-                file.animation_seconds(i));
+    say("  animation  %zu \"%s\", %.3g s\n", i, io::printable(file.animations()[i]).c_str(),
+        file.animation_seconds(i));
   for (std::size_t i = 0; i < file.objects().size(); ++i) {
     const io::LoadedObject& object = file.objects()[i];
-    std::printf("  object %zu \"%s\"%s\n", i, object.name.c_str(), object.animated ? ", animated" : "");
-    std::fputs(summarise_mesh(*object.mesh, "    ").c_str(), stdout);
+    say("  object %zu \"%s\"%s\n", i, io::printable(object.name).c_str(),
+        object.animated ? ", animated" : "");
+    say("%s", summarise_mesh(*object.mesh, "    ").c_str());
   }
 }
 
-void inspect(const std::filesystem::path& path) {
+void inspect(const std::filesystem::path& path, bool outside_files) {
   if (path.extension() == ".json")
-    inspect_scene(path);
+    inspect_scene(path, outside_files);
   else
-    inspect_mesh(path);
+    inspect_mesh(path, outside_files);
 }
 
 }  // namespace
@@ -71,8 +76,11 @@ void add_inspect_command(CLI::App& app) {
   const auto files = std::make_shared<std::vector<std::string>>();
   command->add_option("files", *files, "Mesh files, in any format that graze reads, or scene files (.json)")
       ->required();
-  command->callback([files] {
-    for (const std::string& file : *files) inspect(file);
+  const auto outside_files = std::make_shared<bool>(false);
+  command->add_flag("--outside-files", *outside_files,
+                    "Let mesh files name files outside their own folders, such as buffers of glTF");
+  command->callback([files, outside_files] {
+    for (const std::string& file : *files) inspect(file, *outside_files);
   });
 }
 

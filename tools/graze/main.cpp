@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <exception>
 #include <graze/error.hpp>
 #include <string>
@@ -14,6 +13,7 @@
 #include "check_failed.hpp"
 #include "command_mistake.hpp"
 #include "inspect_command.hpp"
+#include "output/terminal.hpp"
 #include "recording/commands.hpp"
 #include "run_command.hpp"
 #if GRAZE_HAS_STRESS
@@ -25,10 +25,8 @@ namespace {
 constexpr int check_failed = 1;
 constexpr int bad_input = 2;
 
-int complain(std::string message, int exit_code) {
-  for (char& letter : message)
-    if (letter == '\n') letter = ' ';
-  std::fprintf(stderr, "graze: %s\n", message.c_str());
+int complain(const std::string& message, int exit_code) {
+  graze::tools::say_aside("graze", message);
   return exit_code;
 }
 
@@ -70,9 +68,8 @@ int run_program(int argument_count, char** arguments) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argument_count, char** arguments) {
+/// Runs the program. Errors become a line and an exit code.
+int run_guarded(int argument_count, char** arguments) {
   try {
     return run_program(argument_count, arguments);
   } catch (const graze::tools::CheckFailed& error) {
@@ -80,4 +77,14 @@ int main(int argument_count, char** arguments) {
   } catch (const std::exception& error) {
     return complain(error.what(), bad_input);
   }
+}
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+  graze::tools::keep_standard_streams();
+  const int exit_code = run_guarded(argument_count, arguments);
+  if (graze::tools::is_standard_output_whole()) return exit_code;
+  return complain("standard output: not all of it could be written; free some space, or send it elsewhere",
+                  bad_input);
 }

@@ -55,10 +55,4 @@ void check_picture_file(const std::string& option, const fs::path& file) {
              "; end it in .png");
 }
 
-void check_is_no_input(const std::string& option, const fs::path& file, std::span<const std::string> inputs) {
-  std::error_code ignored;
-  for (const std::string& input : inputs)
-    if (fs::equivalent(file, input, ignored)) refuse(option, file, "it is what the run reads");
-}
-
 }  // namespace graze::tools

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 
 namespace graze::tools {
@@ -13,9 +12,5 @@ void check_output_file(const std::string& option, const std::filesystem::path& f
 /// Throws io::InputError where a picture cannot be written, also since its ending is that of no format that
 /// pictures have.
 void check_picture_file(const std::string& option, const std::filesystem::path& file);
-
-/// Throws io::InputError where an option's file is one of those that the run reads.
-void check_is_no_input(const std::string& option, const std::filesystem::path& file,
-                       std::span<const std::string> inputs);
 
 }  // namespace graze::tools

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <graze/io/error.hpp>
 
+#include "output/terminal.hpp"
 #include "output/text.hpp"
 #include "output_path.hpp"
 #include "viewer/viewer_page.hpp"
@@ -75,7 +76,7 @@ void PageOutput::warn_of_size() {
             megabytes(most_page_bytes) + " (--html-every 1, or a file that ends in .grazeview, has all)";
   else
     text += "; --html-every K writes each K-th frame";
-  std::fprintf(stderr, "note: %s\n", text.c_str());
+  say_aside("note", text);
 }
 
 std::string PageOutput::close() {

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <graze/io/error.hpp>
 #include <graze/io/picture.hpp>
@@ -19,8 +18,9 @@
 #include <vector>
 
 #include "option_checks.hpp"
+#include "output/terminal.hpp"
 #include "output/text.hpp"
-#include "output_path.hpp"
+#include "output_files.hpp"
 #include "page_output.hpp"
 #include "progress.hpp"
 #include "run_summary.hpp"
@@ -44,7 +44,10 @@ struct RunOptions {
   std::optional<double> frames_per_second;
   std::optional<std::string> report;
   std::optional<std::string> record;
+  std::optional<std::uint32_t> report_every;
+  bool report_pairs = false;
   bool no_times = false;
+  bool outside_files = false;
   std::optional<std::string> picture;
   std::optional<std::uint32_t> picture_frame;
   std::optional<std::string> html;
@@ -94,6 +97,7 @@ io::SceneDescription describe(const RunOptions& options) {
   if (options.max_contacts) settings.max_contacts = options.max_contacts;
   if (options.max_contacts_per_pair) settings.max_contacts_per_pair = options.max_contacts_per_pair;
   if (options.region_distances) settings.region_distances = *options.region_distances;
+  if (options.outside_files) scene.outside_files = true;
   if (options.frames) scene.frames = options.frames;
   if (options.frames_per_second) scene.frames_per_second = *options.frames_per_second;
   return scene;
@@ -161,43 +165,36 @@ RunSummary play(io::Player& player, RunOutputs& outputs) {
 }
 
 /// Before anything is read, so that no run ends in vain.
-void check_outputs(const RunOptions& options) {
+OutputFiles check_outputs(const RunOptions& options) {
   if (options.picture_frame && !options.picture)
     throw InputError("--picture-frame: says which frame --picture draws; add --picture FILE");
-  if (options.report) {
-    check_output_file("--report", *options.report);
-    check_is_no_input("--report", *options.report, options.files);
-  }
-  if (options.record) {
-    check_output_file("--record", *options.record);
-    check_is_no_input("--record", *options.record, options.files);
-  }
-  if (options.picture) {
-    check_picture_file("--picture", *options.picture);
-    check_is_no_input("--picture", *options.picture, options.files);
-  }
+  if ((options.report_every || options.report_pairs) && !options.report)
+    throw InputError("--report-every, --report-pairs: say what --report writes; add --report FILE");
   if (options.html_every && !options.html)
     throw InputError("--html-every: says which frames --html writes; add --html FILE");
-  if (options.html) {
-    check_page_file("--html", *options.html);
-    check_is_no_input("--html", *options.html, options.files);
-  }
+  OutputFiles files;
+  if (options.report) files.add("--report", *options.report);
+  if (options.record) files.add("--record", *options.record);
+  if (options.picture) files.add_picture("--picture", *options.picture);
+  if (options.html) files.add_page("--html", *options.html);
+  files.check_inputs(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()));
+  return files;
 }
 
 void warn_of_threads(unsigned threads) {
   if (threads > max_threads())
-    std::fprintf(stderr, "warning: %u threads are more than 8 for each processor; %u are used\n", threads,
-                 max_threads());
+    say_aside("warning",
+              format("%u threads are more than 8 for each processor; %u are used", threads, max_threads()));
 }
 
 /// A run has no frame rate to keep, so frames may wait for a slow disk for long.
 constexpr std::uint32_t waiting_frames = 64;
 
 void print_recording(const std::string& file, const RecorderStatistics& statistics) {
-  std::printf("recording %s, %llu frames, %llu bytes", file.c_str(), number(statistics.frames),
-              number(statistics.bytes));
-  if (statistics.dropped > 0) std::printf(", %llu frames dropped", number(statistics.dropped));
-  std::printf("\n");
+  say("recording %s, %llu frames, %llu bytes", file.c_str(), number(statistics.frames),
+      number(statistics.bytes));
+  if (statistics.dropped > 0) say(", %llu frames dropped", number(statistics.dropped));
+  say("\n");
 }
 
 std::string page_title(const RunOptions& options) {
@@ -210,7 +207,9 @@ void open_outputs(RunOutputs& outputs, const RunOptions& options, io::Player& pl
                   const SceneSettings& settings) {
   if (options.report)
     outputs.report.emplace(*options.report, player.objects(), settings,
-                           io::ReportWriter::Options{.include_times = !options.no_times});
+                           io::ReportWriter::Options{.include_times = !options.no_times,
+                                                     .include_contacts = !options.report_pairs,
+                                                     .every = options.report_every.value_or(1)});
   if (options.picture) outputs.picture.emplace(options.picture_frame);
   if (options.record)
     outputs.recorder.emplace(player.scene(), *options.record,
@@ -223,21 +222,22 @@ void open_outputs(RunOutputs& outputs, const RunOptions& options, io::Player& pl
 
 /// Ends the outputs, with a line for each.
 void close_outputs(RunOutputs& outputs, const RunOptions& options) {
-  if (outputs.report) std::printf("report    %s\n", options.report->c_str());
+  if (outputs.report) say("report    %s\n", options.report->c_str());
   if (outputs.picture) {
     const std::uint32_t frame = outputs.picture->draw(*options.picture);
-    std::printf("picture   %s, frame %u\n", options.picture->c_str(), frame);
+    say("picture   %s, frame %u\n", options.picture->c_str(), frame);
   }
   if (outputs.recorder) print_recording(*options.record, outputs.recorder->statistics());
-  if (outputs.page) std::printf("page      %s\n", outputs.page->close().c_str());
+  if (outputs.page) say("page      %s\n", outputs.page->close().c_str());
 }
 
 void run(const RunOptions& options) {
-  check_outputs(options);
+  const OutputFiles files = check_outputs(options);
   const io::SceneDescription description = describe(options);
   warn_of_threads(description.settings.threads);
   io::Player player(description);
-  for (const std::string& warning : player.warnings()) std::fprintf(stderr, "note: %s\n", warning.c_str());
+  files.check_inputs(player.files());
+  for (const std::string& warning : player.warnings()) say_aside("note", warning);
   if (options.picture_frame && *options.picture_frame >= player.frame_count())
     throw InputError("--picture-frame: the run ends before frame " + std::to_string(*options.picture_frame) +
                      "; frames are 0 to " + std::to_string(player.frame_count() - 1));
@@ -246,7 +246,7 @@ void run(const RunOptions& options) {
   const RunSummary summary = play(player, outputs);
   if (outputs.report) outputs.report->close();
   if (outputs.recorder) outputs.recorder->close();
-  std::fputs(summary.text().c_str(), stdout);
+  say("%s", summary.text().c_str());
   close_outputs(outputs, options);
 }
 
@@ -283,10 +283,18 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option("--frames-per-second", options->frames_per_second, "At which rate animations are sampled")
       ->check(real_number(NumberRange::above_0));
-  command->add_option("--report", options->report, "Write a report, JSON Lines, a line a frame")
+  command
+      ->add_option("--report", options->report,
+                   "Write a report, JSON Lines, a line a frame; compressed if the name ends in .gz")
       ->check(file_name());
+  command->add_option("--report-every", options->report_every, "Write each K-th frame into the report")
+      ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()));
+  command->add_flag("--report-pairs", options->report_pairs,
+                    "Leave contacts out of the report: pairs alone, with their number of contacts");
   command->add_option("--record", options->record, "Record the run, for graze replay, view and picture")
       ->check(file_name());
+  command->add_flag("--outside-files", options->outside_files,
+                    "Let mesh files name files outside their own folders, such as buffers of glTF");
   command->add_flag("--no-times", options->no_times,
                     "Leave timings out of the report and the page: equal runs, equal files");
   command->add_option("--picture", options->picture, "Draw one frame into a PNG")->check(file_name());

@@ -1,6 +1,7 @@
 #include "run_summary.hpp"
 
 #include <algorithm>
+#include <graze/io/printable.hpp>
 
 #include "distribution.hpp"
 #include "output/text.hpp"
@@ -22,8 +23,8 @@ RunSummary::RunSummary(std::span<const io::SceneObject> objects) : objects_(obje
   for (std::size_t number = 0; number < objects.size(); ++number) numbers_[objects[number].id] = number;
 }
 
-const std::string& RunSummary::name_of(ObjectId id) const {
-  return objects_[numbers_.at(id)].name;
+std::string RunSummary::name_of(std::size_t number) const {
+  return io::printable(objects_[number].name);
 }
 
 void RunSummary::add(std::uint32_t frame, const FrameReport& report, double step_ms) {
@@ -41,8 +42,8 @@ void RunSummary::add(std::uint32_t frame, const FrameReport& report, double step
     if (is_in_contact(pair)) add_touch(frame, pair);
   if (diagnostics_ == 0 && !report.diagnostics().empty()) {
     const Diagnostic& first = report.diagnostics().front();
-    const std::string name = numbers_.contains(first.object) ? name_of(first.object) + ": " : "";
-    first_diagnostic_ = "frame " + std::to_string(frame) + ", " + name + first.message;
+    const std::string name = numbers_.contains(first.object) ? name_of(numbers_.at(first.object)) + ": " : "";
+    first_diagnostic_ = "frame " + std::to_string(frame) + ", " + name + io::printable(first.message);
   }
   diagnostics_ += report.diagnostics().size();
 }
@@ -66,8 +67,8 @@ std::string RunSummary::inside_text(std::size_t a, std::size_t b, const Touch& t
   const auto clause = [&](Inside inside, const std::string& words) {
     return frames(inside) > 0 ? "; " + words + " in " + counted(frames(inside), "frame") : std::string();
   };
-  const std::string& name_a = objects_[a].name;
-  const std::string& name_b = objects_[b].name;
+  const std::string name_a = name_of(a);
+  const std::string name_b = name_of(b);
   return clause(Inside::crossing, "they cross") + clause(Inside::a_in_b, name_a + " is inside " + name_b) +
          clause(Inside::b_in_a, name_b + " is inside " + name_a);
 }
@@ -78,8 +79,8 @@ std::string RunSummary::touches_text() const {
   for (const auto& [pair, touch] : touches_) {
     const Eigen::Vector3d& place = touch.first_place;
     const std::string where = format("(%.4g, %.4g, %.4g)", place.x(), place.y(), place.z());
-    text += "touching  " + objects_[pair.first].name + " and " + objects_[pair.second].name +
-            ": first in frame " + std::to_string(touch.first_frame) + " at " + where + ", last in frame " +
+    text += "touching  " + name_of(pair.first) + " and " + name_of(pair.second) + ": first in frame " +
+            std::to_string(touch.first_frame) + " at " + where + ", last in frame " +
             std::to_string(touch.last_frame) + "; " + counted(touch.frames, "frame") + " in " +
             counted(touch.spells, "spell") + ", at most " + counted(touch.most_contacts, "contact") +
             inside_text(pair.first, pair.second, touch) + "\n";

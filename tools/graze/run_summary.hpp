@@ -36,7 +36,7 @@ class RunSummary {
   };
 
   void add_touch(std::uint32_t frame, const PairReport& pair);
-  [[nodiscard]] const std::string& name_of(ObjectId id) const;
+  [[nodiscard]] std::string name_of(std::size_t number) const;
   [[nodiscard]] std::string inside_text(std::size_t a, std::size_t b, const Touch& touch) const;
   [[nodiscard]] std::string limits_text() const;
   [[nodiscard]] std::string touches_text() const;

@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "assimp/assimp_files.hpp"
 #include "assimp/assimp_frame.hpp"
 #include "assimp/assimp_scene.hpp"
 #include "mesh/known_formats.hpp"
 #include "text/file_bytes.hpp"
+#include "text/opened_files.hpp"
 
 namespace graze::io {
 namespace {
@@ -29,6 +31,18 @@ const aiScene* load(const std::filesystem::path& path, Assimp::Importer& importe
     problem = error.what();
   }
   return nullptr;
+}
+
+/// What opens the files of an importer, which owns it.
+AssimpFiles& open_files_with(Assimp::Importer& importer, const std::filesystem::path& path,
+                             const ReadOptions& options) {
+  auto files = std::make_unique<AssimpFiles>(path, options);
+  importer.SetIOHandler(files.get());
+  return *files.release();
+}
+
+std::string refusal_text(const std::string& file) {
+  return joined("'", file, "' is outside the folder of this file, and was not read; ", outside_remedy);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const Assimp::Importer& importer,
@@ -49,8 +63,10 @@ bool is_collada(const std::filesystem::path& path) {
 }
 
 /// COLLADA's ids are unique, so assimp names nodes by them. The names are what the file calls its nodes.
-void use_collada_names(const std::filesystem::path& path, const aiScene& scene, RiggedFile& file) {
+void use_collada_names(const std::filesystem::path& path, const ReadOptions& options, const aiScene& scene,
+                       RiggedFile& file) {
   Assimp::Importer importer;
+  open_files_with(importer, path, options);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   std::string problem;
   const aiScene* named = load(path, importer, problem);
@@ -62,7 +78,7 @@ void use_collada_names(const std::filesystem::path& path, const aiScene& scene, 
 
 }  // namespace
 
-RiggedFile read_assimp(const std::filesystem::path& path) {
+RiggedFile read_assimp(const std::filesystem::path& path, const ReadOptions& options) {
   require_file(path);
   const std::string extension = lower_extension(path);
   if (extension == ".raw")
@@ -71,8 +87,12 @@ RiggedFile read_assimp(const std::filesystem::path& path) {
     fail(path, joined("'", extension, "' is ", *format,
                       ", a format that is not read; save the mesh as OBJ, PLY, STL or glTF"));
   Assimp::Importer importer;
+  const AssimpFiles& files = open_files_with(importer, path, options);
   std::string problem;
-  if (load(path, importer, problem) == nullptr) refuse(path, importer, problem);
+  if (load(path, importer, problem) == nullptr) {
+    if (!files.refused().empty()) fail(path, refusal_text(*files.refused().begin()));
+    refuse(path, importer, problem);
+  }
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
   FileFrame frame;
   if (is_collada(path)) frame = undo_collada_frame(*scene);
@@ -80,7 +100,9 @@ RiggedFile read_assimp(const std::filesystem::path& path) {
   if (extension == ".fbx") frame = read_fbx_frame(*scene);
   RiggedFile file = convert_scene(path, *scene);
   file.frame = std::move(frame);
-  if (is_collada(path)) use_collada_names(path, *scene, file);
+  for (const std::string& refused : files.refused())
+    file.file.warnings.push_back(joined(path.string(), ": ", refusal_text(refused)));
+  if (is_collada(path)) use_collada_names(path, options, *scene, file);
   return file;
 }
 

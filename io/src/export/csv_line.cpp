@@ -4,6 +4,15 @@
 #include <charconv>
 
 namespace graze::io {
+namespace {
+
+/// Whether a spreadsheet may take a text for a formula. An apostrophe counts too. It is what such texts get
+/// in front, so a reader that removes one apostrophe has every text back.
+bool begins_like_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@\t\r\n'").find(text.front()) != std::string_view::npos;
+}
+
+}  // namespace
 
 void CsvLine::separate() {
   if (!is_at_start_) lines_ += ',';
@@ -12,11 +21,14 @@ void CsvLine::separate() {
 
 CsvLine& CsvLine::text(std::string_view value) {
   separate();
+  const bool is_formula = begins_like_formula(value);
   if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
+    if (is_formula) lines_ += '\'';
     lines_ += value;
     return *this;
   }
   lines_ += '"';
+  if (is_formula) lines_ += '\'';
   for (const char letter : value) {
     if (letter == '"') lines_ += '"';
     lines_ += letter;

@@ -10,6 +10,7 @@ namespace graze::io {
 /// Builds lines of CSV from left to right, and places the commas. Doubles come back to the same bits.
 class CsvLine {
  public:
+  /// A text that a spreadsheet may take for a formula gets an apostrophe in front.
   CsvLine& text(std::string_view value);
   CsvLine& whole(std::uint64_t value);
   CsvLine& real(double value);

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <graze/error.hpp>
 #include <graze/io/mesh_file.hpp>
+#include <graze/io/printable.hpp>
 #include <set>
 #include <utility>
 
@@ -12,7 +13,6 @@
 #include "mesh/raw_object.hpp"
 #include "mesh/rig.hpp"
 #include "text/file_bytes.hpp"
-#include "text/text_lines.hpp"
 
 namespace graze::io {
 
@@ -52,20 +52,20 @@ void warn_of_cuts(const std::filesystem::path& path, const std::string& object, 
 
 }  // namespace
 
-RiggedFile read_objects(const std::filesystem::path& path) {
+RiggedFile read_objects(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string extension = lower_extension(path);
   if (extension == ".obj") return {read_obj(path), {}, {}};
   if (extension == ".ply") return {read_ply(path), {}, {}};
   if (extension == ".off") return {read_off(path), {}, {}};
   if (extension == ".stl") return {read_stl(path), {}, {}};
-  if (extension == ".gltf" || extension == ".glb") return read_gltf(path);
-  return read_assimp(path);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(path, options);
+  return read_assimp(path, options);
 }
 
 MeshFile::MeshFile(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
-MeshFile MeshFile::read(const std::filesystem::path& path) {
-  RiggedFile source = read_objects(path);
+MeshFile MeshFile::read(const std::filesystem::path& path, const ReadOptions& options) {
+  RiggedFile source = read_objects(path, options);
   auto content = std::make_shared<Content>();
   content->warnings = std::move(source.file.warnings);
   std::vector<Body> bodies;
@@ -82,7 +82,7 @@ MeshFile MeshFile::read(const std::filesystem::path& path) {
     content->objects.push_back(std::move(loaded));
   }
   if (content->objects.empty()) fail(path, "there is no face in it; a mesh needs at least one");
-  for (std::string& warning : content->warnings) warning = one_line(std::move(warning));
+  for (std::string& warning : content->warnings) warning = printable(warning);
   content->frame = std::move(source.frame);
   source.rig.bodies = std::move(bodies);
   for (const auto& clip : source.rig.clips) content->animations.push_back(clip.name);

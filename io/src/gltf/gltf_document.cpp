@@ -16,6 +16,7 @@
 #include "gltf/gltf_json.hpp"
 #include "gltf/gltf_uri.hpp"
 #include "text/file_bytes.hpp"
+#include "text/opened_files.hpp"
 
 namespace graze::io {
 namespace {
@@ -67,7 +68,8 @@ bool has_scheme(std::string_view uri) {
 
 }  // namespace
 
-GltfDocument::GltfDocument(const std::filesystem::path& path) : path_(path) {
+GltfDocument::GltfDocument(const std::filesystem::path& path, bool outside_files)
+    : path_(path), outside_files_(outside_files) {
   const std::string bytes = read_bytes(path);
   if (bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1) {
     is_version_1_ = true;
@@ -95,7 +97,9 @@ void GltfDocument::read_json(std::string_view text) {
   try {
     root_ = json::parse(text.begin(), text.end(), check_depth);
   } catch (const json::exception& error) {
-    fail(path_, joined("its JSON cannot be read (", error.what(), "); write the file again"));
+    std::string_view what = error.what();  // behind the library's own name of the error, which is in brackets
+    what.remove_prefix(std::min(what.size(), what.find("] ") + 2));
+    fail(path_, joined("its JSON cannot be read (", what, "); write the file again"));
   }
 }
 
@@ -206,6 +210,8 @@ std::string GltfDocument::bytes_of_uri(const std::string& uri, const std::string
     const std::filesystem::path as_written = path_.parent_path() / uri;
     if (std::filesystem::exists(as_written, error)) file = as_written;
   }
+  if (!outside_files_ && !is_in_folder_of(path_, file))
+    fail_at(json_path, joined("'", file.string(), "' is outside the folder of this file; ", outside_remedy));
   if (!std::filesystem::is_regular_file(file, error))
     fail_at(json_path, joined("there is no file '", file.string(), "'; put it there"));
   if (std::filesystem::file_size(file, error) == 0) return {};

@@ -16,8 +16,9 @@ namespace graze::io {
 class GltfDocument {
  public:
   /// Reads a .gltf or .glb file. Throws InputError when it is cut off or no JSON, and when it requires an
-  /// extension that is not read.
-  explicit GltfDocument(const std::filesystem::path& path);
+  /// extension that is not read. `outside_files` is that of
+  /// ReadOptions.
+  explicit GltfDocument(const std::filesystem::path& path, bool outside_files = false);
 
   /// Whether the file is of version 1, whose JSON has another shape. Nothing else may be asked for then.
   [[nodiscard]] bool is_version_1() const { return is_version_1_; }
@@ -53,6 +54,7 @@ class GltfDocument {
   [[nodiscard]] std::string bytes_of_uri(const std::string& uri, const std::string& json_path) const;
 
   std::filesystem::path path_;
+  bool outside_files_;
   nlohmann::json root_;
   bool is_version_1_ = false;
   std::optional<std::string> binary_chunk_;

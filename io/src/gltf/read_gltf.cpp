@@ -57,7 +57,7 @@ class GltfReader {
     if (instancing.is_null() || !mesh.body.bones.empty()) {
       if (!instancing.is_null())
         result_.file.warnings.push_back(joined(document_.path().string(), ": ", json_path,
-                                               ": its joints json_path it, so its instances were left out"));
+                                               ": its joints place it, so its instances were left out"));
       add_object(mesh, node, name, member(source, "weights"), json_path);
       return;
     }
@@ -148,9 +148,9 @@ class GltfReader {
 
 }  // namespace
 
-RiggedFile read_gltf(const std::filesystem::path& path) {
-  GltfDocument document(path);
-  if (document.is_version_1()) return read_assimp(path);
+RiggedFile read_gltf(const std::filesystem::path& path, const ReadOptions& options) {
+  GltfDocument document(path, options.outside_files);
+  if (document.is_version_1()) return read_assimp(path, options);
   return GltfReader(document).read();
 }
 

@@ -9,6 +9,7 @@
 #include "mesh/raw_object.hpp"
 #include "text/file_bytes.hpp"
 #include "text/number_text.hpp"
+#include "text/opened_files.hpp"
 
 namespace graze::io {
 namespace {
@@ -67,11 +68,17 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& patte
 
 class Sequence final : public PositionSource {
  public:
-  Sequence(std::vector<std::filesystem::path> files, std::size_t vertex_count, std::size_t object)
-      : files_(std::move(files)), vertex_count_(vertex_count), object_(object) {
+  Sequence(std::vector<std::filesystem::path> files, std::size_t vertex_count, std::size_t object,
+           const ReadOptions& options)
+      : files_(std::move(files)), vertex_count_(vertex_count), object_(object), options_(options) {
     for (std::size_t frame = 0; frame < files_.size(); ++frame) check_header(frame);
     std::vector<Eigen::Vector3d> positions;
+    const OpenedFiles opened;
     read(0, positions);
+    for (const std::filesystem::path& file : files_) OpenedFiles::add(file);
+    // A frame that names other files, such as a buffer of glTF, has to be read to know them.
+    const bool names_others = opened.paths().size() > files_.size();
+    for (std::uint32_t frame = 1; names_others && frame < files_.size(); ++frame) read(frame, positions);
   }
 
   [[nodiscard]] std::uint32_t frame_count() const override {
@@ -80,7 +87,7 @@ class Sequence final : public PositionSource {
 
   void read(std::uint32_t frame, std::vector<Eigen::Vector3d>& positions) override {
     const std::size_t number = std::min<std::size_t>(frame, files_.size() - 1);
-    auto objects = read_objects(files_[number]).file.objects;
+    auto objects = read_objects(files_[number], options_).file.objects;
     if (object_ >= objects.size())
       fail(files_[number], joined("frame ", number, ": there is no object ", object_,
                                   " (counted from 0); give every frame the mesh's objects"));
@@ -104,13 +111,14 @@ class Sequence final : public PositionSource {
   std::vector<std::filesystem::path> files_;
   std::size_t vertex_count_;
   std::size_t object_;
+  ReadOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<PositionSource> open_sequence(const std::filesystem::path& pattern, const Mesh& mesh,
-                                              std::size_t object_index) {
-  return std::make_unique<Sequence>(find_files(pattern), mesh.vertex_count(), object_index);
+                                              std::size_t object_index, const ReadOptions& options) {
+  return std::make_unique<Sequence>(find_files(pattern), mesh.vertex_count(), object_index, options);
 }
 
 }  // namespace graze::io

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "text/file_bytes.hpp"
+#include "text/opened_files.hpp"
 
 namespace graze::io {
 namespace {
@@ -65,7 +66,7 @@ void check(const std::filesystem::path& path, const CacheHeader& header, std::ui
 class VertexCache : public PositionSource {
  public:
   VertexCache(const std::filesystem::path& path, std::uint32_t mesh_vertices)
-      : path_(path), header_(read_header(path)), stream_(path, std::ios::binary) {
+      : path_(path), header_(read_header(path)), stream_(open_input(path)) {
     check(path, header_, std::filesystem::file_size(path), mesh_vertices);
     bytes_.resize(header_.vertex_count * position_bytes);
   }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "report/report_lines.hpp"
 #include "report/statistics_fields.hpp"
 
 namespace graze::io {
@@ -107,7 +107,12 @@ ReportedPair read_pair(const json& value) {
   pair.witness.feature_b = read_feature(witness.at("b"), pair.witness_edge_b);
   pair.witness.point_a = read_point(witness.at("point_a"));
   pair.witness.point_b = read_point(witness.at("point_b"));
+  if (value.contains("contact_count")) {
+    pair.contact_count = read_whole<std::uint64_t>(value.at("contact_count"));
+    return pair;
+  }
   for (const json& contact : value.at("contacts")) pair.contacts.push_back(read_contact(contact));
+  pair.contact_count = pair.contacts.size();
   return pair;
 }
 
@@ -180,22 +185,26 @@ ReportedObject read_object(const json& value) {
 }  // namespace
 
 struct ReportReader::State {
+  explicit State(const std::filesystem::path& file) : path(file.string()), lines(file) {}
+
   /// Hands the next line, parsed, to `read`; false at the end of the file.
   template <typename Read>
   bool read_line(Read read);
   void read_header(const json& header);
 
   std::string path;
-  std::ifstream stream;
+  ReportLinesIn lines;
   std::size_t line_number = 0;
   std::vector<ReportedObject> objects;
   SceneSettings settings;
+  std::uint64_t every = 1;
+  bool has_contacts = true;
 };
 
 template <typename Read>
 bool ReportReader::State::read_line(Read read) {
   std::string line;
-  if (!std::getline(stream, line)) return false;
+  if (!lines.next(line)) return false;
   ++line_number;
   const std::string where = path + ": line " + std::to_string(line_number) + ": ";
   const std::string remedy = "; write the report again with this version of graze";
@@ -217,13 +226,11 @@ void ReportReader::State::read_header(const json& header) {
   if (header.at("graze") != 1) throw BadLine("not version 1 of the format");
   for (const json& object : header.at("objects")) objects.push_back(read_object(object));
   settings = read_settings(header.at("settings"));
+  if (header.contains("every")) every = read_whole<std::uint64_t>(header.at("every"));
+  has_contacts = header.value("contacts", true);
 }
 
-ReportReader::ReportReader(const std::filesystem::path& path) : state_(std::make_unique<State>()) {
-  state_->path = path.string();
-  state_->stream.open(path, std::ios::binary);
-  if (!state_->stream)
-    throw InputError(path.string() + ": cannot be opened; check that the file exists and may be read");
+ReportReader::ReportReader(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {
   if (!state_->read_line([this](const json& header) { state_->read_header(header); }))
     throw InputError(path.string() + ": is empty; write the report again");
 }
@@ -237,6 +244,12 @@ std::span<const ReportedObject> ReportReader::objects() const {
 }
 const SceneSettings& ReportReader::settings() const {
   return state_->settings;
+}
+std::uint64_t ReportReader::every() const {
+  return state_->every;
+}
+bool ReportReader::has_contacts() const {
+  return state_->has_contacts;
 }
 
 std::optional<ReportedFrame> ReportReader::next() {

@@ -1,16 +1,18 @@
 #include <algorithm>
-#include <fstream>
+#include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
 #include <graze/io/scene_file.hpp>
 
 #include "report/report_fields.hpp"
+#include "report/report_lines.hpp"
 #include "text/json_text.hpp"
 
 namespace graze::io {
 namespace {
 
-void write_header(JsonText& json, std::span<const SceneObject> objects, const SceneSettings& settings) {
+void write_header(JsonText& json, std::span<const SceneObject> objects, const SceneSettings& settings,
+                  const ReportWriter::Options& options) {
   json.open('{').key("graze").whole(1);
   json.key("objects").open('[');
   for (std::size_t id = 0; id < objects.size(); ++id) {
@@ -23,6 +25,8 @@ void write_header(JsonText& json, std::span<const SceneObject> objects, const Sc
   }
   json.close(']').key("settings");
   write_settings(json, settings);
+  if (options.every > 1) json.key("every").whole(options.every);
+  if (!options.include_contacts) json.key("contacts").flag(false);
   json.close('}');
 }
 
@@ -56,19 +60,28 @@ void write_witness(JsonText& json, const Witness& witness, const Mesh& mesh_a, c
   json.key("point_a").point(witness.point_a).key("point_b").point(witness.point_b).close('}');
 }
 
+ReportWriter::Options checked_options(const ReportWriter::Options& options) {
+  if (options.every == 0) throw Error("report: each 0th frame was asked for; give 1 or more as every");
+  return options;
+}
+
 }  // namespace
 
 struct ReportWriter::State {
+  State(const std::filesystem::path& file, const Options& writer_options)
+      : path(file.string()), lines(file), options(writer_options) {}
+
   void write_line();
   void write_pair(std::uint64_t frame, const FrameReport& report, const PairReport& pair);
   /// The number of `id` among the objects, or their count for an id that is not one of them.
   [[nodiscard]] std::size_t number_of(ObjectId id) const;
 
   std::string path;
-  std::ofstream stream;
+  ReportLinesOut lines;
   std::vector<SceneObject> objects;
   std::vector<std::pair<ObjectId, std::size_t>> numbers;  ///< ascending by id
   Options options;
+  std::uint64_t calls = 0;  ///< of ReportWriter::write()
   JsonText json;
 };
 
@@ -93,33 +106,30 @@ void ReportWriter::State::write_pair(std::uint64_t frame, const FrameReport& rep
   json.key("distance").open('[').real(pair.distance.lower).real(pair.distance.upper).close(']');
   json.key("witness");
   write_witness(json, pair.witness, mesh_a, mesh_b);
-  json.key("contacts").open('[');
-  for (const Contact& contact : report.contacts(pair))
-    write_contact(json, contact, since_in_file(contact.since, frame, report), mesh_a, mesh_b);
-  json.close(']').close('}');
+  if (options.include_contacts) {
+    json.key("contacts").open('[');
+    for (const Contact& contact : report.contacts(pair))
+      write_contact(json, contact, since_in_file(contact.since, frame, report), mesh_a, mesh_b);
+    json.close(']');
+  } else {
+    json.key("contact_count").whole(report.contacts(pair).size());
+  }
+  json.close('}');
 }
 
 void ReportWriter::State::write_line() {
-  stream << json.line() << '\n';
+  lines.write(json.line());
   json.clear();
-  if (!stream)
-    throw InputError(path + ": cannot be written further; free some space or choose another place");
 }
 
 ReportWriter::ReportWriter(const std::filesystem::path& path, std::span<const SceneObject> objects,
                            const SceneSettings& settings, Options options)
-    : state_(std::make_unique<State>()) {
-  state_->path = path.string();
-  state_->stream.open(path, std::ios::binary | std::ios::trunc);
-  if (!state_->stream)
-    throw InputError(path.string() +
-                     ": cannot be written; check that its folder exists and may be written to");
+    : state_(std::make_unique<State>(path, checked_options(options))) {
   state_->objects.assign(objects.begin(), objects.end());
   for (std::size_t number = 0; number < objects.size(); ++number)
     state_->numbers.emplace_back(objects[number].id, number);
   std::ranges::sort(state_->numbers);
-  state_->options = options;
-  write_header(state_->json, objects, settings);
+  write_header(state_->json, objects, settings, options);
   state_->write_line();
 }
 
@@ -128,6 +138,7 @@ ReportWriter::ReportWriter(ReportWriter&&) noexcept = default;
 ReportWriter& ReportWriter::operator=(ReportWriter&&) noexcept = default;
 
 void ReportWriter::write(std::uint64_t frame, const FrameReport& report) {
+  if (state_->calls++ % state_->options.every != 0) return;
   JsonText& json = state_->json;
   json.open('{').key("frame").whole(frame).key("complete").flag(report.complete());
   json.key("pairs").open('[');
@@ -149,8 +160,7 @@ void ReportWriter::write(std::uint64_t frame, const FrameReport& report) {
 }
 
 void ReportWriter::close() {
-  state_->stream.close();
-  if (!state_->stream) throw InputError(state_->path + ": did not reach the disk whole; free some space");
+  state_->lines.close();
 }
 
 }  // namespace graze::io

@@ -5,6 +5,7 @@
 #include <graze/io/player.hpp>
 
 #include "scene/scene_loading.hpp"
+#include "text/opened_files.hpp"
 
 namespace graze::io {
 namespace {
@@ -52,7 +53,9 @@ void read_frame(Playback& playback, std::uint32_t frame, const SceneObject& obje
 
 struct Player::State {
   explicit State(const SceneDescription& description) : scene(make_scene(description)) {
+    const OpenedFiles opened;
     LoadedScene loaded = load_scene(description);
+    files.assign(opened.paths().begin(), opened.paths().end());
     warnings = std::move(loaded.warnings);
     for (LoadedSceneObject& object : loaded.objects) add(object, description.objects[object.entry]);
     for (const RuleDescription& rule : description.rules) set_rule(rule, description.settings);
@@ -73,6 +76,7 @@ struct Player::State {
   std::vector<std::size_t> entries;  ///< of each object, the entry of the description that it came from
   std::vector<Playback> playbacks;   ///< of each object; outlives the scene, which reads its positions
   std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> files;
   std::uint32_t frame_count = 1;
   Scene scene;
 };
@@ -168,6 +172,9 @@ std::uint32_t Player::frame_count() const {
 }
 std::span<const std::string> Player::warnings() const {
   return state_->warnings;
+}
+std::span<const std::filesystem::path> Player::files() const {
+  return state_->files;
 }
 
 void Player::advance(std::uint32_t frame) {

@@ -203,7 +203,7 @@ SceneDescription read_scene_file(const std::filesystem::path& path) {
   const JsonPath root(path.string(), document);
   root.expect_keys({"graze", "contact_distance", "range", "detail", "accuracy", "max_contacts",
                     "max_contacts_per_pair", "frames", "frames_per_second", "up", "unit", "objects", "rules",
-                    "ignore"});
+                    "ignore", "outside_files"});
   const JsonPath version = root.require("graze", R"(add "graze": 1, the version of the format)");
   if (version.value() != 1) version.fail("version 1", "this program reads version 1 of the format");
 
@@ -214,6 +214,7 @@ SceneDescription read_scene_file(const std::filesystem::path& path) {
   if (const auto rate = root.find("frames_per_second")) scene.frames_per_second = rate->number_positive();
   if (const auto up = root.find("up")) scene.up = read_up(*up);
   if (const auto unit = root.find("unit")) scene.metres_per_unit = read_unit(*unit);
+  if (const auto outside = root.find("outside_files")) scene.outside_files = outside->truth();
   read_scene_objects(root.require("objects", "list the objects of the scene"), path.parent_path(), scene);
   if (const auto rules = root.find("rules"))
     for (std::size_t i = 0; i < rules->array_size(R"(write [{"kinds": [0, 1], ...}])"); ++i)

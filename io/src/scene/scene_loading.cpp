@@ -77,6 +77,8 @@ class Loader {
   [[nodiscard]] std::unique_ptr<PositionSource> open_source(const ObjectDescription& entry,
                                                             const MeshFile& file, std::size_t index) const;
 
+  [[nodiscard]] ReadOptions options() const { return {.outside_files = description_.outside_files}; }
+
   const SceneDescription& description_;
   NameList names_;
   std::map<std::filesystem::path, MeshFile> files_;
@@ -86,7 +88,7 @@ class Loader {
 const MeshFile& Loader::file_of(const std::filesystem::path& path) {
   const auto known = files_.find(path);
   if (known != files_.end()) return known->second;
-  const MeshFile& file = files_.emplace(path, MeshFile::read(path)).first->second;
+  const MeshFile& file = files_.emplace(path, MeshFile::read(path, options())).first->second;
   for (const std::string& warning : file.warnings()) scene_.warnings.push_back(warning);
   return file;
 }
@@ -109,7 +111,7 @@ std::unique_ptr<PositionSource> Loader::open_source(const ObjectDescription& ent
   const std::string extension = lower_extension(entry.positions);
   if (extension == ".pc2" || extension == ".mdd") return open_vertex_cache(entry.positions, *object.mesh);
   if (entry.positions.filename().string().find('#') != std::string::npos)
-    return open_sequence(entry.positions, *object.mesh, index);
+    return open_sequence(entry.positions, *object.mesh, index, options());
   if (const auto format = name_of_unread_format(extension))
     throw InputError(entry.place + ".positions: \"" + entry.positions.string() + "\" is " + *format +
                      ", a format that is not read; export a vertex cache (.pc2, .mdd)");

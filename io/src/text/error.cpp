@@ -1,9 +1,8 @@
 #include <graze/io/error.hpp>
-
-#include "text/text_lines.hpp"
+#include <graze/io/printable.hpp>
 
 namespace graze::io {
 
-InputError::InputError(const std::string& message) : Error(one_line(message)) {}
+InputError::InputError(const std::string& message) : Error(printable(message)) {}
 
 }  // namespace graze::io

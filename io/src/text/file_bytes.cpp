@@ -5,6 +5,8 @@
 #include <fstream>
 #include <graze/io/error.hpp>
 
+#include "text/opened_files.hpp"
+
 namespace graze::io {
 
 void fail(const std::filesystem::path& path, const std::string& what) {
@@ -26,7 +28,7 @@ void require_file(const std::filesystem::path& path) {
 
 std::string read_bytes(const std::filesystem::path& path, std::size_t limit) {
   require_file(path);
-  std::ifstream stream(path, std::ios::binary);
+  std::ifstream stream = open_input(path);
   if (!stream) fail(path, "the file cannot be opened; check its permissions");
   std::string bytes;
   std::array<char, 65536> chunk;

@@ -9,11 +9,13 @@
 #include <set>
 #include <vector>
 
+#include "text/opened_files.hpp"
+
 namespace graze::io {
 namespace {
 
 std::string read_text(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
+  std::ifstream stream = open_input(path);
   if (!stream || std::filesystem::is_directory(path))
     throw InputError(path.string() + ": cannot be opened; check that the file exists and may be read");
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

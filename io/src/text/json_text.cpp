@@ -6,6 +6,30 @@
 #include <nlohmann/json.hpp>
 
 namespace graze::io {
+namespace {
+
+/// Spells out DEL and the control characters of two bytes, U+0080 to U+009F. JSON may hold them as they are,
+/// but a terminal that shows the file obeys them.
+std::string without_late_controls(const std::string& text) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string escaped;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+    const bool is_pair = byte == 0xC2 && next >= 0x80 && next < 0xA0;
+    if (!is_pair && byte != 0x7F) {
+      escaped += text[i];
+      continue;
+    }
+    const unsigned code = is_pair ? next : byte;
+    escaped += "\\u00";
+    escaped += {digits[code >> 4U], digits[code & 15U]};
+    if (is_pair) ++i;
+  }
+  return escaped;
+}
+
+}  // namespace
 
 void JsonText::separate() {
   if (line_.empty()) return;
@@ -35,7 +59,8 @@ JsonText& JsonText::key(std::string_view name) {
 JsonText& JsonText::text(std::string_view value) {
   separate();
   // Names may hold anything; bytes that are not UTF-8 are replaced rather than thrown at.
-  line_ += nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  line_ += without_late_controls(
+      nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   return *this;
 }
 

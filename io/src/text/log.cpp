@@ -2,6 +2,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 
 #include <graze/io/log.hpp>
+#include <graze/io/printable.hpp>
 #include <memory>
 
 namespace graze::io {
@@ -42,7 +43,7 @@ void set_log_level(LogLevel level) {
 }
 
 void log(LogLevel level, std::string_view message) {
-  if (level != LogLevel::off) logger().log(spdlog_level(level), "{}", message);
+  if (level != LogLevel::off) logger().log(spdlog_level(level), "{}", printable(message));
 }
 
 }  // namespace graze::io

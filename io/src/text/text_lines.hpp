@@ -33,13 +33,6 @@ class TextLines {
   std::size_t line_ = 0;
 };
 
-/// The text with a blank for each end of a line.
-inline std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
-}
-
 /// Without blanks at both ends.
 inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\v\f\r";

@@ -22,7 +22,7 @@
 #include "output/result_table.hpp"
 #include "output/text.hpp"
 #include "output/text_file.hpp"
-#include "output_path.hpp"
+#include "output_files.hpp"
 
 namespace graze::tools {
 namespace {
@@ -157,10 +157,21 @@ void check_answers(const std::vector<bench::Run>& runs) {
         throw CheckFailed(run.scene + ", task " + static_cast<char>(run.task) + ": " + timing.complaint);
 }
 
+/// Any file in the folder of real meshes may be read.
+void check_outputs(const BenchOptions& options) {
+  OutputFiles outputs;
+  if (options.csv) outputs.add("--csv", *options.csv);
+  if (options.json) outputs.add("--json", *options.json);
+  std::vector<std::filesystem::path> inputs;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(options.data, ignored))
+    inputs.push_back(entry.path());
+  outputs.check_inputs(inputs);
+}
+
 void run(const BenchOptions& options) {
   check_scenes(options.scenes);
-  if (options.csv) check_output_file("--csv", *options.csv);
-  if (options.json) check_output_file("--json", *options.json);
+  check_outputs(options);
   if (options.details) return compare_details(options);
   if (options.soft_bodies) return compare_soft_bodies(options);
   const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <graze/io/error.hpp>
+#include <graze/io/printable.hpp>
 #include <graze/recording.hpp>
 #include <memory>
 #include <optional>
@@ -9,8 +10,9 @@
 #include <vector>
 
 #include "option_checks.hpp"
+#include "output/terminal.hpp"
 #include "output/text.hpp"
-#include "output_path.hpp"
+#include "output_files.hpp"
 #include "recording/commands.hpp"
 #include "recording/frame_range.hpp"
 #include "recording/named_object.hpp"
@@ -57,21 +59,23 @@ void print_answer(const std::string& file) {
   Replay replay(recording);
   while (replay.step())
     if (const auto& difference = replay.difference()) {
-      std::printf("a replay differs in frame %zu: %s\n  recorded  %s\n  replayed  %s\n", replay.frame_index(),
-                  difference->pair.c_str(), difference->recorded.c_str(), difference->replayed.c_str());
+      say("a replay differs in frame %zu: %s\n  recorded  %s\n  replayed  %s\n", replay.frame_index(),
+          io::printable(difference->pair).c_str(), io::printable(difference->recorded).c_str(),
+          io::printable(difference->replayed).c_str());
       return;
     }
-  std::printf("a replay answers as it was recorded\n");
+  say("a replay answers as it was recorded\n");
 }
 
 void cut(const CutOptions& options) {
-  check_output_file("-o", options.output);
-  check_is_no_input("-o", options.output, std::vector{options.file});
+  OutputFiles outputs;
+  outputs.add("-o", options.output);
+  outputs.check_inputs(std::vector<std::filesystem::path>{options.file});
   const Recording recording(options.file);
   cut_recording(recording, part_of(recording, options), options.output);
   const Recording part(options.output);
-  std::printf("%s: %zu of %zu frames, %llu of %llu bytes\n", options.output.c_str(), part.frame_count(),
-              recording.frame_count(), number(part.byte_count()), number(recording.byte_count()));
+  say("%s: %zu of %zu frames, %llu of %llu bytes\n", options.output.c_str(), part.frame_count(),
+      recording.frame_count(), number(part.byte_count()), number(recording.byte_count()));
   print_answer(options.output);
 }
 

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <graze/io/error.hpp>
 #include <graze/io/gltf_writer.hpp>
@@ -13,7 +12,9 @@
 #include <vector>
 
 #include "option_checks.hpp"
+#include "output/terminal.hpp"
 #include "output/text.hpp"
+#include "output_files.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "recording/best_frame.hpp"
@@ -47,20 +48,14 @@ void check_ending(const std::string& option, const std::string& file,
 
 /// Refuses what cannot be written before anything is read.
 void check_export_outputs(const ExportOptions& options) {
-  std::vector<std::string> seen{options.file};
-  const auto check = [&](const std::string& option, const std::optional<std::string>& file) {
-    if (!file) return;
-    check_output_file(option, *file);
-    check_is_no_input(option, *file, std::vector{options.file});
-    if (std::find(seen.begin(), seen.end(), *file) != seen.end())
-      throw io::InputError(option + ": " + *file + " is the file of another option too; name another one");
-    seen.push_back(*file);
-  };
-  check("--csv", options.contacts);
-  check("--distances", options.distances);
-  check("--paraview", options.paraview);
-  check("--gltf", options.gltf);
-  if (seen.size() == 1)
+  OutputFiles outputs;
+  if (options.contacts) outputs.add("--csv", *options.contacts);
+  if (options.distances) outputs.add("--distances", *options.distances);
+  if (options.paraview) outputs.add("--paraview", *options.paraview);
+  if (options.gltf) outputs.add("--gltf", *options.gltf);
+  if (options.paraview) outputs.add_series("--paraview", paraview_folder(*options.paraview));
+  outputs.check_inputs(std::vector<std::filesystem::path>{options.file});
+  if (!options.contacts && !options.distances && !options.paraview && !options.gltf)
     throw io::InputError("graze export: name a file to write: --csv, --distances, --paraview or --gltf");
   if (options.frame && !options.gltf) throw io::InputError("--frame: goes with --gltf only");
   if (options.gltf) check_ending("--gltf", *options.gltf, {".gltf", ".glb"});
@@ -118,20 +113,20 @@ class Exports {
     const std::size_t count = frames_.last - frames_.first + 1;
     if (contacts_) {
       contacts_->close();
-      std::printf("%s: %llu contacts of %zu frames\n", options_.contacts->c_str(),
-                  number(contacts_->row_count()), count);
+      say("%s: %llu contacts of %zu frames\n", options_.contacts->c_str(), number(contacts_->row_count()),
+          count);
     }
     if (distances_) {
       distances_->close();
-      std::printf("%s: %llu rows of %zu frames\n", options_.distances->c_str(),
-                  number(distances_->row_count()), count);
+      say("%s: %llu rows of %zu frames\n", options_.distances->c_str(), number(distances_->row_count()),
+          count);
     }
     if (series_) {
       series_->close();
-      std::printf("%s: %zu frames, in the folder %s\n", options_.paraview->c_str(), series_->frame_count(),
-                  paraview_folder(*options_.paraview).c_str());
+      say("%s: %zu frames, in the folder %s\n", options_.paraview->c_str(), series_->frame_count(),
+          paraview_folder(*options_.paraview).c_str());
     }
-    if (gltf_frame_) std::printf("%s: frame %zu\n", options_.gltf->c_str(), *gltf_frame_);
+    if (gltf_frame_) say("%s: frame %zu\n", options_.gltf->c_str(), *gltf_frame_);
   }
 
  private:
@@ -158,8 +153,7 @@ void export_recording(const ExportOptions& options) {
   }
   exports.close();
   if (!reader.is_as_recorded())
-    std::fprintf(stderr, "note: the replay differs from the recording; graze replay %s says where\n",
-                 options.file.c_str());
+    say_aside("note", "the replay differs from the recording; graze replay " + options.file + " says where");
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
+#include <graze/io/printable.hpp>
 #include <graze/io/scene_file.hpp>
 #include <graze/recording.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "output/terminal.hpp"
 #include "output/text.hpp"
 #include "recording/commands.hpp"
 
@@ -36,9 +37,8 @@ struct FrameSums {
 };
 
 void print_settings(const SceneSettings& settings) {
-  std::printf("  settings   contact distance %.9g, range %.9g, detail %s, %u threads\n",
-              settings.contact_distance, settings.range, std::string(io::to_string(settings.detail)).c_str(),
-              settings.threads);
+  say("  settings   contact distance %.9g, range %.9g, detail %s, %u threads\n", settings.contact_distance,
+      settings.range, std::string(io::to_string(settings.detail)).c_str(), settings.threads);
 }
 
 void print_frames(const Recording& recording) {
@@ -47,38 +47,34 @@ void print_frames(const Recording& recording) {
     sums.add(recording.frame(index), index);
   if (sums.step_ms.empty()) return;
   std::sort(sums.step_ms.begin(), sums.step_ms.end());
-  std::printf("  frames     0 to %zu, steps %llu to %llu of the scene, %zu keyframes, %llu dropped\n",
-              recording.frame_count() - 1, number(recording.frame(0).frame),
-              number(recording.frame(recording.frame_count() - 1).frame), sums.keyframes,
-              number(sums.dropped));
-  std::printf("  contacts   at most %llu, in frame %zu\n", number(sums.most_contacts),
-              sums.frame_of_most_contacts);
-  std::printf("  steps      median %.3f ms, worst %.3f ms, %zu incomplete\n",
-              sums.step_ms[sums.step_ms.size() / 2], sums.step_ms.back(), sums.incomplete);
-  std::printf("  problems   %llu diagnostics\n", number(sums.diagnostics));
+  say("  frames     0 to %zu, steps %llu to %llu of the scene, %zu keyframes, %llu dropped\n",
+      recording.frame_count() - 1, number(recording.frame(0).frame),
+      number(recording.frame(recording.frame_count() - 1).frame), sums.keyframes, number(sums.dropped));
+  say("  contacts   at most %llu, in frame %zu\n", number(sums.most_contacts), sums.frame_of_most_contacts);
+  say("  steps      median %.3f ms, worst %.3f ms, %zu incomplete\n", sums.step_ms[sums.step_ms.size() / 2],
+      sums.step_ms.back(), sums.incomplete);
+  say("  problems   %llu diagnostics\n", number(sums.diagnostics));
 }
 
 void print_objects(const Recording& recording) {
   if (recording.frame_count() == 0) return;
   Replay replay(recording, {.threads = 1, .first_frame = recording.frame_count() - 1});
   (void)replay.step();
-  std::printf("  objects    %zu in the last frame, of %zu meshes\n", replay.objects().size(),
-              recording.mesh_count());
+  say("  objects    %zu in the last frame, of %zu meshes\n", replay.objects().size(), recording.mesh_count());
   constexpr std::size_t most_listed = 40;
   for (const ReplayObject& object : replay.objects().first(std::min(most_listed, replay.objects().size())))
-    std::printf("    %llu \"%s\", %u vertices%s\n", number(object.serial), object.settings.name.c_str(),
-                object.mesh->vertex_count(), object.settings.solid ? ", solid" : "");
-  if (replay.objects().size() > most_listed)
-    std::printf("    and %zu more\n", replay.objects().size() - most_listed);
+    say("    %llu \"%s\", %u vertices%s\n", number(object.serial),
+        io::printable(object.settings.name).c_str(), object.mesh->vertex_count(),
+        object.settings.solid ? ", solid" : "");
+  if (replay.objects().size() > most_listed) say("    and %zu more\n", replay.objects().size() - most_listed);
 }
 
 void inform(const std::string& file) {
   const Recording recording(file);
   recording.check();
-  std::printf("%s: %zu frames, %llu bytes, recorded by graze %s%s%s\n", file.c_str(), recording.frame_count(),
-              number(recording.byte_count()), recording.made_by().c_str(),
-              recording.is_finished() ? "" : ", not finished",
-              recording.is_cut() ? ", begins amid a run" : "");
+  say("%s: %zu frames, %llu bytes, recorded by graze %s%s%s\n", file.c_str(), recording.frame_count(),
+      number(recording.byte_count()), io::printable(recording.made_by()).c_str(),
+      recording.is_finished() ? "" : ", not finished", recording.is_cut() ? ", begins amid a run" : "");
   print_settings(recording.settings());
   print_frames(recording);
   print_objects(recording);

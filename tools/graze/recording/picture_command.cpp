@@ -8,7 +8,8 @@
 #include <string>
 
 #include "option_checks.hpp"
-#include "output_path.hpp"
+#include "output/terminal.hpp"
+#include "output_files.hpp"
 #include "recording/best_frame.hpp"
 #include "recording/commands.hpp"
 #include "recording/named_object.hpp"
@@ -58,7 +59,9 @@ io::PictureScene scene_of(const Replay& replay, const PictureOptions& options) {
 }
 
 void draw(const PictureOptions& options) {
-  check_picture_file("-o", options.output);
+  OutputFiles outputs;
+  outputs.add_picture("-o", options.output);
+  outputs.check_inputs(std::vector<std::filesystem::path>{options.file});
   const Recording recording(options.file);
   const std::size_t frame = options.frame ? *options.frame : best_frame(recording);
   if (options.lines && recording.settings().region_distances == 0)
@@ -66,8 +69,7 @@ void draw(const PictureOptions& options) {
   Replay replay(recording, {.first_frame = frame});
   (void)replay.step();
   io::write_picture(options.output, scene_of(replay, options));
-  std::printf("%s: frame %zu, %zu contacts\n", options.output.c_str(), frame,
-              replay.report()->contacts().size());
+  say("%s: frame %zu, %zu contacts\n", options.output.c_str(), frame, replay.report()->contacts().size());
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <graze/instruction_set.hpp>
 #include <graze/io/error.hpp>
+#include <graze/io/printable.hpp>
 #include <graze/recording.hpp>
 #include <memory>
 #include <optional>
@@ -10,6 +10,7 @@
 
 #include "check_failed.hpp"
 #include "option_checks.hpp"
+#include "output/terminal.hpp"
 #include "output/text.hpp"
 #include "progress.hpp"
 #include "recording/commands.hpp"
@@ -64,18 +65,18 @@ void replay(const ReplayOptions& options) {
     first = replayed.difference();
     first_index = replayed.frame_index();
   }
-  std::printf("%s: %zu frames, recorded by graze %s\n", options.file.c_str(), recording.frame_count(),
-              recording.made_by().c_str());
+  say("%s: %zu frames, recorded by graze %s\n", options.file.c_str(), recording.frame_count(),
+      io::printable(recording.made_by()).c_str());
   if (rows_not_compared > 0)
-    std::printf("not compared: %zu rows that a time budget cut short, or that depend on earlier frames\n",
-                rows_not_compared);
+    say("not compared: %zu rows that a time budget cut short, or that depend on earlier frames\n",
+        rows_not_compared);
   if (!first) {
-    std::printf("%zu frames answered again, all the same\n", compared);
+    say("%zu frames answered again, all the same\n", compared);
     return;
   }
-  std::printf("DIVERGED in %zu of %zu frames, first in frame %zu: %s\n  recorded  %s\n  replayed  %s\n",
-              differing, compared, first_index, first->pair.empty() ? "diagnostics" : first->pair.c_str(),
-              first->recorded.c_str(), first->replayed.c_str());
+  say("DIVERGED in %zu of %zu frames, first in frame %zu: %s\n  recorded  %s\n  replayed  %s\n", differing,
+      compared, first_index, first->pair.empty() ? "diagnostics" : io::printable(first->pair).c_str(),
+      io::printable(first->recorded).c_str(), io::printable(first->replayed).c_str());
   throw CheckFailed(format("%s: the replay differs from frame %zu on", options.file.c_str(), first_index));
 }
 

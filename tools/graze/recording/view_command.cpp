@@ -9,7 +9,8 @@
 #include <string>
 
 #include "option_checks.hpp"
-#include "output_path.hpp"
+#include "output/terminal.hpp"
+#include "output_files.hpp"
 #include "page_output.hpp"
 #include "progress.hpp"
 #include "recording/commands.hpp"
@@ -78,8 +79,9 @@ class ReplayedPage {
 };
 
 void view(const ViewOptions& options) {
-  check_page_file("-o", options.output);
-  check_is_no_input("-o", options.output, std::vector{options.file});
+  OutputFiles outputs;
+  outputs.add_page("-o", options.output);
+  outputs.check_inputs(std::vector<std::filesystem::path>{options.file});
   const Recording recording(options.file);
   Replay replay(recording);
   ReplayedPage page(recording, options);
@@ -90,10 +92,10 @@ void view(const ViewOptions& options) {
     page.add(recording, replay);
     if (replay.difference()) ++differing;
   }
-  std::printf("page      %s\n", page.close().c_str());
+  say("page      %s\n", page.close().c_str());
   if (differing > 0)
-    std::printf("DIVERGED in %zu of %zu frames; the page marks them, and graze replay names the first\n",
-                differing, recording.frame_count());
+    say("DIVERGED in %zu of %zu frames; the page marks them, and graze replay names the first\n", differing,
+        recording.frame_count());
 }
 
 }  // namespace

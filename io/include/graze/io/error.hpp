@@ -14,8 +14,8 @@ namespace graze::io {
 /// An example is "liver.obj: line 12: a face names vertex 99 of 8; remove the face or add the vertex".
 class GRAZE_API InputError : public graze::Error {
  public:
-  /// Makes an error with a message. Ends of lines in `message` become blanks. Names in a file may bring them
-  /// in.
+  /// Makes an error with a message. printable() is applied to `message`: names in a file may bring in ends of
+  /// lines and control characters.
   explicit InputError(const std::string& message);
 };
 

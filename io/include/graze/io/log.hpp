@@ -21,8 +21,8 @@ enum class LogLevel : std::uint8_t {
 /// Selects the messages that are shown: those of `level` and more severe ones. At first warnings and errors
 /// are shown. Any thread may call it.
 GRAZE_API void set_log_level(LogLevel level);
-/// Writes a message with its level to standard error, as one line. Any thread may call it. LogLevel::off
-/// writes nothing.
+/// Writes a message with its level to standard error, as one line, as printable() shows it. Any thread may
+/// call it. LogLevel::off writes nothing.
 GRAZE_API void log(LogLevel level, std::string_view message);
 
 /// Writes a message of level LogLevel::debug. Any thread may call it.

@@ -39,6 +39,13 @@ struct FileFrame {
   Eigen::Matrix3d to_z_up = Eigen::Matrix3d::Identity();
 };
 
+/// Says what a reader of mesh files may do.
+struct ReadOptions {
+  /// True lets a mesh file name files outside its own folder, such as a buffer of glTF. Folders below its own
+  /// are always allowed. A file from a stranger should not have this, since it could name any file.
+  bool outside_files = false;
+};
+
 /// The objects and animations of a mesh file. A copy shares the data. Any number of threads may call const
 /// members at the same time. docs/formats.md has a table of all formats.
 ///
@@ -59,8 +66,9 @@ struct FileFrame {
 class GRAZE_API MeshFile {
  public:
   /// Reads a file. Throws InputError if it is missing or damaged, if its format is not read, or if it has no
-  /// face. Also throws InputError if a face uses a vertex that does not exist or is not finite.
-  static MeshFile read(const std::filesystem::path& path);
+  /// face. Also throws InputError if a face uses a vertex that does not exist or is not finite, or if the
+  /// file names a file that `options` does not allow.
+  static MeshFile read(const std::filesystem::path& path, const ReadOptions& options = {});
 
   /// Returns the objects of the file, of which there is at least one.
   [[nodiscard]] std::span<const LoadedObject> objects() const;

@@ -41,9 +41,11 @@ class GRAZE_API PositionSource {
 /// for a number of at least as many digits. Frame k is the k-th file in the order of the numbers.
 ///
 /// Positions are those of object `object_index` of each file. Throws InputError if no file matches, if two
-/// files have the same number, or if a file has another number of vertices than `mesh`.
+/// files have the same number, or if a file has another number of vertices than `mesh`. `options` holds for
+/// each file.
 GRAZE_API std::unique_ptr<PositionSource> open_sequence(const std::filesystem::path& pattern,
-                                                        const Mesh& mesh, std::size_t object_index);
+                                                        const Mesh& mesh, std::size_t object_index,
+                                                        const ReadOptions& options = {});
 
 /// Opens a vertex cache in the format PC2 or MDD. Frame k is its k-th sample. Start time and rate in its
 /// header play no part.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <filesystem>
 #include <graze/export.hpp>
 #include <graze/io/scene_file.hpp>
 #include <graze/io/scene_object.hpp>
@@ -48,6 +49,9 @@ class GRAZE_API Player {
   [[nodiscard]] std::uint32_t frame_count() const;
   /// Returns a line for each thing that loading left out or changed.
   [[nodiscard]] std::span<const std::string> warnings() const;
+  /// Returns the files that the player reads, now or in a later frame: mesh files, the files that these name,
+  /// sequences and vertex caches. A program that writes files must not write into one of them.
+  [[nodiscard]] std::span<const std::filesystem::path> files() const;
 
   /// Gives the scene the positions and poses of a frame, counted from 0. Past the end of a motion its last
   /// frame holds. The player reads positions into memory that the scene is bound to, so no step may run

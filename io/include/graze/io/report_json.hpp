@@ -27,10 +27,15 @@ class GRAZE_API ReportWriter {
   struct Options {
     /// False leaves out all timings, and StepStatistics::thread_bytes. Equal answers are then equal files.
     bool include_times = true;
+    /// False leaves out the contacts. Each pair then has their number alone, ReportedPair::contact_count.
+    bool include_contacts = true;
+    /// Writes the first frame and each `every`-th one after it. At least 1.
+    std::uint64_t every = 1;
   };
 
   /// Opens the file and writes the header. `objects` are all objects of the scene, in the order in which they
-  /// were added. A file of that name is written over. Throws InputError if the file cannot be written.
+  /// were added. A file of that name is written over. It is compressed as gzip does it if its name ends in
+  /// `.gz`. Throws InputError if the file cannot be written, and Error if Options::every is 0.
   ReportWriter(const std::filesystem::path& path, std::span<const SceneObject> objects,
                const SceneSettings& settings, Options options);
   /// Opens the file and writes the header, with default options.
@@ -45,8 +50,8 @@ class GRAZE_API ReportWriter {
   /// assigned to.
   ReportWriter& operator=(ReportWriter&&) noexcept;
 
-  /// Appends a report under the number `frame`, which is the caller's. Throws InputError if the disk takes no
-  /// more, or if the report has an object that the header has not.
+  /// Appends a report under the number `frame`, which is the caller's, unless Options::every skips it. Throws
+  /// InputError if the disk takes no more, or if the report has an object that the header has not.
   void write(std::uint64_t frame, const FrameReport& report);
   /// Ends the file. Throws InputError if not all of it arrived on the disk.
   void close();
@@ -106,8 +111,11 @@ struct ReportedPair {
   EdgeVertices witness_edge_a{};
   /// The vertices of feature b of the witness, if it is an edge.
   EdgeVertices witness_edge_b{};
-  /// The contacts of the pair, sorted by kind, feature a, feature b.
+  /// The contacts of the pair, sorted by kind, feature a, feature b. Empty if the report has no contacts, see
+  /// ReportReader::has_contacts().
   std::vector<ReportedContact> contacts;
+  /// The number of contacts of the pair, also if the report leaves them out.
+  std::uint64_t contact_count = 0;
 };
 
 /// A diagnostic in a report file.
@@ -135,7 +143,8 @@ struct ReportedFrame {
   StepStatistics statistics;
 };
 
-/// Reads a file of a ReportWriter back, one frame at a time. One thread at a time may use a reader.
+/// Reads a file of a ReportWriter back, compressed or not, one frame at a time. One thread at a time may use
+/// a reader.
 class GRAZE_API ReportReader {
  public:
   /// Opens the file and reads the header. Throws InputError if the file cannot be read or is no report.
@@ -153,6 +162,10 @@ class GRAZE_API ReportReader {
   /// Returns the settings of the header: distances, detail, accuracy, budgets and limits. Other settings are
   /// defaults.
   [[nodiscard]] const SceneSettings& settings() const;
+  /// Returns ReportWriter::Options::every: the file has each so many-th frame.
+  [[nodiscard]] std::uint64_t every() const;
+  /// Returns whether the file lists the contacts of its pairs, or their number alone.
+  [[nodiscard]] bool has_contacts() const;
   /// Returns the next frame, or no value at the end of the file. Throws InputError, with the line number, if
   /// the line is no frame.
   std::optional<ReportedFrame> next();

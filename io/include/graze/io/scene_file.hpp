@@ -117,6 +117,8 @@ struct SceneDescription {
   std::vector<RuleDescription> rules;
   /// Pairs that are not looked at.
   std::vector<IgnoreDescription> ignore;
+  /// Whether mesh files may name files outside their own folders, see ReadOptions::outside_files.
+  bool outside_files = false;
 };
 
 /// Reads a scene file. docs/formats.md describes the format.
