@@ -69,10 +69,8 @@ bool has_scheme(std::string_view uri) {
 
 GltfDocument::GltfDocument(const std::filesystem::path& path) : path_(path) {
   const std::string bytes = read_bytes(path);
-  if (bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1) {
-    is_version_1_ = true;
-    return;
-  }
+  if (bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1)
+    fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");
   const Chunks chunks = find_chunks(path, bytes);
   read_json(chunks.text);
   const json& nodes = member(root_, "nodes");

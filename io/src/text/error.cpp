@@ -4,6 +4,6 @@
 
 namespace graze::io {
 
-InputError::InputError(const std::string& message) : Error(one_line(message)) {}
+InputError::InputError(const std::string& message) : Error(shortened(one_line(message), longest_message)) {}
 
 }  // namespace graze::io

@@ -46,7 +46,8 @@ class GRAZE_API Player {
   /// Returns the number of frames of the description, or of the longest motion if the description has none.
   /// It is at least 1.
   [[nodiscard]] std::uint32_t frame_count() const;
-  /// Returns a line for each thing that loading left out or changed.
+  /// Returns a line for each thing that loading left out or changed, and for what is odd in the frames that
+  /// were read (PositionSource::warnings()). advance() may add lines.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
   /// Gives the scene the positions and poses of a frame, counted from 0. Past the end of a motion its last
