@@ -41,7 +41,7 @@ TEST_CASE("OBJ numbers are read to the last bit") {
   CHECK(rest[2] == Eigen::Vector3d(0, 0.5, 7));
 }
 
-TEST_CASE("OBJ groups are objects over the whole file's vertices, and a group named again goes on") {
+TEST_CASE("OBJ groups are objects of the vertices that they use, and a group named again goes on") {
   const TemporaryFolder folder;
   const auto file = MeshFile::read(folder.write("groups.obj",
                                                 "\xEF\xBB\xBFv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nv 0 0 1\r\n"
@@ -55,12 +55,19 @@ TEST_CASE("OBJ groups are objects over the whole file's vertices, and a group na
   const std::vector<std::pair<std::string, std::vector<Corners>>> expected = {
       {"groups", {{0, 1, 2}}},
       {"left arm", {{0, 1, 3}, {0, 2, 3}}},
-      {"right", {{1, 2, 3}}},
+      {"right", {{0, 1, 2}}},
       {"box", {{0, 2, 1}}},
-      {"right#2", {{2, 1, 3}}}};
+      {"right#2", {{1, 0, 2}}}};
+  const std::vector<Corners> numbers = {{0, 1, 2}, {0, 1, 2, 3}, {1, 2, 3}, {0, 1, 2}, {1, 2, 3}};
+  const std::vector<Eigen::Vector3d> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (std::size_t i = 0; i < expected.size(); ++i) {
     CHECK(file.objects()[i].name == expected[i].first);
-    CHECK(file.objects()[i].mesh->vertex_count() == 4);
+    CHECK(file.objects()[i].file_vertices == numbers[i]);
+    CHECK(file.objects()[i].file_vertex_count == 4);
+    const auto rest = file.objects()[i].mesh->rest();
+    REQUIRE(rest.size() == numbers[i].size());
+    for (std::size_t vertex = 0; vertex < rest.size(); ++vertex)
+      CHECK(rest[vertex] == vertices[numbers[i][vertex]]);
     CHECK(faces_of(*file.objects()[i].mesh) == expected[i].second);
   }
 }

@@ -17,7 +17,7 @@ std::string obj_frame(int frame) {
   std::ostringstream text;
   text.precision(17);
   for (const auto& p : frame_positions(frame)) text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
-  text << "g one\nf 1 2 3\ng two\nf 1 3 2\n";
+  text << "g one\nf 1 2 3\nf 1 3 4\ng two\nf 1 3 2\nf 1 4 3\n";
   return text.str();
 }
 

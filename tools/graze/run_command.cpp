@@ -231,19 +231,26 @@ void close_outputs(RunOutputs& outputs, const RunOptions& options) {
   if (outputs.page) say("page      %s\n", outputs.page->close().c_str());
 }
 
+/// Prints the player's warnings from the one of that number on, and returns how many there are.
+std::size_t print_notes(const io::Player& player, std::size_t first) {
+  for (const std::string& warning : player.warnings().subspan(first)) say_aside("note", warning);
+  return player.warnings().size();
+}
+
 void run(const RunOptions& options) {
   const OutputFiles files = check_outputs(options);
   const io::SceneDescription description = describe(options);
   warn_of_threads(description.settings.threads);
   io::Player player(description);
   files.check_inputs(player.files());
-  for (const std::string& warning : player.warnings()) say_aside("note", warning);
+  const std::size_t said = print_notes(player, 0);
   if (options.picture_frame && *options.picture_frame >= player.frame_count())
     throw InputError("--picture-frame: the run ends before frame " + std::to_string(*options.picture_frame) +
                      "; frames are 0 to " + std::to_string(player.frame_count() - 1));
   RunOutputs outputs;
   open_outputs(outputs, options, player, description.settings);
   const RunSummary summary = play(player, outputs);
+  print_notes(player, said);
   if (outputs.report) outputs.report->close();
   if (outputs.recorder) outputs.recorder->close();
   say("%s", summary.text().c_str());

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "assimp/assimp_convert.hpp"
+#include "assimp/assimp_pivots.hpp"
 #include "mesh/weld.hpp"
 #include "text/file_bytes.hpp"
 
@@ -21,6 +22,7 @@ class BodyReader {
              bool use_rest_weights)
       : path_(path), nodes_(nodes), use_rest_weights_(use_rest_weights) {
     result_.body.node = node;
+    geometric_ = geometric_transform(nodes, node);
   }
 
   void add(const aiMesh& mesh) {
@@ -86,7 +88,7 @@ class BodyReader {
         result_.missing_bones.insert(source.mName.C_Str());
         continue;
       }
-      const std::uint32_t bone = number_of_bone(*node, to_eigen(source.mOffsetMatrix));
+      const std::uint32_t bone = number_of_bone(*node, to_eigen(source.mOffsetMatrix) * geometric_);
       for (unsigned j = 0; j < source.mNumWeights; ++j) add_influence(mesh, bone, source.mWeights[j]);
     }
   }
@@ -122,6 +124,7 @@ class BodyReader {
   const std::filesystem::path& path_;
   const NodeTable& nodes_;
   bool use_rest_weights_;
+  Eigen::Affine3d geometric_;
   std::uint32_t first_ = 0;  ///< the number of the current mesh's first vertex
   NodeObject result_;
 };

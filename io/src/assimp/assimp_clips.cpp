@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assimp/assimp_convert.hpp"
+#include "assimp/assimp_pivots.hpp"
 
 namespace graze::io {
 namespace {
@@ -102,6 +103,7 @@ class ClipReader {
     motion.translation = read_track(channel.mPositionKeys, channel.mNumPositionKeys, seconds_per_tick_);
     motion.rotation = read_track(channel.mRotationKeys, channel.mNumRotationKeys, seconds_per_tick_);
     motion.scale = read_track(channel.mScalingKeys, channel.mNumScalingKeys, seconds_per_tick_);
+    correct_pivots(clip_, nodes_, *node);
   }
 
   void read_morphs(const aiMeshMorphAnim& channel) {

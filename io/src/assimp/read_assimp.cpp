@@ -53,7 +53,6 @@ std::string refusal_text(const std::string& file) {
          "its name has no ending that says its format; call it .obj, .ply, .stl or .glb, whichever it is");
   if (!importer.IsExtensionSupported(extension))
     fail(path, joined("'", extension, "' is no format that is read; save the mesh as OBJ, PLY, STL or glTF"));
-  if (extension == ".glb") fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");
   fail(path, joined("it cannot be read (", problem, "); check that it is whole"));
 }
 

@@ -3,7 +3,6 @@
 #include <graze/error.hpp>
 #include <graze/io/mesh_file.hpp>
 #include <graze/io/printable.hpp>
-#include <set>
 #include <utility>
 
 #include "assimp/read_assimp.hpp"
@@ -13,6 +12,8 @@
 #include "mesh/raw_object.hpp"
 #include "mesh/rig.hpp"
 #include "text/file_bytes.hpp"
+#include "text/text_lines.hpp"
+#include "text/unique_names.hpp"
 
 namespace graze::io {
 
@@ -28,14 +29,6 @@ struct MeshFile::Content {
 };
 
 namespace {
-
-std::string unique_name(const std::filesystem::path& path, const std::string& name,
-                        std::set<std::string>& taken) {
-  const std::string wanted = name.empty() ? path.stem().string() : name;
-  std::string unique = wanted;
-  for (std::size_t copy = 2; !taken.insert(unique).second; ++copy) unique = joined(wanted, "#", copy);
-  return unique;
-}
 
 bool is_animated(const Rig& rig, std::size_t body) {
   return body < rig.bodies.size() && std::any_of(rig.clips.begin(), rig.clips.end(), [&](const Clip& clip) {
@@ -69,20 +62,23 @@ MeshFile MeshFile::read(const std::filesystem::path& path, const ReadOptions& op
   auto content = std::make_shared<Content>();
   content->warnings = std::move(source.file.warnings);
   std::vector<Body> bodies;
-  std::set<std::string> taken;
+  UniqueNames names;
   for (std::size_t i = 0; i < source.file.objects.size(); ++i) {
     RawObject& object = source.file.objects[i];
     if (object.surface.corner_counts.empty()) continue;
-    LoadedObject loaded{unique_name(path, object.name, taken), nullptr, is_animated(source.rig, i)};
+    const std::string wanted = object.name.empty() ? path.stem().string() : object.name;
+    LoadedObject loaded{names.make(shortened(wanted, longest_name)), nullptr, is_animated(source.rig, i)};
     warn_of_cuts(path, loaded.name, cut_large_faces(object.surface), content->warnings);
-    loaded.mesh = make_mesh(path, loaded.name, object.surface);
+    loaded.mesh = make_mesh(path, loaded.name, object.surface, object.file_vertices);
     object.surface = {};
+    loaded.file_vertices = std::move(object.file_vertices);
+    loaded.file_vertex_count = object.file_vertex_count;
     content->body_of.push_back(loaded.animated ? bodies.size() : Content::no_body);
     if (loaded.animated) bodies.push_back(std::move(source.rig.bodies[i]));
     content->objects.push_back(std::move(loaded));
   }
   if (content->objects.empty()) fail(path, "there is no face in it; a mesh needs at least one");
-  for (std::string& warning : content->warnings) warning = printable(warning);
+  for (std::string& warning : content->warnings) warning = shortened(printable(warning), longest_message);
   content->frame = std::move(source.frame);
   source.rig.bodies = std::move(bodies);
   for (const auto& clip : source.rig.clips) content->animations.push_back(clip.name);

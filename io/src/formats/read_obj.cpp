@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesh/raw_object.hpp"
+#include "mesh/used_vertices.hpp"
 #include "mesh/vertex_text.hpp"
 #include "text/file_bytes.hpp"
 #include "text/number_text.hpp"
@@ -155,18 +156,28 @@ class ObjReader {
   RawFile result() {
     RawFile file;
     if (groups_.empty()) groups_.emplace_back();
-    for (std::size_t i = 0; i < groups_.size(); ++i) {
-      Group& group = groups_[i];
-      RawSurface surface;
-      surface.positions = i + 1 < groups_.size() ? positions_ : std::move(positions_);
-      surface.corners = std::move(group.corners);
-      surface.corner_counts = std::move(group.corner_counts);
-      file.objects.push_back({std::move(group.name), std::move(surface)});
+    for (Group& group : groups_) {
+      RawObject object{std::move(group.name), {{}, std::move(group.corners), std::move(group.corner_counts)}};
+      if (groups_.size() == 1)
+        object.surface.positions = std::move(positions_);
+      else
+        keep_used_vertices(object);
+      file.objects.push_back(std::move(object));
     }
     if (small_faces_ > 0)
       file.warnings.push_back(
           joined(path_.string(), ": ", small_faces_, " faces with fewer than 3 corners were left out"));
     return file;
+  }
+
+  /// Groups share the file's vertices. If each kept all of them, n groups would need n times the memory.
+  void keep_used_vertices(RawObject& object) const {
+    const UsedVertices used(object.surface.corners, positions_.size());
+    object.file_vertices = used.old_numbers();
+    object.file_vertex_count = static_cast<std::uint32_t>(positions_.size());
+    for (const std::uint32_t vertex : object.file_vertices)
+      object.surface.positions.push_back(positions_[vertex]);
+    for (std::uint32_t& corner : object.surface.corners) corner = used.new_number(corner);
   }
 
   static constexpr std::size_t no_group = static_cast<std::size_t>(-1);

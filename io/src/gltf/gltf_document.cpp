@@ -71,10 +71,8 @@ bool has_scheme(std::string_view uri) {
 GltfDocument::GltfDocument(const std::filesystem::path& path, bool outside_files)
     : path_(path), outside_files_(outside_files) {
   const std::string bytes = read_bytes(path);
-  if (bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1) {
-    is_version_1_ = true;
-    return;
-  }
+  if (bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1)
+    fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");
   const Chunks chunks = find_chunks(path, bytes);
   read_json(chunks.text);
   const json& nodes = member(root_, "nodes");

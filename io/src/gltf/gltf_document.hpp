@@ -15,12 +15,12 @@ namespace graze::io {
 /// member throws InputError that names the file and the path in its JSON.
 class GltfDocument {
  public:
-  /// Reads a .gltf or .glb file. Throws InputError when it is cut off or no JSON, and when it requires an
-  /// extension that is not read. `outside_files` is that of
-  /// ReadOptions.
+  /// Reads a .gltf or .glb file. Throws InputError when it is cut off, no JSON or binary glTF 1, and when it
+  /// requires an extension that is not read. `outside_files` is that of ReadOptions.
   explicit GltfDocument(const std::filesystem::path& path, bool outside_files = false);
 
-  /// Whether the file is of version 1, whose JSON has another shape. Nothing else may be asked for then.
+  /// Whether the file is a text of version 1, whose JSON has another shape. Nothing else may be asked for
+  /// then.
   [[nodiscard]] bool is_version_1() const { return is_version_1_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const nlohmann::json& root() const { return root_; }

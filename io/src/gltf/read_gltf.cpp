@@ -11,6 +11,7 @@
 #include "gltf/gltf_nodes.hpp"
 #include "mesh/axes.hpp"
 #include "text/file_bytes.hpp"
+#include "text/text_lines.hpp"
 
 namespace graze::io {
 namespace {
@@ -84,7 +85,7 @@ class GltfReader {
   [[nodiscard]] std::string name_of(const json& node, std::uint64_t number, const json& mesh_number) const {
     std::string name = text_of(member(node, "name"));
     if (name.empty()) name = text_of(member(element(document_.list("meshes"), mesh_number), "name"));
-    return name.empty() ? joined("node ", number) : name;
+    return name.empty() ? joined("node ", number) : shortened(std::move(name), longest_name);
   }
 
   /// A node's own morph weights win over its mesh's.

@@ -9,13 +9,16 @@
 namespace graze::io {
 namespace {
 
-void require_finite(const std::filesystem::path& path, const std::string& object, const RawSurface& surface) {
+void require_finite(const std::filesystem::path& path, const std::string& object, const RawSurface& surface,
+                    std::span<const std::uint32_t> file_vertices) {
   std::size_t begin = 0;
   for (std::size_t face = 0; face < surface.corner_counts.size(); ++face) {
     for (const auto vertex : std::span(surface.corners).subspan(begin, surface.corner_counts[face]))
       if (!surface.positions[vertex].allFinite())
-        fail(path, joined("object '", object, "': vertex ", vertex, " (counted from 0), used by face ", face,
-                          ", is not finite; give it numbers or remove the face"));
+        fail(path,
+             joined("object '", object, "': vertex ", file_vertices.empty() ? vertex : file_vertices[vertex],
+                    " (counted from 0), used by face ", face,
+                    ", is not finite; give it numbers or remove the face"));
     begin += surface.corner_counts[face];
   }
 }
@@ -64,8 +67,9 @@ CutFaces cut_large_faces(RawSurface& surface) {
 }
 
 std::shared_ptr<const Mesh> make_mesh(const std::filesystem::path& path, const std::string& object,
-                                      const RawSurface& surface) {
-  require_finite(path, object, surface);
+                                      const RawSurface& surface,
+                                      std::span<const std::uint32_t> file_vertices) {
+  require_finite(path, object, surface, file_vertices);
   try {
     return std::make_shared<const Mesh>(
         Mesh::from_polygons(surface.positions, surface.corners, surface.corner_counts));

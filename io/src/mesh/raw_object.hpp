@@ -33,6 +33,10 @@ void turn_faces(RawSurface& surface, const std::vector<bool>& is_marked);
 struct RawObject {
   std::string name;  ///< may be empty or not unique
   RawSurface surface;
+  /// For each vertex its number in the file, as in LoadedObject::file_vertices; empty where they are equal.
+  std::vector<std::uint32_t> file_vertices = {};
+  std::uint32_t file_vertex_count =
+      0;  ///< how many vertices the file has, where `file_vertices` is not empty
 };
 
 /// The result of reading a file: its objects, those without a face included, and notes on what was left out.
@@ -51,9 +55,10 @@ struct CutFaces {
 CutFaces cut_large_faces(RawSurface& surface);
 
 /// The mesh of a surface whose faces have 3 or 4 corners. Throws InputError, naming `path` and `object`, when
-/// a face uses a vertex that is not finite.
+/// a face uses a vertex that is not finite. `file_vertices` are as in RawObject.
 std::shared_ptr<const Mesh> make_mesh(const std::filesystem::path& path, const std::string& object,
-                                      const RawSurface& surface);
+                                      const RawSurface& surface,
+                                      std::span<const std::uint32_t> file_vertices = {});
 
 /// Readers of the formats with indexed positions. Throw InputError.
 RawFile read_obj(const std::filesystem::path& path);

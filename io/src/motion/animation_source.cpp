@@ -46,6 +46,10 @@ class AnimationSource : public PositionSource {
 
 PositionSource::~PositionSource() = default;
 
+std::span<const std::string> PositionSource::warnings() const {
+  return {};
+}
+
 std::unique_ptr<PositionSource> open_animation(const MeshFile& file, std::size_t object,
                                                std::size_t animation, double frames_per_second) {
   if (!(frames_per_second > 0) || !std::isfinite(frames_per_second))

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "text/file_bytes.hpp"
 #include "text/opened_files.hpp"
@@ -65,9 +66,14 @@ void check(const std::filesystem::path& path, const CacheHeader& header, std::ui
 
 class VertexCache : public PositionSource {
  public:
-  VertexCache(const std::filesystem::path& path, std::uint32_t mesh_vertices)
+  /// `file_vertices` has the number in the cache of each vertex of the mesh, where a cache of
+  /// `file_vertex_count` vertices is of a whole file. It is empty where the mesh is the file.
+  VertexCache(const std::filesystem::path& path, std::uint32_t mesh_vertices,
+              const std::vector<std::uint32_t>& file_vertices, std::uint32_t file_vertex_count)
       : path_(path), header_(read_header(path)), stream_(open_input(path)) {
-    check(path, header_, std::filesystem::file_size(path), mesh_vertices);
+    const bool is_of_file = !file_vertices.empty() && header_.vertex_count == file_vertex_count;
+    if (is_of_file) vertices_ = file_vertices;
+    check(path, header_, std::filesystem::file_size(path), is_of_file ? file_vertex_count : mesh_vertices);
     bytes_.resize(header_.vertex_count * position_bytes);
   }
 
@@ -79,12 +85,13 @@ class VertexCache : public PositionSource {
     stream_.seekg(static_cast<std::streamoff>(header_.first_frame + std::uint64_t{number} * bytes_.size()));
     stream_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
     if (!stream_) fail(path_, joined("frame ", number, ": reading failed; check the disk"));
-    positions.resize(header_.vertex_count);
-    for (std::size_t vertex = 0; vertex < positions.size(); ++vertex)
+    positions.resize(vertices_.empty() ? header_.vertex_count : vertices_.size());
+    for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
+      const std::size_t begin = (vertices_.empty() ? vertex : vertices_[vertex]) * position_bytes;
       for (std::size_t axis = 0; axis < 3; ++axis)
         positions[vertex][static_cast<Eigen::Index>(axis)] = static_cast<double>(std::bit_cast<float>(
-            word_at({bytes_.data(), bytes_.size()}, vertex * position_bytes + axis * sizeof(float),
-                    header_.is_big_endian)));
+            word_at({bytes_.data(), bytes_.size()}, begin + axis * sizeof(float), header_.is_big_endian)));
+    }
   }
 
  private:
@@ -92,12 +99,19 @@ class VertexCache : public PositionSource {
   CacheHeader header_;
   std::ifstream stream_;
   std::vector<char> bytes_;
+  std::vector<std::uint32_t> vertices_;  ///< those of the cache that the mesh has; empty: all
 };
 
 }  // namespace
 
 std::unique_ptr<PositionSource> open_vertex_cache(const std::filesystem::path& path, const Mesh& mesh) {
-  return std::make_unique<VertexCache>(path, mesh.vertex_count());
+  return std::make_unique<VertexCache>(path, mesh.vertex_count(), std::vector<std::uint32_t>(), 0);
+}
+
+std::unique_ptr<PositionSource> open_vertex_cache(const std::filesystem::path& path,
+                                                  const LoadedObject& object) {
+  return std::make_unique<VertexCache>(path, object.mesh->vertex_count(), object.file_vertices,
+                                       object.file_vertex_count);
 }
 
 }  // namespace graze::io

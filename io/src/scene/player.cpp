@@ -3,6 +3,8 @@
 #include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/player.hpp>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "scene/scene_loading.hpp"
 #include "text/opened_files.hpp"
@@ -16,6 +18,7 @@ struct Playback {
   std::vector<KeyPose> keys;
   Eigen::Affine3d placement = Eigen::Affine3d::Identity();  ///< of every frame of `source`
   bool is_deformable = false;
+  std::size_t said = 0;                    ///< warnings of `source` that were taken over
   std::vector<Eigen::Vector3d> positions;  ///< of a source: bound to the scene
   const Eigen::Vector3d* bound = nullptr;  ///< what the scene was last told to read
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -28,6 +31,18 @@ std::uint32_t longest_motion(const std::vector<Playback>& playbacks) {
     if (!playback.keys.empty()) frames = std::max(frames, playback.keys.back().frame + 1);
   }
   return frames;
+}
+
+/// Puts the objects of an entry that is ignored with itself into a group of their own, since n objects have
+/// n² pairs. The scene file's own groups are smaller numbers. Where the entry has a group nothing is missing.
+void group_ignored(LoadedScene& loaded, const SceneDescription& description) {
+  constexpr std::uint64_t first_free_group = std::uint64_t{1} << 32U;
+  std::unordered_set<std::string> names;
+  for (const IgnoreDescription& ignored : description.ignore)
+    if (!ignored.groups && ignored.names[0] == ignored.names[1]) names.insert(ignored.names[0]);
+  for (LoadedSceneObject& object : loaded.objects)
+    if (object.settings.group == 0 && names.contains(description.objects[object.entry].name))
+      object.settings.group = first_free_group + object.entry;
 }
 
 Scene make_scene(const SceneDescription& description) {
@@ -57,24 +72,32 @@ struct Player::State {
     LoadedScene loaded = load_scene(description);
     files.assign(opened.paths().begin(), opened.paths().end());
     warnings = std::move(loaded.warnings);
+    group_ignored(loaded, description);
     for (LoadedSceneObject& object : loaded.objects) add(object, description.objects[object.entry]);
+    index_names(description);
     for (const RuleDescription& rule : description.rules) set_rule(rule, description.settings);
-    for (const IgnoreDescription& ignored : description.ignore) ignore(ignored, description);
+    for (const IgnoreDescription& ignored : description.ignore) ignore(ignored);
     frame_count = description.frames.value_or(longest_motion(playbacks));
   }
 
   void add(LoadedSceneObject& loaded, const ObjectDescription& entry);
+  void take_warnings(Playback& playback);
   void set_rule(const RuleDescription& rule, const SceneSettings& settings);
-  void ignore(const IgnoreDescription& ignored, const SceneDescription& description);
+  void ignore(const IgnoreDescription& ignored);
   void ignore_groups(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second,
                      const std::array<std::uint8_t, 2>& groups);
-  [[nodiscard]] std::vector<std::size_t> named(const std::string& name, const std::string& where,
-                                               const SceneDescription& description) const;
+  void count_ignored(std::size_t first, std::size_t second, const std::string& place);
+  void index_names(const SceneDescription& description);
+  [[nodiscard]] const std::vector<std::size_t>& named(const std::string& name,
+                                                      const std::string& where) const;
   void advance_object(std::size_t index, std::uint32_t frame);
 
   std::vector<SceneObject> objects;
   std::vector<std::size_t> entries;  ///< of each object, the entry of the description that it came from
-  std::vector<Playback> playbacks;   ///< of each object; outlives the scene, which reads its positions
+  /// The objects of each entry by its name, and other objects by their own.
+  std::unordered_map<std::string, std::vector<std::size_t>> objects_by_name;
+  std::uint64_t ignored_pairs = 0;
+  std::vector<Playback> playbacks;  ///< of each object; outlives the scene, which reads its positions
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;
   std::uint32_t frame_count = 1;
@@ -93,6 +116,7 @@ void Player::State::add(LoadedSceneObject& loaded, const ObjectDescription& entr
   playback.keys = entry.poses;
   playback.placement = loaded.placement;
   playback.is_deformable = loaded.settings.motion == Motion::deformable;
+  take_warnings(playback);
   if (playback.source) playback.positions.assign(loaded.mesh->rest().begin(), loaded.mesh->rest().end());
   if (!playback.is_deformable) {
     playback.pose = entry.transform.pose();
@@ -103,6 +127,13 @@ void Player::State::add(LoadedSceneObject& loaded, const ObjectDescription& entr
   playbacks.push_back(std::move(playback));
 }
 
+void Player::State::take_warnings(Playback& playback) {
+  if (!playback.source) return;
+  for (const std::string& warning : playback.source->warnings().subspan(playback.said))
+    warnings.push_back(warning);
+  playback.said = playback.source->warnings().size();
+}
+
 void Player::State::set_rule(const RuleDescription& rule, const SceneSettings& settings) {
   PairRule pair_rule;
   pair_rule.contact_distance = rule.contact_distance.value_or(settings.contact_distance);
@@ -111,25 +142,46 @@ void Player::State::set_rule(const RuleDescription& rule, const SceneSettings& s
   scene.set_rule(rule.kinds[0], rule.kinds[1], pair_rule);
 }
 
+void Player::State::index_names(const SceneDescription& description) {
+  for (std::size_t index = 0; index < objects.size(); ++index) {
+    const std::string& entry_name = description.objects[entries[index]].name;
+    objects_by_name[objects[index].name].push_back(index);
+    if (!entry_name.empty() && entry_name != objects[index].name)
+      objects_by_name[entry_name].push_back(index);
+  }
+}
+
+/// Throws InputError when all entries together ignore too many pairs. Each pair is kept one by one.
+void Player::State::count_ignored(std::size_t first, std::size_t second, const std::string& place) {
+  constexpr std::uint64_t most = 1000000;
+  ignored_pairs += std::uint64_t{first} * second;
+  if (ignored_pairs > most)
+    throw InputError(place + ": " + std::to_string(ignored_pairs) + " pairs are ignored up to here, and " +
+                     std::to_string(most) +
+                     " may be; give the objects a \"group\", or \"layer\" and \"collides_with\"");
+}
+
 /// The objects of the entry called `name`, or the one object called so.
-std::vector<std::size_t> Player::State::named(const std::string& name, const std::string& where,
-                                              const SceneDescription& description) const {
-  std::vector<std::size_t> found;
-  for (std::size_t index = 0; index < objects.size(); ++index)
-    if (objects[index].name == name || description.objects[entries[index]].name == name)
-      found.push_back(index);
-  if (!found.empty()) return found;
+const std::vector<std::size_t>& Player::State::named(const std::string& name,
+                                                     const std::string& where) const {
+  const auto found = objects_by_name.find(name);
+  if (found != objects_by_name.end()) return found->second;
   std::string known;
   for (const SceneObject& object : objects) known += (known.empty() ? "" : ", ") + object.name;
   throw InputError(where + ": no object is called \"" + name + "\"; the scene has " + known);
 }
 
-void Player::State::ignore(const IgnoreDescription& ignored, const SceneDescription& description) {
-  const auto first = named(ignored.names[0], ignored.place, description);
-  const auto second = named(ignored.names[1], ignored.place, description);
-  if (ignored.groups) return ignore_groups(first, second, *ignored.groups);
-  if (first == second && first.size() == 1)
+void Player::State::ignore(const IgnoreDescription& ignored) {
+  const auto& first = named(ignored.names[0], ignored.place);
+  const auto& second = named(ignored.names[1], ignored.place);
+  if (ignored.groups) {
+    count_ignored(first.size(), second.size(), ignored.place);
+    return ignore_groups(first, second, *ignored.groups);
+  }
+  if (&first == &second && first.size() == 1)
     throw InputError(ignored.place + ": names one object twice; name two objects");
+  if (&first == &second) return;  // group_ignored() has given them a group
+  count_ignored(first.size(), second.size(), ignored.place);
   for (const std::size_t a : first)
     for (const std::size_t b : second)
       if (a != b) scene.ignore(objects[a].id, objects[b].id);
@@ -147,6 +199,7 @@ void Player::State::advance_object(std::size_t index, std::uint32_t frame) {
   const ObjectId id = objects[index].id;
   if (playback.source) {
     read_frame(playback, frame, objects[index]);
+    take_warnings(playback);
     if (playback.bound != playback.positions.data()) scene.bind_positions(id, playback.positions);
     playback.bound = playback.positions.data();
   }

@@ -1,8 +1,10 @@
 #include <graze/io/error.hpp>
 #include <graze/io/printable.hpp>
 
+#include "text/text_lines.hpp"
+
 namespace graze::io {
 
-InputError::InputError(const std::string& message) : Error(printable(message)) {}
+InputError::InputError(const std::string& message) : Error(shortened(printable(message), longest_message)) {}
 
 }  // namespace graze::io

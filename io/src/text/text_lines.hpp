@@ -33,6 +33,24 @@ class TextLines {
   std::size_t line_ = 0;
 };
 
+/// The longest message and the longest name in bytes. A file may hold a word of any length.
+inline constexpr std::size_t longest_message = 2000;
+inline constexpr std::size_t longest_name = 1000;
+
+/// A text of at most `longest` bytes, which are more than 8. What is too long loses its middle, so that a
+/// message keeps its file and its remedy. No letter of UTF-8 is cut in two.
+inline std::string shortened(std::string text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  const auto is_inside_letter = [&](std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+  };
+  std::size_t begin = longest / 2;
+  std::size_t end = text.size() - (longest - begin - 3);
+  for (int step = 0; step < 3 && is_inside_letter(begin); ++step) --begin;
+  for (int step = 0; step < 3 && is_inside_letter(end); ++step) ++end;
+  return text.replace(begin, end - begin, "...");
+}
+
 /// Without blanks at both ends.
 inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\v\f\r";

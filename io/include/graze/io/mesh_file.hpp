@@ -24,6 +24,12 @@ struct LoadedObject {
   std::shared_ptr<const Mesh> mesh;
   /// True if an animation of the file moves the object: by its skeleton, its morph targets or its node.
   bool animated = false;
+  /// The number in the file of each vertex of the mesh, ascending and counted from 0. It is empty if the mesh
+  /// has the file's own numbers, and in formats whose vertices are welded. Only an OBJ file of several groups
+  /// has it.
+  std::vector<std::uint32_t> file_vertices = {};
+  /// How many vertices the file has. It is 0 if #file_vertices is empty.
+  std::uint32_t file_vertex_count = 0;
 };
 
 /// The axes and the unit that a file says its coordinates have. graze takes the coordinates of every format
@@ -50,8 +56,9 @@ struct ReadOptions {
 /// members at the same time. docs/formats.md has a table of all formats.
 ///
 /// @par OBJ, PLY and OFF
-/// They keep the file's own vertex numbers, unused vertices included, in double precision. A group of an OBJ
-/// file is one object with the vertices of the whole file.
+/// They keep the file's own vertex numbers, unused vertices included, in double precision. Of an OBJ file of
+/// several groups, each group is an object. It has the vertices that its faces use, in the order of the file,
+/// and LoadedObject::file_vertices has their numbers in the file.
 ///
 /// @par Other formats
 /// graze reads glTF 2 and STL itself. assimp reads every other format, in single precision. In glTF 2 and in

@@ -47,7 +47,8 @@ class GRAZE_API Player {
   /// Returns the number of frames of the description, or of the longest motion if the description has none.
   /// It is at least 1.
   [[nodiscard]] std::uint32_t frame_count() const;
-  /// Returns a line for each thing that loading left out or changed.
+  /// Returns a line for each thing that loading left out or changed, and for what is odd in the frames that
+  /// were read (PositionSource::warnings()). advance() may add lines.
   [[nodiscard]] std::span<const std::string> warnings() const;
   /// Returns the files that the player reads, now or in a later frame: mesh files, the files that these name,
   /// sequences and vertex caches. A program that writes files must not write into one of them.
