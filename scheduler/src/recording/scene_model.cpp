@@ -133,6 +133,8 @@ void SceneModel::take(const BindRecord& record) {
   if (object == nullptr) return;
   object->binding = record;
   object->frozen_by.reset();
+  // Until its memory is told, it stands at rest, unless positions of that form are known.
+  if (object->positions.view().is_double() != record.is_double) object->positions.clear();
 }
 
 void SceneModel::take(const MemoryRecord& record) {
