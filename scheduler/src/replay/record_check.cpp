@@ -9,6 +9,7 @@
 #include "base/pose.hpp"
 #include "base/settings_check.hpp"
 #include "core/base/floating_point_scope.hpp"
+#include "core/mesh/closed.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/surface/surface.hpp"
 
@@ -46,6 +47,11 @@ void check_groups(std::uint64_t serial, std::span<const std::uint8_t> groups, co
   if (!groups.empty() && groups.size() != mesh.face_count())
     throw Error(object_text(serial) + " gets " + std::to_string(groups.size()) + " groups for " +
                 std::to_string(mesh.face_count()) + " faces");
+}
+
+void check_solid(std::uint64_t serial, const Mesh& mesh) {
+  if (const auto problem = why_not_closed(indexed(mesh)))
+    throw Error(object_text(serial) + " is a solid whose surface is not closed; " + *problem);
 }
 
 /// Throws Error unless each vertex of the old mesh has a vertex of the new one, or none.
@@ -96,8 +102,15 @@ void RecordCheck::take(const AddRecord& record) {
     throw Error(who + " is added after object " + std::to_string(*last_serial_) +
                 "; the numbers of objects ascend");
   last_serial_ = record.serial;
-  if (const auto problem = problem_of(record.settings)) throw Error(*problem);
-  Object object{record.serial, mesh_of_(record.mesh), record.settings.motion == Motion::deformable, {}};
+  ObjectSettings settings = record.settings;
+  settings.name = std::to_string(record.serial);
+  if (const auto problem = problem_of(settings)) throw Error(*problem);
+  Object object{record.serial,
+                mesh_of_(record.mesh),
+                record.settings.motion == Motion::deformable,
+                record.settings.solid,
+                {}};
+  if (object.is_solid) check_solid(record.serial, *object.mesh);
   check_groups(record.serial, record.settings.face_groups, *object.mesh);
   objects_.insert_or_assign(record.object, std::move(object));
 }
@@ -108,6 +121,7 @@ void RecordCheck::take(const ReplaceRecord& record) {
   std::shared_ptr<const Mesh> mesh = mesh_of_(record.mesh);
   check_vertex_map(object->serial, record.new_of_old, *object->mesh, *mesh);
   check_groups(object->serial, record.face_groups, *mesh);
+  if (object->is_solid) check_solid(object->serial, *mesh);
   object->mesh = std::move(mesh);
   object->bound_in_double.reset();
 }

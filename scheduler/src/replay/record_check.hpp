@@ -40,6 +40,7 @@ class RecordCheck {
     std::uint64_t serial = 0;
     std::shared_ptr<const Mesh> mesh;
     bool is_deformable = true;
+    bool is_solid = false;
     std::optional<bool> bound_in_double;  ///< the form of the memory that it is bound to
   };
   [[nodiscard]] Object* find(ObjectId id);
