@@ -18,7 +18,7 @@
 namespace graze::tests {
 namespace {
 
-constexpr std::size_t recorded_frames = 40;
+constexpr std::size_t recorded_frames = 32;
 
 /// What a replay of a whole file has found.
 struct Findings {
@@ -111,16 +111,16 @@ std::vector<std::pair<std::string, SceneSettings>> dependent_settings(ContactDet
   return all;
 }
 
-/// Replays parts of a recording. Returns how many rows they compared in part or not at all.
+/// Replays parts of a recording. Returns how many rows they compared in part.
 std::size_t check_parts(const std::filesystem::path& file, const std::filesystem::path& part,
                         bool has_clock) {
   const Findings whole = findings_of(file);
   CHECK(whole.first_difference == "");
   if (!has_clock) CHECK(whole.not_compared + whole.in_part == 0);
-  std::size_t left_out = 0;
+  std::size_t in_part = 0;
   const auto check = [&](const Findings& found) {
     CHECK(found.first_difference == "");
-    left_out += found.in_part;
+    in_part += found.in_part;
   };
   for (const std::size_t first : {7U, 16U, 23U}) {
     INFO("from frame " << first);
@@ -128,12 +128,12 @@ std::size_t check_parts(const std::filesystem::path& file, const std::filesystem
   }
   const Recording recording(file);
   for (const RecordingPart& wanted :
-       {RecordingPart{10, 30, {}}, RecordingPart{0, 40, {0, 1}}, RecordingPart{12, 30, {1, 2}}}) {
+       {RecordingPart{10, 27, {}}, RecordingPart{0, 31, {0, 1}}, RecordingPart{12, 27, {1, 2}}}) {
     INFO("cut from frame " << wanted.first_frame << ", " << wanted.objects.size() << " objects");
     cut_recording(recording, wanted, part);
     check(findings_of(part));
   }
-  return left_out;
+  return in_part;
 }
 
 /// A row of a pair that is apart, with bounds.
@@ -175,12 +175,15 @@ TEST_CASE("recording parts: nothing diverges, whatever accuracy and limits") {
       INFO("detail " << static_cast<int>(detail) << ", " << name);
       const bool has_clock = settings.time_budget.has_value();
       record_crowd(settings, folder / "run.graze", 3);
-      (void)check_parts(folder / "run.graze", folder / "part.graze", has_clock);
-      for (unsigned seed = 0; seed < 3; ++seed) {
+      std::size_t in_part = check_parts(folder / "run.graze", folder / "part.graze", has_clock);
+      for (unsigned seed = 0; seed < 2; ++seed) {
         INFO("random calls, seed " << seed);
         record_calls(settings, folder / "run.graze", seed);
-        (void)check_parts(folder / "run.graze", folder / "part.graze", has_clock);
+        in_part += check_parts(folder / "run.graze", folder / "part.graze", has_clock);
       }
+      // Where nothing depends on other steps and pairs, every row is compared bit for bit.
+      if (name == "exact" || name == "max_contacts_per_pair" || name == "paper") CHECK(in_part == 0);
+      if (name == "region_distances" || name == "all") CHECK(in_part > 0);
     }
 }
 

@@ -14,6 +14,7 @@
 #include "recording/commands.hpp"
 #include "recording/frame_range.hpp"
 #include "recording/named_object.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -55,19 +56,24 @@ RecordingPart part_of(const Recording& recording, const CutOptions& options) {
 void print_answer(const std::string& file) {
   const Recording recording(file);
   Replay replay(recording);
-  while (replay.step())
+  RowsLeftOut left_out;
+  while (replay.step()) {
+    left_out.add(replay);
     if (const auto& difference = replay.difference()) {
       std::printf("a replay differs in frame %zu: %s\n  recorded  %s\n  replayed  %s\n", replay.frame_index(),
                   difference->pair.c_str(), difference->recorded.c_str(), difference->replayed.c_str());
       return;
     }
-  std::printf("a replay answers as it was recorded\n");
+  }
+  left_out.print();
+  std::printf("a replay answers as it was recorded%s\n", left_out.reservation().c_str());
 }
 
 void cut(const CutOptions& options) {
   check_output_file("-o", options.output);
   check_is_no_input("-o", options.output, std::vector{options.file});
   const Recording recording(options.file);
+  note_unfinished(recording, options.file);
   cut_recording(recording, part_of(recording, options), options.output);
   const Recording part(options.output);
   std::printf("%s: %zu of %zu frames, %llu of %llu bytes\n", options.output.c_str(), part.frame_count(),

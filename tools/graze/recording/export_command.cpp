@@ -19,6 +19,7 @@
 #include "recording/best_frame.hpp"
 #include "recording/commands.hpp"
 #include "recording/frame_range.hpp"
+#include "recording/recording_notes.hpp"
 #include "recording/snapshot_reader.hpp"
 
 namespace graze::tools {
@@ -157,6 +158,7 @@ void export_recording(const ExportOptions& options) {
     }
   }
   exports.close();
+  note_unfinished(recording, options.file);
   if (!reader.is_as_recorded())
     std::fprintf(stderr, "note: the replay differs from the recording; graze replay %s says where\n",
                  options.file.c_str());

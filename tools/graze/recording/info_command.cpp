@@ -9,6 +9,7 @@
 
 #include "output/text.hpp"
 #include "recording/commands.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -76,8 +77,7 @@ void inform(const std::string& file) {
   const Recording recording(file);
   recording.check();
   std::printf("%s: %zu frames, %llu bytes, recorded by graze %s%s%s\n", file.c_str(), recording.frame_count(),
-              number(recording.byte_count()), recording.made_by().c_str(),
-              recording.is_finished() ? "" : ", not finished",
+              number(recording.byte_count()), recording.made_by().c_str(), unfinished_text(recording).c_str(),
               recording.is_cut() ? ", begins amid a run" : "");
   print_settings(recording.settings());
   print_frames(recording);

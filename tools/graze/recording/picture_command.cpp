@@ -12,6 +12,7 @@
 #include "recording/best_frame.hpp"
 #include "recording/commands.hpp"
 #include "recording/named_object.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -60,6 +61,7 @@ io::PictureScene scene_of(const Replay& replay, const PictureOptions& options) {
 void draw(const PictureOptions& options) {
   check_picture_file("-o", options.output);
   const Recording recording(options.file);
+  note_unfinished(recording, options.file);
   const std::size_t frame = options.frame ? *options.frame : best_frame(recording);
   if (options.lines && recording.settings().region_distances == 0)
     throw io::InputError("--lines: the recorded scene has no region_distances, so it has no lines to draw");

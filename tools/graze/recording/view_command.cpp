@@ -13,6 +13,7 @@
 #include "page_output.hpp"
 #include "progress.hpp"
 #include "recording/commands.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -91,6 +92,7 @@ void view(const ViewOptions& options) {
     if (replay.difference()) ++differing;
   }
   std::printf("page      %s\n", page.close().c_str());
+  note_unfinished(recording, options.file);
   if (differing > 0)
     std::printf("DIVERGED in %zu of %zu frames; the page marks them, and graze replay names the first\n",
                 differing, recording.frame_count());
