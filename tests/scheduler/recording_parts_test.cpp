@@ -5,6 +5,7 @@
 #include <graze/recorder.hpp>
 #include <graze/recording.hpp>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "core/pair/pair_query.hpp"
@@ -185,6 +186,33 @@ TEST_CASE("recording parts: nothing diverges, whatever accuracy and limits") {
       if (name == "exact" || name == "max_contacts_per_pair" || name == "paper") CHECK(in_part == 0);
       if (name == "region_distances" || name == "all") CHECK(in_part > 0);
     }
+}
+
+TEST_CASE("recording parts: an object that was frozen before a keyframe is frozen in a part after it") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "run.graze";
+  SceneSettings settings = settings_of(0.5, 2);
+  settings.threads = 1;
+  for (const bool is_frozen_before : {false, true}) {
+    NeedleOverPlate stage(settings);
+    Positions memory = lifted(*needle_mesh(), 0.25);
+    std::optional<Recorder> recorder;
+    if (!is_frozen_before) recorder.emplace(stage.scene, file, never_dropping());
+    // The needle is frozen by bad memory, and stays so without it: no pair of it is looked at.
+    memory[0].x() = std::numeric_limits<double>::quiet_NaN();
+    stage.scene.bind_positions(stage.needle, memory);
+    (void)stage.scene.step();
+    stage.scene.unbind_positions(stage.needle);
+    (void)stage.scene.step();
+    if (is_frozen_before) recorder.emplace(stage.scene, file, never_dropping());
+    for (int frame = 0; frame < 30; ++frame) (void)stage.scene.step();
+    recorder->close();
+    // The part begins some frames after a keyframe, which its model of the scene is made from.
+    cut_recording(Recording(file), {.first_frame = 19}, folder / "part.graze");
+    const Findings found = findings_of(folder / "part.graze");
+    CHECK(found.first_difference == "");
+    CHECK(found.not_compared == 0);
+  }
 }
 
 TEST_CASE("recording parts: what must hold is compared, and the rest is counted") {
