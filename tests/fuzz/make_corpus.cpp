@@ -216,6 +216,7 @@ void make_corpus(const std::filesystem::path& corpus, const std::filesystem::pat
   write_reports(report_seeds);
   Seeds recording_seeds(corpus, "recording");
   write_recordings(recording_seeds);
+  for (std::uint64_t seed = 0; seed < 40; ++seed) recording_seeds.add_random(2000 + seed, 60 + 20 * seed);
   Seeds assimp_seeds(corpus, "assimp_data");
   for (std::uint64_t seed = 0; seed < 40; ++seed) assimp_seeds.add_random(seed, 100 + 40 * seed);
   Seeds pair_seeds(corpus, "pair");

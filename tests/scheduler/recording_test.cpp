@@ -249,7 +249,7 @@ TEST_CASE("recording: a part has the same answers, of all objects or of two") {
   }
 }
 
-TEST_CASE("recording: any flipped bit is found, and the place is named") {
+TEST_CASE("recording: any flipped bit is found by a check and by a replay, and the place is named") {
   const std::string good = three_frames();
   const TemporaryFile damaged;
   std::size_t unnamed = 0;
@@ -258,9 +258,12 @@ TEST_CASE("recording: any flipped bit is found, and the place is named") {
     bad[byte] = static_cast<char>(bad[byte] ^ 1 << byte % 8);
     damaged.write(bad);
     const std::string message = message_of([&] { Recording(damaged.path()).check(); });
-    INFO("byte " << byte << " of " << good.size() << ": " << message);
+    const std::string of_replay = message_of([&] { (void)first_difference(damaged.path()); });
+    INFO("byte " << byte << " of " << good.size() << ": " << message << ", replay: " << of_replay);
     CHECK(message != "");
-    if (message.find(": byte ") == std::string::npos) ++unnamed;
+    CHECK(of_replay != "");
+    for (const std::string& told : {message, of_replay})
+      if (told.find(": byte ") == std::string::npos) ++unnamed;
   }
   CHECK(unnamed == 0);
 }

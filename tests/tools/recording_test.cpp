@@ -81,6 +81,43 @@ TEST_CASE("recording: a frame is drawn") {
   CHECK(run_graze({"picture", recorded.file, "--select", "spike", "-o", picture}).exit_code == 0);
 }
 
+TEST_CASE("recording: one that was cut off is read up to its last whole frame, and said to be not finished") {
+  const Recorded recorded;
+  const std::string bytes = read_file(recorded.file);
+  const std::string file = recorded.folder.write("off.graze", bytes.substr(0, bytes.size() * 3 / 4)).string();
+  const ProgramResult replayed = run_graze({"replay", file});
+  CHECK(replayed.exit_code == 0);
+  CHECK_THAT(replayed.out, Contains(", not finished\n") && Contains("all the same"));
+  CHECK_THAT(run_graze({"info", file}).out, Contains(", not finished"));
+  const std::string page = recorded.path("page.grazeview");
+  const std::string table = recorded.path("table.csv");
+  const std::string part = recorded.path("part.graze");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"export", file, "--csv", table},
+                                                    {"view", file, "-o", page},
+                                                    {"cut", file, "--frames", "3..5", "-o", part}}) {
+    const ProgramResult result = run_graze(arguments);
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.err, Contains("off.graze is not finished: the program that recorded it ended before"));
+  }
+  CHECK_THAT(run_graze({"replay", part}).out, !Contains("not finished"));
+}
+
+TEST_CASE("recording: what a replay of a part cannot compare is said") {
+  const Recorded recorded;
+  const ProgramResult whole = run_graze({"replay", recorded.file});
+  CHECK_THAT(whole.out, Contains("40 frames answered again, all the same\n"));
+  // The pair ends its contact in the part, which a replay cannot know of a part.
+  const std::string part = recorded.path("part.graze");
+  const ProgramResult cut = run_graze({"cut", recorded.file, "--frames", "13..30", "-o", part});
+  const ProgramResult replayed = run_graze({"replay", part});
+  CHECK(replayed.exit_code == 0);
+  for (const std::string& out : {cut.out, replayed.out}) {
+    CHECK_THAT(
+        out, Contains("not compared: 1 rows that depend on earlier frames, on other pairs or on the clock"));
+    CHECK_THAT(out, Contains(" as far as they can be compared\n"));
+  }
+}
+
 TEST_CASE("recording: what is wrong is said in a line") {
   const Recorded recorded;
   std::string bytes;

@@ -53,6 +53,7 @@ struct RecordedFrame {
 class GRAZE_API Recording {
  public:
   /// Opens a file. One that was not finished, since its program died, is read up to its last whole frame.
+  /// The head of every chunk is read and compared with the index.
   ///
   /// This and all members throw Error for a file that cannot be read, is no recording, is of another version,
   /// or is damaged. The message names the place.
@@ -81,7 +82,7 @@ class GRAZE_API Recording {
   [[nodiscard]] std::size_t mesh_count() const;
   /// Returns the size of the file in bytes.
   [[nodiscard]] std::uint64_t byte_count() const;
-  /// Reads and checks every chunk.
+  /// Reads every chunk, and checks every record against those before it.
   void check() const;
 
  private:
@@ -126,7 +127,8 @@ struct ReplayObject {
 };
 
 /// Does again what a recording tells, and compares the answers. A time budget of the recorded scene is not
-/// used; what it cut short is not compared.
+/// used, and what it cut short is not compared. Every chunk that the replay passes is checked, also those
+/// that it does not need.
 ///
 ///     const Recording recording("bug.graze");
 ///     Replay replay(recording);
@@ -147,7 +149,8 @@ class GRAZE_API Replay {
   /// Replays are not copied.
   Replay& operator=(const Replay&) = delete;
 
-  /// Runs the next frame. Returns false if there is none.
+  /// Runs the next frame. Returns false if there is none. Throws Error if the recording is damaged there. The
+  /// replay is of no use after that.
   bool step();
   /// Returns the index of the frame of the last step.
   [[nodiscard]] std::size_t frame_index() const;
@@ -155,9 +158,12 @@ class GRAZE_API Replay {
   [[nodiscard]] const ReportHandle& report() const;
   /// Returns how the last step differs from the recording, or no value.
   [[nodiscard]] const std::optional<ReplayDifference>& difference() const;
-  /// Returns how many rows of the last step were not compared: those that a time budget cut short, and those
-  /// that were stale in a recording that does not tell why.
+  /// Returns how many rows of the last step were not compared, since they follow from what the replay does
+  /// not know. See docs/recording.md, "What is not compared".
   [[nodiscard]] std::size_t rows_not_compared() const;
+  /// Returns how many rows of the last step were compared only by what must hold whatever was before: bounds
+  /// that overlap or are equal, whether the pair is in contact, and the number of contacts.
+  [[nodiscard]] std::size_t rows_compared_in_part() const;
 
   /// Returns the objects of the scene in the order of addition, after the last step.
   [[nodiscard]] std::span<const ReplayObject> objects() const;

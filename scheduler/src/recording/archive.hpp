@@ -52,6 +52,21 @@ inline constexpr auto last_of<DiagnosticKind> = underlying(DiagnosticKind::out_o
 template <>
 inline constexpr auto last_of<PairPhase> = underlying(PairPhase::ended);
 
+/// The fewest bytes that a value takes in a recording, or fewer.
+template <typename Value>
+constexpr std::size_t least_size_of() {
+  if constexpr (PlainValue<Value>) {
+    return sizeof(Value);
+  } else if constexpr (requires(Value & value) { fields(value); }) {
+    constexpr auto sum = []<typename... Fields>(const std::tuple<Fields&...>*) {
+      return (least_size_of<Fields>() + ... + std::size_t{0});
+    };
+    return sum(static_cast<decltype(fields(std::declval<Value&>()))*>(nullptr));
+  } else {
+    return 1;
+  }
+}
+
 /// The bytes of positions start at a multiple of this in their chunk, so that they can be viewed in place.
 inline constexpr std::size_t position_alignment = 8;
 
@@ -177,7 +192,7 @@ class ByteSource {
   }
   template <typename Element>
   void read(std::vector<Element>& elements) {
-    elements.resize(read_count(1));
+    elements.resize(read_count(least_size_of<Element>()));
     for (Element& element : elements) read(element);
   }
   template <typename Element, std::size_t count>

@@ -133,6 +133,8 @@ void SceneModel::take(const BindRecord& record) {
   if (object == nullptr) return;
   object->binding = record;
   object->frozen_by.reset();
+  // Until its memory is told, it stands at rest, unless positions of that form are known.
+  if (object->positions.view().is_double() != record.is_double) object->positions.clear();
 }
 
 void SceneModel::take(const MemoryRecord& record) {
@@ -142,11 +144,14 @@ void SceneModel::take(const MemoryRecord& record) {
 void SceneModel::take(const UnbindRecord& record) {
   ModelObject* const object = find(record.object);
   if (object == nullptr) return;
+  const bool has_reason = record.problem != DiagnosticKind::stale_id;
+  // A call that freezes an object as it was before a keyframe gives the reason alone.
+  const bool freezes = object->binding && has_reason && record.positions.size() == 0;
   object->binding.reset();
   if (record.positions.size() > 0) object->positions.take(record.positions);
-  if (!record.is_frozen) return;
-  const bool has_reason = record.problem != DiagnosticKind::stale_id;
+  if (!record.is_frozen && !freezes) return;
   object->frozen_by = UnbindRecord{.object = record.object,
+                                   .is_frozen = true,
                                    .problem = has_reason ? record.problem : DiagnosticKind::not_finite,
                                    .positions = {}};
   object->positions.clear();

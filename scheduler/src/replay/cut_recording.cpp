@@ -20,13 +20,14 @@ class RecordingCut {
         part_(part),
         serials_(part.objects.begin(), part.objects.end()),
         output_(file),
-        encoder_(output_, RecorderSettings().keyframe_interval) {}
+        encoder_(output_, RecorderSettings().keyframe_interval),
+        check_(reader_.new_check()) {}
 
   void run() {
     const std::size_t count = reader_.steps().size();
     const std::size_t last = std::min(part_.last_frame, count - 1);
     std::size_t index = reader_.step_to_begin_at(part_.first_frame);
-    reader_.visit_keyframe(index, payload_, [&](const Record& record) { model_.apply(record); });
+    reader_.visit_keyframe(index, payload_, check_, [&](const Record& record) { model_.apply(record); });
     const bool is_whole = part_.first_frame == 0 && serials_.empty();
     encoder_.write_settings(reader_.settings().settings, reader_.settings().is_cut || !is_whole);
     for (; index <= last; ++index) read_step(index);
@@ -35,25 +36,27 @@ class RecordingCut {
 
  private:
   void read_step(std::size_t index) {
-    reader_.with_chunk(ChunkKind::step, reader_.steps()[index].offset, payload_, [&](ByteSource& source) {
-      StepHead head;
-      source(head);
-      if (head.is_fresh) model_.clear();
-      if (head.has_rows_of_last) head.report.rows = std::move(rows_);
-      rows_ = head.report.rows;
-      records_.clear();
-      count_ = 0;
-      const bool is_first = index == part_.first_frame;
-      if (is_first && !head.is_fresh) model_.rebuild([&](const Record& record) { keep(record); });
-      visit_records(source, head.record_count, [&](const Record& record) {
-        model_.apply(record);
-        keep(record);
-      });
-      if (index < part_.first_frame) return;
-      head.is_fresh = head.is_fresh || is_first;
-      head.dropped_before = is_first ? 0 : head.dropped_before;
-      write_step(std::move(head));
-    });
+    const bool is_first = index == part_.first_frame;
+    StepHead head = reader_.visit_step(
+        index, payload_, check_, [&](StepHead& begun) { begin_step(begun, is_first); },
+        [&](const Record& record) {
+          model_.apply(record);
+          keep(record);
+        });
+    reader_.check_passed(index, payload_);
+    if (index < part_.first_frame) return;
+    head.is_fresh = head.is_fresh || is_first;
+    head.dropped_before = is_first ? 0 : head.dropped_before;
+    write_step(std::move(head));
+  }
+
+  void begin_step(StepHead& head, bool is_first) {
+    if (head.is_fresh) model_.clear();
+    if (head.has_rows_of_last) head.report.rows = std::move(rows_);
+    rows_ = head.report.rows;
+    records_.clear();
+    count_ = 0;
+    if (is_first && !head.is_fresh) model_.rebuild([&](const Record& record) { keep(record); });
   }
 
   void write_step(StepHead head) {
@@ -106,6 +109,7 @@ class RecordingCut {
   std::set<std::uint64_t> serials_;  ///< those to keep; none means all
   FileOutput output_;
   FrameEncoder encoder_;
+  RecordCheck check_;
   SceneModel model_;
   std::vector<RecordedRow> rows_;  ///< of the last step, all of them
   std::set<ObjectId> kept_;        ///< objects that the part has told of

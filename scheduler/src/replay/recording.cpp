@@ -33,10 +33,8 @@ void Recording::check() const {
 }
 
 RecordedFrame Recording::frame(std::size_t index) const {
-  const RecordingReader::Step& step = reader_->steps()[index];
-  StepHead head;
   ByteBuffer payload;
-  reader_->with_chunk(ChunkKind::step, step.offset, payload, [&](ByteSource& source) { source(head); });
+  const StepHead head = reader_->step_head(index, payload);
   const RecordedReport& report = head.report;
   return {.frame = report.frame,
           .tag = report.tag,
@@ -45,7 +43,7 @@ RecordedFrame Recording::frame(std::size_t index) const {
           .contacts = report.contacts,
           .diagnostics = report.diagnostics,
           .dropped_before = head.dropped_before,
-          .has_keyframe = step.keyframe_offset != 0,
+          .has_keyframe = reader_->steps()[index].keyframe_offset != 0,
           .complete = report.complete,
           .step_ms = report.step_ms};
 }

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 #include <graze/error.hpp>
+#include <limits>
+#include <utility>
 
 #include "recording/crc32.hpp"
 
@@ -12,6 +14,7 @@ namespace graze {
 RecordingReader::RecordingReader(const std::filesystem::path& path)
     : name_(path.string()), file_(std::fopen(name_.c_str(), "rb")) {
   if (file_ == nullptr) throw Error(name_ + ": cannot be opened: " + std::strerror(errno));
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // heads are small, and payloads are read as a whole
   std::error_code error;
   size_ = std::filesystem::file_size(path, error);
   if (error) throw Error(name_ + ": has no size: " + error.message());
@@ -49,8 +52,33 @@ bool RecordingReader::read_index() {
   ByteBuffer payload;
   std::vector<IndexEntry> index;
   with_chunk(ChunkKind::index, end.index_offset, payload, [&](ByteSource& source) { source(index); });
-  for (const IndexEntry& entry : index) add(entry);
+  add_indexed(index, end.index_offset);
   return true;
+}
+
+/// Takes up an index that names each chunk of the file, from the first byte to the index itself.
+void RecordingReader::add_indexed(const std::vector<IndexEntry>& index, std::uint64_t index_offset) {
+  std::uint64_t next = FileHead::size;
+  const auto has_end = [&](std::uint64_t offset) {
+    if (offset != next) fail(next, "the index does not name what stands here");
+  };
+  for (const IndexEntry& entry : index) {
+    has_end(entry.offset);
+    const ChunkHead head = head_at(next);
+    if (head.kind != entry.kind || head.number != entry.number)
+      fail(next, "the index names another chunk than the one that stands here");
+    add(entry);
+    next = end_of(head, next);
+  }
+  has_end(index_offset);
+  if (end_of(head_at(next), next) + FileEnd::size != size_) fail(next, "the index is not the last chunk");
+}
+
+/// The place after a chunk.
+std::uint64_t RecordingReader::end_of(const ChunkHead& head, std::uint64_t offset) const {
+  if (head.payload_size > size_ - offset - ChunkHead::size)
+    fail(offset, "the file ends within the " + std::string(name_of(head.kind)) + " chunk");
+  return offset + ChunkHead::size + head.payload_size;
 }
 
 /// Finds the chunks of a file without an index, one after the other, up to the last whole one.
@@ -69,11 +97,41 @@ void RecordingReader::scan() {
   }
 }
 
+/// Adds the next chunk of the file.
 void RecordingReader::add(const IndexEntry& entry) {
+  const bool is_first = entries_.empty();
   entries_.push_back(entry);
-  if (entry.kind == ChunkKind::mesh) meshes_[static_cast<std::uint32_t>(entry.number)] = entry.offset;
-  if (entry.kind == ChunkKind::keyframe) keyframe_offset_ = entry.offset;
-  if (entry.kind == ChunkKind::step) steps_.push_back({entry.offset, std::exchange(keyframe_offset_, 0)});
+  switch (entry.kind) {
+    case ChunkKind::settings:
+      if (!is_first) fail(entry.offset, "the settings stand in the recording twice");
+      return;
+    case ChunkKind::mesh:
+      return add_mesh(entry);
+    case ChunkKind::keyframe:
+      if (keyframe_) fail(keyframe_->offset, "the frame of this keyframe is missing");
+      keyframe_ = entry;
+      return;
+    case ChunkKind::step:
+      return add_step(entry);
+    case ChunkKind::index:
+      fail(entry.offset, "an index stands amid the recording");
+  }
+  fail(entry.offset, "the chunk is of a kind that is not known");
+}
+
+void RecordingReader::add_mesh(const IndexEntry& entry) {
+  if (entry.number > std::numeric_limits<std::uint32_t>::max())
+    fail(entry.offset, "the number of the mesh is too large");
+  if (!meshes_.emplace(static_cast<std::uint32_t>(entry.number), entry.offset).second)
+    fail(entry.offset, "mesh " + std::to_string(entry.number) + " stands in the recording twice");
+}
+
+void RecordingReader::add_step(const IndexEntry& entry) {
+  const auto keyframe = std::exchange(keyframe_, std::nullopt);
+  if (keyframe && keyframe->number != entry.number)
+    fail(keyframe->offset, "the keyframe is of frame " + std::to_string(keyframe->number) + ", and frame " +
+                               std::to_string(entry.number) + " follows");
+  steps_.push_back({entry.offset, keyframe ? keyframe->offset : 0, entry.number, entries_.size() - 1});
 }
 
 void RecordingReader::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
@@ -97,8 +155,7 @@ void RecordingReader::load(ChunkKind kind, std::uint64_t offset, ByteBuffer& pay
   if (head.kind != kind)
     fail(offset,
          std::string("there is a chunk of another kind than the ") + name_of(kind) + " that is expected");
-  if (head.payload_size > size_ - offset - ChunkHead::size)
-    fail(offset, "the file ends within the " + std::string(name_of(kind)) + " chunk");
+  (void)end_of(head, offset);
   payload.clear();
   const std::span<std::byte> bytes = payload.grow(static_cast<std::size_t>(head.payload_size));
   read_at(offset + ChunkHead::size, bytes);
@@ -135,14 +192,37 @@ void RecordingReader::load_mesh(std::uint32_t number, ByteBuffer& chunk) const {
   seal_chunk(chunk, ChunkKind::mesh, number);
 }
 
-/// Reads every chunk, and every byte between the chunks counts as damaged.
+StepHead RecordingReader::step_head(std::size_t step, ByteBuffer& payload) const {
+  StepHead head;
+  with_chunk(ChunkKind::step, steps_[step].offset, payload, [&](ByteSource& source) { source(head); });
+  return head;
+}
+
+void RecordingReader::check_keyframe(std::size_t step, ByteBuffer& payload) const {
+  RecordCheck check = new_check();
+  visit_keyframe(step, payload, check, [](const Record&) {});
+}
+
+void RecordingReader::check_passed(std::size_t step, ByteBuffer& payload) const {
+  const std::size_t begin = step == 0 ? 0 : steps_[step - 1].entry + 1;
+  const std::size_t end = step + 1 == steps_.size() ? entries_.size() : steps_[step].entry;
+  for (std::size_t at = begin; at < end; ++at) {
+    const IndexEntry& entry = entries_[at];
+    if (entry.kind != ChunkKind::step) load(entry.kind, entry.offset, payload);
+  }
+  if (steps_[step].keyframe_offset != 0) check_keyframe(step, payload);
+}
+
 void RecordingReader::check_all() const {
   ByteBuffer payload;
-  std::uint64_t next = FileHead::size;
-  for (const IndexEntry& entry : entries_) {
-    if (entry.offset != next) fail(next, "the index does not name what stands here");
-    load(entry.kind, entry.offset, payload);
-    next = entry.offset + ChunkHead::size + payload.size();
+  if (steps_.empty())
+    for (const IndexEntry& entry : entries_) load(entry.kind, entry.offset, payload);
+  RecordCheck check = new_check();
+  const auto ignore = [](const auto&) {};
+  for (std::size_t step = 0; step < steps_.size(); ++step) {
+    check_passed(step, payload);
+    if (step == 0) visit_keyframe(step_to_begin_at(0), payload, check, ignore);
+    (void)visit_step(step, payload, check, ignore, ignore);
   }
 }
 
@@ -151,7 +231,7 @@ std::string RecordingReader::place_of(ChunkKind kind, std::uint64_t offset) cons
 }
 
 void RecordingReader::fail(std::uint64_t offset, const std::string& what) const {
-  throw Error(name_ + ": byte " + std::to_string(offset) + ": " + what);
+  throw PlacedError(name_ + ": byte " + std::to_string(offset) + ": " + what);
 }
 
 }  // namespace graze

@@ -8,6 +8,7 @@
 #include "recording/recorded_rows.hpp"
 #include "replay/recording_reader.hpp"
 #include "replay/replayed_scene.hpp"
+#include "replay/row_comparison.hpp"
 #include "step/scene_state.hpp"
 
 namespace graze {
@@ -57,6 +58,7 @@ class Replay::State {
   ReportHandle report;
   std::optional<ReplayDifference> difference;
   std::size_t rows_not_compared = 0;
+  std::size_t rows_compared_in_part = 0;
   std::vector<ReplayObject> objects;
   std::unique_ptr<ReplayedScene> played;
 
@@ -64,21 +66,20 @@ class Replay::State {
   void begin_scene(bool knows_history);
   void take_expected(StepHead& head);
   void compare();
-  [[nodiscard]] bool is_comparable(const RecordedRow& row) const;
-  [[nodiscard]] bool are_equal(const RecordedRow& recorded, const RecordedRow& replayed) const;
   [[nodiscard]] bool is_recorded(const RecordedRow& row) const;
   void compare_rows();
+  void compare_row(const RecordedRow* recorded, const RecordedRow* replayed);
   void compare_diagnostics();
   void tell(const RecordedRow* recorded, const RecordedRow* replayed);
 
   const RecordingReader& reader_;
   ReplaySettings settings_;
   std::size_t next_ = 0;  ///< the index of the next step
+  RecordCheck check_;
   std::unique_ptr<Scene> scene_;
   /// The scene has gone through all that the recorded one did, so phases, ages, stale rows and diagnostics
   /// are as they were there.
   bool knows_history_ = false;
-  bool has_time_budget_ = false;
   RecordedReport expected_;
   std::set<std::pair<ObjectId, ObjectId>> recorded_pairs_;  ///< of `expected_`
   RecordedReport found_;
@@ -86,7 +87,7 @@ class Replay::State {
 };
 
 Replay::State::State(const RecordingReader& reader, const ReplaySettings& settings)
-    : reader_(reader), settings_(settings), has_time_budget_(reader.settings().settings.time_budget) {
+    : reader_(reader), settings_(settings), check_(reader.new_check()) {
   const std::size_t count = reader.steps().size();
   if (count == 0) throw Error("the recording has no frame");
   if (settings.first_frame >= count)
@@ -94,11 +95,12 @@ Replay::State::State(const RecordingReader& reader, const ReplaySettings& settin
                 std::to_string(settings.first_frame));
   next_ = reader.step_to_begin_at(settings.first_frame);
   begin_scene(false);
-  reader.visit_keyframe(next_, payload_, [&](const Record& record) { played->apply(record); });
+  reader.visit_keyframe(next_, payload_, check_, [&](const Record& record) { played->apply(record); });
   while (next_ < settings.first_frame) (void)step();
 }
 
 void Replay::State::begin_scene(bool knows_history) {
+  scene_.reset();  // before the memory that it is bound to
   played.reset();
   scene_ = std::make_unique<Scene>(replayed_settings(reader_.settings().settings, settings_));
   played = std::make_unique<ReplayedScene>(reader_, *scene_, scene_->state_->staging);
@@ -109,14 +111,15 @@ bool Replay::State::step() {
   if (next_ == reader_.steps().size()) return false;
   index = next_++;
   played->forget_removed();
-  reader_.with_chunk(ChunkKind::step, reader_.steps()[index].offset, payload_, [&](ByteSource& source) {
-    StepHead head;
-    source(head);
-    // A recording that begins with a scene's first step knows all that came before: nothing.
-    if (head.is_fresh) begin_scene(head.report.frame == 1 && !reader_.settings().is_cut);
-    visit_records(source, head.record_count, [&](const Record& record) { played->apply(record); });
-    take_expected(head);
-  });
+  (void)reader_.visit_step(
+      index, payload_, check_,
+      [&](StepHead& head) {
+        // A recording that begins with a scene's first step knows all that came before: nothing.
+        if (head.is_fresh) begin_scene(head.report.frame == 1 && !reader_.settings().is_cut);
+        take_expected(head);
+      },
+      [&](const Record& record) { played->apply(record); });
+  reader_.check_passed(index, payload_);
   report = scene_->step(expected_.tag);
   objects = played->objects();
   compare();
@@ -131,7 +134,7 @@ void Replay::State::take_expected(StepHead& head) {
 
 void Replay::State::compare() {
   difference.reset();
-  rows_not_compared = 0;
+  rows_not_compared = rows_compared_in_part = 0;
   summarize(*report, found_);
   for (RecordedRow& row : found_.rows) {
     row.a = played->recorded_id(row.a);
@@ -143,18 +146,6 @@ void Replay::State::compare() {
   if (!difference) compare_diagnostics();
 }
 
-/// Whether the replay can know what the row says.
-bool Replay::State::is_comparable(const RecordedRow& row) const {
-  if (has_time_budget_ && !row.complete && !row.contacts_cut) return false;
-  return knows_history_ || (!row.stale && row.phase != PairPhase::ended);
-}
-
-bool Replay::State::are_equal(const RecordedRow& recorded, const RecordedRow& replayed) const {
-  const bool has_history = knows_history_ && !has_time_budget_;
-  return recorded.answer_hash == replayed.answer_hash &&
-         (!has_history || recorded.history_hash == replayed.history_hash);
-}
-
 bool Replay::State::is_recorded(const RecordedRow& row) const {
   return recorded_pairs_.contains({row.a, row.b});
 }
@@ -162,16 +153,32 @@ bool Replay::State::is_recorded(const RecordedRow& row) const {
 /// Both reports list pairs in the same order, so the first row that differs is found by going through both.
 void Replay::State::compare_rows() {
   std::size_t at = 0;
+  const auto compare_others = [&] {
+    while (at < found_.rows.size() && !is_recorded(found_.rows[at])) compare_row(nullptr, &found_.rows[at++]);
+  };
   for (const RecordedRow& recorded : expected_.rows) {
-    if (at < found_.rows.size() && !is_recorded(found_.rows[at])) return tell(nullptr, &found_.rows[at]);
+    compare_others();
     const bool is_there = at < found_.rows.size() && are_of_one_pair(found_.rows[at], recorded);
-    const RecordedRow* const replayed = is_there ? &found_.rows[at++] : nullptr;
-    if (!is_comparable(recorded))
-      ++rows_not_compared;
-    else if (!is_there || !are_equal(recorded, *replayed))
-      return tell(&recorded, replayed);
+    compare_row(&recorded, is_there ? &found_.rows[at++] : nullptr);
   }
-  if (at < found_.rows.size()) tell(nullptr, &found_.rows[at]);
+  compare_others();
+  if (at < found_.rows.size()) tell(nullptr, &found_.rows[at]);  // a recorded pair, in another order
+}
+
+void Replay::State::compare_row(const RecordedRow* recorded, const RecordedRow* replayed) {
+  const RowComparison comparison(reader_.settings().settings, knows_history_);
+  switch (comparison.compare(recorded, replayed, played->least_range())) {
+    case RowVerdict::same:
+      return;
+    case RowVerdict::holds:
+      ++rows_compared_in_part;
+      return;
+    case RowVerdict::not_compared:
+      ++rows_not_compared;
+      return;
+    case RowVerdict::differs:
+      tell(recorded, replayed);
+  }
 }
 
 void Replay::State::compare_diagnostics() {
@@ -184,7 +191,9 @@ void Replay::State::compare_diagnostics() {
                                 std::to_string(found_.diagnostics) + " diagnostics"};
 }
 
+/// Tells of the first difference of a step.
 void Replay::State::tell(const RecordedRow* recorded, const RecordedRow* replayed) {
+  if (difference) return;
   const RecordedRow& row = recorded != nullptr ? *recorded : *replayed;
   difference = ReplayDifference{expected_.frame, played->name_of(row.a) + " and " + played->name_of(row.b),
                                 line_of(recorded), line_of(replayed)};
@@ -208,6 +217,9 @@ const std::optional<ReplayDifference>& Replay::difference() const {
 }
 std::size_t Replay::rows_not_compared() const {
   return state_->rows_not_compared;
+}
+std::size_t Replay::rows_compared_in_part() const {
+  return state_->rows_compared_in_part;
 }
 std::span<const ReplayObject> Replay::objects() const {
   return state_->objects;

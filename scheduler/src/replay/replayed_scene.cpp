@@ -1,6 +1,6 @@
 #include "replay/replayed_scene.hpp"
 
-#include <graze/error.hpp>
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -88,8 +88,6 @@ void ReplayedScene::forget_removed() {
 // ---- What it is given
 
 void ReplayedScene::take(const AddRecord& record) {
-  if (recorded_.contains(record.object) || objects_.contains(record.serial))
-    throw Error("an object is added twice");
   Object object;
   object.recorded = record.object;
   object.object = {{}, record.serial, reader_.mesh(record.mesh), record.settings};
@@ -145,14 +143,10 @@ void ReplayedScene::take(const BindRecord& record) {
 
 /// The memory stays where it is, since a binding has made room for positions of its form.
 void ReplayedScene::take(const MemoryRecord& record) {
-  Object* const object = find(record.object);
-  if (object == nullptr) return;
-  const PositionView before = object->positions.view();
-  if (before.size() != record.positions.size() || before.is_double() != record.positions.is_double())
-    throw Error("memory is of another form than its binding");
-  object->positions.take(record.positions);
+  if (Object* const object = find(record.object)) object->positions.take(record.positions);
 }
 
+/// Positions of another form than before come only where there is no binding, and say nothing then.
 void ReplayedScene::take(const UnbindRecord& record) {
   Object* const object = find(record.object);
   if (object == nullptr) return;
@@ -162,6 +156,11 @@ void ReplayedScene::take(const UnbindRecord& record) {
   if (record.positions.size() > 0 && has_form) object->positions.take(record.positions);
   if (record.problem != DiagnosticKind::stale_id) object->positions.fill(bad_coordinate(record.problem));
   scene_.unbind_positions(object->object.id);
+}
+
+void ReplayedScene::take(const SetRule& record) {
+  least_range_ = std::min(least_range_, record.rule.range);
+  scene_.set_rule(record.kind_a, record.kind_b, record.rule);
 }
 
 void ReplayedScene::take(const PositionsChanged& record) {

@@ -14,18 +14,21 @@
 
 namespace graze {
 
-/// A scene that is given what records tell. Ids of the recording become ids of this scene.
+/// A scene that is given what records tell, which have passed RecordCheck. So the scene takes all of it up,
+/// and what is kept here of an object is what the scene has. Ids of the recording become ids of this scene.
 class ReplayedScene {
  public:
   /// `staging` is that of `scene`.
   ReplayedScene(const RecordingReader& reader, Scene& scene, Staging& staging)
-      : reader_(reader), scene_(scene), staging_(staging) {}
+      : reader_(reader), scene_(scene), staging_(staging), least_range_(scene.settings().range) {}
 
   void apply(const Record& record) {
     std::visit([this](const auto& one) { take(one); }, record);
   }
   /// The recorded id of an object of this scene, also of one that the last step removed.
   [[nodiscard]] ObjectId recorded_id(ObjectId id) const;
+  /// The least range that a pair has had so far. A pair below it is listed.
+  [[nodiscard]] double least_range() const { return least_range_; }
   /// A name for people of an object, by its recorded id.
   [[nodiscard]] std::string name_of(ObjectId recorded) const;
   /// The objects, in the order of addition.
@@ -60,13 +63,14 @@ class ReplayedScene {
   void take(const PositionsChanged& record);
   void take(const IgnorePair& record);
   void take(const IgnoreGroups& record);
-  void take(const SetRule& record) { scene_.set_rule(record.kind_a, record.kind_b, record.rule); }
+  void take(const SetRule& record);
   void take(const Reserve&) {}  // memory is no part of an answer
   void take(const Diagnostic& record);
 
   const RecordingReader& reader_;
   Scene& scene_;
   Staging& staging_;
+  double least_range_;
   std::map<std::uint64_t, Object> objects_;               ///< by serial
   std::unordered_map<ObjectId, std::uint64_t> recorded_;  ///< serials, by recorded id
   std::unordered_map<ObjectId, std::uint64_t> replayed_;  ///< serials, by the id in this scene

@@ -16,6 +16,7 @@
 #include "recording/commands.hpp"
 #include "recording/frame_range.hpp"
 #include "recording/named_object.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -57,14 +58,18 @@ RecordingPart part_of(const Recording& recording, const CutOptions& options) {
 void print_answer(const std::string& file) {
   const Recording recording(file);
   Replay replay(recording);
-  while (replay.step())
+  RowsLeftOut left_out;
+  while (replay.step()) {
+    left_out.add(replay);
     if (const auto& difference = replay.difference()) {
       say("a replay differs in frame %zu: %s\n  recorded  %s\n  replayed  %s\n", replay.frame_index(),
           io::printable(difference->pair).c_str(), io::printable(difference->recorded).c_str(),
           io::printable(difference->replayed).c_str());
       return;
     }
-  say("a replay answers as it was recorded\n");
+  }
+  left_out.print();
+  say("a replay answers as it was recorded%s\n", left_out.reservation().c_str());
 }
 
 void cut(const CutOptions& options) {
@@ -72,6 +77,7 @@ void cut(const CutOptions& options) {
   outputs.add("-o", options.output);
   outputs.check_inputs(std::vector<std::filesystem::path>{options.file});
   const Recording recording(options.file);
+  note_unfinished(recording, options.file);
   cut_recording(recording, part_of(recording, options), options.output);
   const Recording part(options.output);
   say("%s: %zu of %zu frames, %llu of %llu bytes\n", options.output.c_str(), part.frame_count(),

@@ -20,6 +20,7 @@
 #include "recording/best_frame.hpp"
 #include "recording/commands.hpp"
 #include "recording/frame_range.hpp"
+#include "recording/recording_notes.hpp"
 #include "recording/snapshot_reader.hpp"
 
 namespace graze::tools {
@@ -152,6 +153,7 @@ void export_recording(const ExportOptions& options) {
     }
   }
   exports.close();
+  note_unfinished(recording, options.file);
   if (!reader.is_as_recorded())
     say_aside("note", "the replay differs from the recording; graze replay " + options.file + " says where");
 }

@@ -10,6 +10,7 @@
 #include "output/terminal.hpp"
 #include "output/text.hpp"
 #include "recording/commands.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -74,7 +75,7 @@ void inform(const std::string& file) {
   recording.check();
   say("%s: %zu frames, %llu bytes, recorded by graze %s%s%s\n", file.c_str(), recording.frame_count(),
       number(recording.byte_count()), io::printable(recording.made_by()).c_str(),
-      recording.is_finished() ? "" : ", not finished", recording.is_cut() ? ", begins amid a run" : "");
+      unfinished_text(recording).c_str(), recording.is_cut() ? ", begins amid a run" : "");
   print_settings(recording.settings());
   print_frames(recording);
   print_objects(recording);

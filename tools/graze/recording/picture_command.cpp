@@ -13,6 +13,7 @@
 #include "recording/best_frame.hpp"
 #include "recording/commands.hpp"
 #include "recording/named_object.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -63,6 +64,7 @@ void draw(const PictureOptions& options) {
   outputs.add_picture("-o", options.output);
   outputs.check_inputs(std::vector<std::filesystem::path>{options.file});
   const Recording recording(options.file);
+  note_unfinished(recording, options.file);
   const std::size_t frame = options.frame ? *options.frame : best_frame(recording);
   if (options.lines && recording.settings().region_distances == 0)
     throw io::InputError("--lines: the recorded scene has no region_distances, so it has no lines to draw");

@@ -14,6 +14,7 @@
 #include "output/text.hpp"
 #include "progress.hpp"
 #include "recording/commands.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -51,27 +52,25 @@ void replay(const ReplayOptions& options) {
   Replay replayed(recording, {.threads = options.threads, .first_frame = options.first_frame});
   std::size_t compared = 0;
   std::size_t differing = 0;
-  std::size_t rows_not_compared = 0;
+  RowsLeftOut left_out;
   std::optional<ReplayDifference> first;
   std::size_t first_index = 0;
   Progress progress("frame", recording.frame_count());
   while (replayed.step()) {
     progress.at(replayed.frame_index());
     ++compared;
-    rows_not_compared += replayed.rows_not_compared();
+    left_out.add(replayed);
     if (!replayed.difference()) continue;
     ++differing;
     if (first) continue;
     first = replayed.difference();
     first_index = replayed.frame_index();
   }
-  say("%s: %zu frames, recorded by graze %s\n", options.file.c_str(), recording.frame_count(),
-      io::printable(recording.made_by()).c_str());
-  if (rows_not_compared > 0)
-    say("not compared: %zu rows that a time budget cut short, or that depend on earlier frames\n",
-        rows_not_compared);
+  say("%s: %zu frames, recorded by graze %s%s\n", options.file.c_str(), recording.frame_count(),
+      io::printable(recording.made_by()).c_str(), unfinished_text(recording).c_str());
+  left_out.print();
   if (!first) {
-    say("%zu frames answered again, all the same\n", compared);
+    say("%zu frames answered again, all the same%s\n", compared, left_out.reservation().c_str());
     return;
   }
   say("DIVERGED in %zu of %zu frames, first in frame %zu: %s\n  recorded  %s\n  replayed  %s\n", differing,

@@ -14,6 +14,7 @@
 #include "page_output.hpp"
 #include "progress.hpp"
 #include "recording/commands.hpp"
+#include "recording/recording_notes.hpp"
 
 namespace graze::tools {
 namespace {
@@ -93,6 +94,7 @@ void view(const ViewOptions& options) {
     if (replay.difference()) ++differing;
   }
   say("page      %s\n", page.close().c_str());
+  note_unfinished(recording, options.file);
   if (differing > 0)
     say("DIVERGED in %zu of %zu frames; the page marks them, and graze replay names the first\n", differing,
         recording.frame_count());
