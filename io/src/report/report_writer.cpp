@@ -2,7 +2,6 @@
 #include <fstream>
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
-#include <graze/io/scene_file.hpp>
 
 #include "report/report_fields.hpp"
 #include "text/json_text.hpp"
