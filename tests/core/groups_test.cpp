@@ -22,6 +22,7 @@
 #include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/exact_distance.hpp"
 #include "support/oracle_features.hpp"
 #include "support/random_scenes.hpp"
@@ -31,10 +32,6 @@ namespace {
 
 using oracle::Random;
 using oracle::Shape;
-
-constexpr std::array<ContactDetail, 6> all_details = {ContactDetail::none,     ContactDetail::closest,
-                                                      ContactDetail::regions,  ContactDetail::vertices,
-                                                      ContactDetail::features, ContactDetail::nearest};
 
 using Groups = std::vector<std::uint8_t>;
 
