@@ -22,8 +22,7 @@
 #include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
-#include "support/exact_distance.hpp"
-#include "support/oracle_features.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -31,10 +30,6 @@ namespace {
 
 using oracle::Random;
 using oracle::Shape;
-
-constexpr std::array<ContactDetail, 6> all_details = {ContactDetail::none,     ContactDetail::closest,
-                                                      ContactDetail::regions,  ContactDetail::vertices,
-                                                      ContactDetail::features, ContactDetail::nearest};
 
 using Groups = std::vector<std::uint8_t>;
 
@@ -78,106 +73,6 @@ Grouping random_grouping(Random& random, const Shape& a, const Shape& b) {
   return grouping;
 }
 
-/// The contacts of `nearest` by brute force: of each vertex the closest point on the faces that it is looked
-/// at with, edges that no such face leads nearer, and what pierces.
-class NearestContacts {
- public:
-  NearestContacts(const Shape& a, const Shape& b, double threshold, const oracle::FacePairs& pairs)
-      : a_(a), b_(b), limit_(oracle::Limit::below(threshold)), pairs_(pairs) {
-    add_vertices();
-    add_edges();
-    for (const auto& [name, contact] : oracle::collect_features(a_, b_, oracle::Limit::below(0), pairs))
-      if (contact.pierced) contacts_.try_emplace(name, contact);
-  }
-  [[nodiscard]] std::vector<oracle::Named> all() const { return oracle::rounded(contacts_); }
-
- private:
-  static Feature face_feature(std::uint32_t face) { return {FeatureKind::face, face}; }
-
-  /// The closest point on the faces for which `may(face)` holds.
-  template <typename May>
-  [[nodiscard]] std::optional<oracle::Foot> foot_of(const oracle::Point& point,
-                                                    const oracle::ExactShape& other, const May& may) const {
-    std::optional<oracle::Foot> best;
-    for (std::uint32_t face = 0; face < other.faces.size(); ++face) {
-      if (!may(face_feature(face))) continue;
-      oracle::Foot foot = oracle::foot_on_face(point, other, face);
-      if (!limit_.admits(foot.distance_squared)) continue;
-      const int order = best ? cmp(foot.distance_squared, best->distance_squared) : -1;
-      if (order < 0 || (order == 0 && foot.feature < best->feature)) best = std::move(foot);
-    }
-    return best;
-  }
-  void add_vertices() {
-    for (const std::uint32_t vertex : a_.used) {
-      const Feature of_a{FeatureKind::vertex, vertex};
-      if (const auto foot =
-              foot_of(a_.points[vertex], b_, [&](const Feature& face) { return pairs_.may(of_a, face); }))
-        contacts_.try_emplace(oracle::name_of(of_a, foot->feature),
-                              oracle::ExactContact{foot->distance_squared, a_.points[vertex], foot->point});
-    }
-    for (const std::uint32_t vertex : b_.used) {
-      const Feature of_b{FeatureKind::vertex, vertex};
-      if (const auto foot =
-              foot_of(b_.points[vertex], a_, [&](const Feature& face) { return pairs_.may(face, of_b); }))
-        contacts_.try_emplace(oracle::name_of(foot->feature, of_b),
-                              oracle::ExactContact{foot->distance_squared, foot->point, b_.points[vertex]});
-    }
-  }
-
-  /// Whether no face with `edge` for which `may(face)` holds comes nearer along `way`, square to the edge.
-  template <typename May>
-  static bool is_locally_closest(const oracle::ExactShape& shape, const oracle::Segment& edge,
-                                 const oracle::Point& way, const May& may) {
-    for (std::uint32_t face = 0; face < shape.faces.size(); ++face) {
-      if (!may(face_feature(face))) continue;
-      for (const oracle::Triangle& triangle : shape.faces[face].triangles)
-        for (int side = 0; side < 3; ++side) {
-          const auto corner = [&](int i) {
-            return triangle.corners[static_cast<std::size_t>((side + i) % 3)];
-          };
-          const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(corner(0), corner(1));
-          if (side == triangle.inner_side || ends != std::pair(edge.ends[0], edge.ends[1])) continue;
-          // `way` is square to the edge, so what is along the edge does not count.
-          if (dot(shape.points[corner(2)] - shape.points[ends.first], way) > 0) return false;
-        }
-    }
-    return true;
-  }
-  void add_edges() {
-    for (const oracle::Segment& edge_a : a_.edges())
-      for (const oracle::Segment& edge_b : b_.edges()) {
-        if (!pairs_.may(edge_a.owner, edge_b.owner)) continue;
-        const auto contact = oracle::inner_contact(a_, edge_a, b_, edge_b);
-        if (!contact || !limit_.admits(contact->a.distance_squared)) continue;
-        const oracle::Point way = contact->b.point - contact->a.point;
-        const oracle::Point back = contact->a.point - contact->b.point;
-        if (is_locally_closest(a_, edge_a, way,
-                               [&](const Feature& face) { return pairs_.may(face, edge_b.owner); }) &&
-            is_locally_closest(b_, edge_b, back,
-                               [&](const Feature& face) { return pairs_.may(edge_a.owner, face); }))
-          contacts_.try_emplace(
-              oracle::name_of(edge_a.owner, edge_b.owner),
-              oracle::ExactContact{contact->a.distance_squared, contact->a.point, contact->b.point});
-      }
-  }
-
-  oracle::ExactShape a_;
-  oracle::ExactShape b_;
-  oracle::Limit limit_;
-  const oracle::FacePairs& pairs_;
-  oracle::ExactContacts contacts_;
-};
-
-/// The answer of brute force about features that are looked at.
-Expected expected_with(const oracle::FacePairs& pairs, const Shape& a, const Shape& b, double threshold,
-                       ContactDetail detail, const Shape& rest_a, const Shape& rest_b) {
-  if (detail != ContactDetail::nearest) return expected_of(a, b, threshold, detail, rest_a, rest_b, pairs);
-  Expected expected = expected_of(a, b, threshold, ContactDetail::none, rest_a, rest_b, pairs);
-  expected.contacts = NearestContacts(a, b, threshold, pairs).all();
-  return expected;
-}
-
 /// Describes how an answer differs from brute force; empty if it does not.
 std::string difference_of(ContactDetail detail, const PairAnswer& answer, const Expected& expected,
                           const Tolerance& tolerance) {
@@ -211,7 +106,7 @@ void check_scene(std::uint64_t seed, const Shape& a, const Shape& b, double thre
     PairQuery query = query_of(detail, threshold);
     query.groups = &filter;
     const PairAnswer answer = detect(surface_a, surface_b, query);
-    const Expected expected = expected_with(pairs, a, b, threshold, detail, a, b);
+    const Expected expected = expected_of(a, b, threshold, detail, a, b, pairs);
     INFO("seed " << seed << ", detail " << static_cast<int>(detail));
     REQUIRE(difference_of(detail, answer, expected, {a, b}) == "");
     met.contacts += answer.contacts.size();
@@ -259,7 +154,7 @@ void play(std::uint64_t seed, const oracle::RandomScene& scene, const Grouping& 
       if (step > 0) now = mapped(now, 1, step % 2 == 0 ? way : Eigen::Vector3d(0, 0.03125, 0));
       move_to(b, now, step % 2 == 0);
       detector.detect(a, b, query, front, answer, counters);
-      const Expected expected = expected_with(pairs, scene.a, now, scene.threshold, detail, scene.a, scene.b);
+      const Expected expected = expected_of(scene.a, now, scene.threshold, detail, scene.a, scene.b, pairs);
       INFO("seed " << seed << ", detail " << static_cast<int>(detail) << ", step " << step);
       REQUIRE(difference_of(detail, answer, expected, {scene.a, now}) == "");
       contacts += answer.contacts.size();

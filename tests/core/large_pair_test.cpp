@@ -19,6 +19,7 @@
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -87,8 +88,10 @@ struct Motion {
 
 }  // namespace
 
+static_assert(all_details.size() == 6, "add the number of a new detail to each list of numbers here");
+
 TEMPLATE_TEST_CASE_SIG("large pair: slices give the answer of the whole, detail", "", ((int number), number),
-                       0, 1, 2, 3, 4) {
+                       0, 1, 2, 3, 4, 5) {
   const FloatingPointScope scope;
   const auto detail = static_cast<ContactDetail>(number);
   const oracle::Shape ball = shape_of(models::sphere(120, 80));

@@ -19,6 +19,7 @@
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 #include "support/real.hpp"
 
@@ -144,8 +145,7 @@ TEST_CASE("last witness: what an earlier step left does not show in an answer") 
                        Moves{"sphere and soup", sphere, mapped(random_soup(7, 30, 40), 0.5, {0, 0, 0})}};
   std::size_t witnesses = 0;
   for (const Moves& moves : all)
-    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::vertices,
-                                       ContactDetail::regions, ContactDetail::features}) {
+    for (const ContactDetail detail : all_details) {
       Surface a = surface_of(moves.a);
       Surface b = surface_of(moves.b);
       LeafFront front;

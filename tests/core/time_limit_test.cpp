@@ -14,6 +14,7 @@
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -79,14 +80,11 @@ std::size_t count_cut_short(ContactDetail detail, const Shape& rest, const Detec
   return cut;
 }
 
-constexpr std::array details{ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                             ContactDetail::vertices, ContactDetail::features};
-
 }  // namespace
 
 TEST_CASE("time limit: a query that was cut short does not show in the next answers") {
   const Shape ball = shape_of(models::sphere(24, 15));
-  for (const ContactDetail detail : details) {
+  for (const ContactDetail detail : all_details) {
     PairDetector detector;
     const std::size_t cut = count_cut_short(
         detail, ball, [&](const Surface& a, const Surface& b, const PairQuery& query, LeafFront& front) {
@@ -101,7 +99,7 @@ TEST_CASE("time limit: a query that was cut short does not show in the next answ
 
 TEST_CASE("time limit: nor does one of a pair that is cut into slices") {
   const Shape ball = shape_of(models::sphere(48, 31));
-  for (const ContactDetail detail : details) {
+  for (const ContactDetail detail : all_details) {
     std::array<PairDetector, 2> detectors;
     LargePair large;
     const std::size_t cut = count_cut_short(

@@ -15,6 +15,7 @@
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -98,7 +99,7 @@ TEST_CASE(
                        Meeting{"soup and ball", random_soup(7, 60, 80), ball, 0.01}};
   Tally sum;
   for (const Meeting& meeting : all)
-    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features})
+    for (const ContactDetail detail : surface_details)
       for (const double threshold : {0.0, 0.02})
         for (const auto& [reach, slack, leaf_test_slack] :
              {std::array{infinity, 0.25, 0.0}, {0.3, 0.25, 0.1}, {infinity, 1e-3, 0.01}}) {

@@ -14,6 +14,7 @@
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -27,9 +28,6 @@ PairQuery within(ContactDetail detail, double threshold, double tolerance) {
   query.tolerance = tolerance;
   return query;
 }
-
-constexpr std::array all_details{ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                                 ContactDetail::vertices, ContactDetail::features};
 
 void check_answer(const PairAnswer& answer, const PairAnswer& exact, double tolerance) {
   CHECK(answer.in_contact == exact.in_contact);

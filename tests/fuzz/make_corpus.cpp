@@ -2,8 +2,10 @@
 // each target; of assimp's test models the small ones of our formats are taken.
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
+#include <graze/enumerators.hpp>
 #include <graze/graze.hpp>
 #include <graze/io/report_json.hpp>
 #include <graze/recorder.hpp>
@@ -95,14 +97,15 @@ std::vector<std::string> mesh_texts(MeshFormat format) {
 
 /// Writes seeds with the reports about a few moving objects, at every detail.
 void write_reports(Seeds& seeds) {
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                                     ContactDetail::vertices, ContactDetail::features}) {
+  for (const ContactDetail detail : enumerators<ContactDetail>) {
     SceneSettings settings;
     settings.contact_distance = 0.25;
     settings.range = detail == ContactDetail::none ? std::numeric_limits<double>::infinity() : 2;
     settings.detail = detail;
     if (detail == ContactDetail::regions) settings.accuracy = Accuracy::paper({1, 0.5});
     if (detail == ContactDetail::closest) settings.work_budget = 3;
+    if (detail == ContactDetail::nearest) settings.max_contacts = 4;
+    if (detail == ContactDetail::features) settings.max_contacts_per_pair = 2;
     settings.threads = 1;
     Scene scene(settings);
     std::vector<io::SceneObject> objects;
@@ -125,15 +128,24 @@ void write_reports(Seeds& seeds) {
   }
 }
 
+/// A tetrahedron of this size.
+std::shared_ptr<const Mesh> solid_mesh(double size) {
+  const std::vector<Eigen::Vector3d> rest = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
+  const std::vector<std::array<std::uint32_t, 3>> faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return std::make_shared<const Mesh>(Mesh::from_triangles(rest, faces));
+}
+
 /// Writes seeds with recordings of a few objects that are moved in every way, one of them badly.
 void write_recordings(Seeds& seeds) {
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features}) {
+  for (const ContactDetail detail : enumerators<ContactDetail>) {
     SceneSettings settings;
     settings.contact_distance = 0.25;
     settings.range = 2;
     settings.detail = detail;
     settings.threads = 1;
     if (detail == ContactDetail::none) settings.region_distances = 16;
+    if (detail == ContactDetail::nearest) settings.max_contacts = 4;
+    if (detail == ContactDetail::features) settings.max_contacts_per_pair = 2;
     std::vector<Eigen::Vector3d> bound(4, Eigen::Vector3d(0, 0.125, 0));
     const std::vector<Eigen::Vector3f> copied(3, Eigen::Vector3f(0.5F, 0, 0));
     Scene scene(settings);
@@ -141,12 +153,15 @@ void write_recordings(Seeds& seeds) {
     const ObjectId first = scene.add(report_mesh(3, 2), {.name = "first"});
     const ObjectId second = scene.add(report_mesh(4, 2), {.margin = 0.5, .kind = 2});
     const ObjectId third = scene.add(report_mesh(5, 2), {.motion = Motion::rigid});
+    const ObjectId fourth = scene.add(solid_mesh(1), {.solid = true, .face_groups = {0, 1, 1, 0}});
     scene.set_rule(0, 2, {0.5, 3, {}});
+    scene.ignore(first, 0, fourth, 1);
     scene.bind_positions(second, bound);
     (void)scene.step(7);
     scene.set_positions(first, copied, 0.5);
     scene.set_pose_rows(third, {1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0});
     scene.ignore(first, third);
+    scene.replace_mesh(fourth, solid_mesh(0.5), std::vector<std::uint32_t>{1, 0, Mesh::no_vertex, 3});
     (void)scene.step();
     bound[1].x() = std::numeric_limits<double>::infinity();
     scene.set_pose_rows(third, {2, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0});
@@ -222,8 +237,8 @@ void make_corpus(const std::filesystem::path& corpus, const std::filesystem::pat
   Seeds pair_seeds(corpus, "pair");
   for (std::uint64_t seed = 0; seed < 240; ++seed) {
     const oracle::RandomScene scene = oracle::random_scene(seed);
-    pair_seeds.add(
-        pair_case_bytes({scene.a, scene.b, scene.threshold}, static_cast<ContactDetail>(seed / 8 % 5)));
+    constexpr auto details = enumerators<ContactDetail>;
+    pair_seeds.add(pair_case_bytes({scene.a, scene.b, scene.threshold}, details[seed / 8 % details.size()]));
   }
   Seeds step_seeds(corpus, "scene_steps");
   for (std::uint64_t seed = 0; seed < 60; ++seed) step_seeds.add_random(1000 + seed, 200 + 20 * seed);

@@ -1,7 +1,7 @@
 #include "pair_case.hpp"
 
-#include <array>
 #include <cmath>
+#include <graze/enumerators.hpp>
 #include <limits>
 
 namespace graze::fuzz {
@@ -9,9 +9,6 @@ namespace {
 
 constexpr std::uint32_t most_vertices = 24;
 constexpr std::uint32_t most_faces = 12;
-constexpr std::array details = {ContactDetail::none,     ContactDetail::closest,  ContactDetail::regions,
-                                ContactDetail::vertices, ContactDetail::features, ContactDetail::nearest};
-constexpr std::array detail_names = {"none", "closest", "regions", "vertices", "features", "nearest"};
 
 enum class Numbers : std::uint8_t { coarse, fine, any };
 constexpr double coarse_step = 0.25;
@@ -49,7 +46,7 @@ oracle::Shape shape(ByteReader& reader, Numbers numbers) {
 
 PairAsk read_ask(ByteReader& reader, Numbers numbers) {
   PairAsk ask;
-  ask.detail = details[reader.below(details.size())];
+  ask.detail = enumerators<ContactDetail>[reader.below(enumerators<ContactDetail>.size())];
   const std::uint32_t mode = reader.below(8);
   if (reader.once_in(4))
     ask.reach = length(reader, numbers);
@@ -121,11 +118,9 @@ std::string pair_case_bytes(const tests::TwoShapes& shapes, ContactDetail detail
 }
 
 std::string text_of(const PairAsk& ask) {
-  constexpr std::array modes = {"exact", "within", "paper"};
-  std::string text = std::string("detail ") + detail_names[static_cast<std::size_t>(ask.detail)] + ", " +
-                     modes[static_cast<std::size_t>(ask.mode)] + ", reach " + std::to_string(ask.reach) +
-                     ", tolerance " + std::to_string(ask.tolerance) + ", work limit " +
-                     std::to_string(ask.work_limit) + ", epsilon";
+  std::string text = "detail " + std::string(name_of(ask.detail)) + ", " + std::string(name_of(ask.mode)) +
+                     ", reach " + std::to_string(ask.reach) + ", tolerance " + std::to_string(ask.tolerance) +
+                     ", work limit " + std::to_string(ask.work_limit) + ", epsilon";
   for (const double epsilon : ask.epsilon) text += " " + std::to_string(epsilon);
   return text + "\n";
 }

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <graze/io/report_json.hpp>
+#include <optional>
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
 #include "input_folder.hpp"
 #include "report/report_builder.hpp"
+#include "report/report_fields.hpp"
 #include "report/statistics_fields.hpp"
 #include "report_meshes.hpp"
 
@@ -70,7 +73,9 @@ FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::Scen
     pair.b = objects[read.b].id;
     pair.phase = read.phase;
     pair.complete = read.complete;
+    pair.contacts_cut = read.contacts_cut;
     pair.stale = read.stale;
+    pair.inside = read.inside;
     pair.distance = read.distance;
     pair.witness = read.witness;
     for (const io::ReportedContact& contact : read.contacts) contacts.push_back(contact.contact);
@@ -92,11 +97,7 @@ class Written {
  public:
   explicit Written(const Report& report) {
     for (const io::ReportedObject& object : report.objects) add(object.name, object.vertices, object.faces);
-    const SceneSettings& settings = report.settings;
-    add(settings.contact_distance, settings.range, settings.detail, settings.accuracy.mode(),
-        settings.accuracy.tolerance(), settings.work_budget.value_or(7));
-    add(settings.time_budget ? settings.time_budget->count() : -1);
-    for (const double epsilon : settings.accuracy.epsilon()) add(epsilon);
+    io::for_each_reported_setting([&](const auto& field) { add(report.settings.*field.member); });
     for (const io::ReportedFrame& frame : report.frames) add(frame, report.objects.size());
   }
   friend bool operator==(const Written&, const Written&) = default;
@@ -114,6 +115,16 @@ class Written {
   requires std::is_enum_v<Enumerator>
   void add(Enumerator enumerator) { add(static_cast<int>(enumerator)); }
   void add(const Eigen::Vector3d& point) { add(point.x(), point.y(), point.z()); }
+  void add(const Accuracy& accuracy) {
+    add(accuracy.mode(), accuracy.tolerance());
+    for (const double epsilon : accuracy.epsilon()) add(epsilon);
+  }
+  void add(std::chrono::microseconds time) { add(time.count()); }
+  template <typename Value>
+  void add(const std::optional<Value>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
   void add(const Feature& feature) { add(feature.kind, feature.index); }
   template <typename First, typename... More>
   requires(sizeof...(More) > 0) void add(const First& first, const More&... more) {
@@ -124,13 +135,14 @@ class Written {
   void add(const io::ReportedFrame& frame, std::size_t object_count) {
     add(frame.frame, frame.complete);
     for (const io::ReportedPair& pair : frame.pairs) {
-      add(pair.a, pair.b, pair.phase, pair.complete, pair.stale, pair.distance.lower, pair.distance.upper);
+      add(pair.a, pair.b, pair.phase, pair.complete, pair.contacts_cut, pair.stale, pair.inside);
+      add(pair.distance.lower, pair.distance.upper);
       add(pair.witness.feature_a, pair.witness.feature_b, pair.witness.point_a, pair.witness.point_b);
       for (const io::ReportedContact& read : pair.contacts) {
         const Contact& contact = read.contact;
         add(contact.kind, contact.feature_a, contact.feature_b, contact.distance, contact.side_a,
             contact.side_b);
-        add(contact.point_a, contact.point_b, contact.normal);
+        add(contact.point_a, contact.point_b, contact.normal, contact.since);
       }
     }
     for (const io::ReportedDiagnostic& diagnostic : frame.diagnostics) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <graze/enumerators.hpp>
 #include <limits>
 
 #include "models/models.hpp"
@@ -165,7 +166,7 @@ void replace_mesh(ByteReader& reader, SceneModel& model, std::size_t body) {
 
 SceneSettings read_scene_settings(ByteReader& reader) {
   SceneSettings settings;
-  settings.detail = static_cast<ContactDetail>(reader.below(6));
+  settings.detail = enumerators<ContactDetail>[reader.below(enumerators<ContactDetail>.size())];
   settings.contact_distance = reader.below(64) / 64.0;
   settings.range = reader.below(64) / 16.0;
   if (reader.once_in(8)) settings.range = std::numeric_limits<double>::infinity();
@@ -176,6 +177,8 @@ SceneSettings read_scene_settings(ByteReader& reader) {
       settings.detail == ContactDetail::regions || settings.detail == ContactDetail::vertices;
   if (accuracy == 7 && is_about_vertices)
     settings.accuracy = Accuracy::paper({2, 1, reader.below(64) / 64.0});
+  if (reader.once_in(8)) settings.max_contacts_per_pair = 1 + reader.below(8);
+  if (reader.once_in(8)) settings.max_contacts = 1 + reader.below(32);
   if (reader.once_in(16)) settings.work_budget = reader.below(64);
   if (reader.once_in(32)) settings.time_budget = std::chrono::microseconds(0);
   return settings;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr const char* plate_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 constexpr const char* pair_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng left\nf 1 2 3\ng right\nf 1 3 4\n";
+constexpr const char* solid_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 constexpr const char* tent_ply =
     "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
@@ -55,6 +56,7 @@ std::string cache_seed(bool is_pc2, std::uint32_t vertices, std::uint32_t frames
 void write_scene_files(const tests::TemporaryFolder& folder) {
   folder.write("plate.obj", plate_obj);
   folder.write("pair.obj", pair_obj);
+  folder.write("solid.obj", solid_obj);
   folder.write("tent.ply", tent_ply);
   for (int frame = 1; frame <= 3; ++frame)
     folder.write("plate_" + std::to_string(frame) + ".off",
@@ -79,6 +81,11 @@ std::vector<std::string> scene_file_seeds() {
  "transform": {"translate": [0, 0, 0.1], "rotate_degrees": [0, 0, 45], "scale": 0.5}},
  {"name": "c", "mesh": "plate.obj", "positions": "plate.mdd", "collides_with": 3}],
  "ignore": [["both", "both"], ["both/left", "c"]]})",
+      R"({"graze": 1, "contact_distance": 0.25, "detail": "nearest", "max_contacts": 9, "max_contacts_per_pair": 4,
+ "objects": [{"name": "a", "mesh": "solid.obj", "solid": true, "motion": "deformable"},
+ {"name": "b", "mesh": "solid.obj", "solid": true, "transform": {"translate": [0.1, 0.1, 0.1], "scale": 0.25}},
+ {"name": "c", "mesh": "tent.ply", "face_groups": [0, 1]}, {"name": "d", "mesh": "pair.obj", "node": "left",
+ "face_groups": [255]}], "ignore": [["c", 1, "d", 255]]})",
       R"({"graze": 1, "detail": "regions", "outside_files": true, "objects": [{"mesh": "tent.ply", "transform": {"scale": 1e300}}]})"};
 }
 

@@ -102,6 +102,10 @@ class SceneModel {
   [[nodiscard]] double threshold_of(const BodyPair& pair) const;
   [[nodiscard]] std::map<BodyPair, Fresh> build_afresh() const;
   void check_diagnostics(const FrameReport& report);
+  void check_limits(const FrameReport& report) const;
+  /// Whether contacts are left to other pairs than in a scene built afresh. Rows of frozen objects and rows
+  /// without an answer are not in that one.
+  [[nodiscard]] bool has_other_limits(const FrameReport& report) const;
   void check_rows(const FrameReport& report, const std::map<BodyPair, Fresh>& fresh);
   void check_row(const FrameReport& report, const PairReport& row, const BodyPair& pair,
                  const Fresh* fresh) const;

@@ -20,7 +20,8 @@ using oracle::Random;
 using oracle::Shape;
 
 constexpr std::array details{ContactDetail::none, ContactDetail::closest, ContactDetail::vertices,
-                             ContactDetail::features};
+                             ContactDetail::features, ContactDetail::nearest};
+static_assert(details.size() + 1 == all_details.size(), "all but regions, whose octree is axis-aligned");
 
 /// Two shapes every vertex of which has been moved at random, so that nothing is parallel, coplanar, at the
 /// threshold or at a change of kind to 1e-12.

@@ -179,9 +179,11 @@ class GridMotion {
 
 }  // namespace
 
+static_assert(all_details.size() == 6, "add the number of a new detail to each list of numbers here");
+
 TEMPLATE_TEST_CASE_SIG(
     "teleport, tunnelling, collapse and back, inside out: as built afresh, at random, detail", "",
-    ((int number), number), 0, 1, 2, 3, 4) {
+    ((int number), number), 0, 1, 2, 3, 4, 5) {
   const auto detail = static_cast<ContactDetail>(number);
   std::size_t rows = 0;
   std::size_t contacts = 0;
@@ -245,7 +247,7 @@ TEST_CASE("teleport, tunnelling, collapse to a point and back, inside out: each 
 }
 
 TEMPLATE_TEST_CASE_SIG("shapes on a grid that part and meet by little: as built afresh, detail", "",
-                       ((int number), number), 0, 1, 2, 3, 4) {
+                       ((int number), number), 0, 1, 2, 3, 4, 5) {
   const auto detail = static_cast<ContactDetail>(number);
   std::size_t rows = 0;
   for (std::uint64_t seed = 0; seed < std::uint64_t{12} * GRAZE_MOTIONS; ++seed) {

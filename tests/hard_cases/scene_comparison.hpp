@@ -9,11 +9,10 @@
 #include "core/shapes.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/comparison.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 
-inline constexpr std::array all_details{ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                                        ContactDetail::vertices, ContactDetail::features};
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A scene of deformable bodies in which every pair is listed; object i is body i.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <graze/enumerators.hpp>
 #include <graze/graze.hpp>
 #include <graze/instruction_set.hpp>
 #include <stdexcept>
@@ -20,12 +21,9 @@ constexpr int not_available = 77;
 constexpr std::size_t frames = 4;
 
 ContactDetail detail_named(std::string_view name) {
-  if (name == "none") return ContactDetail::none;
-  if (name == "closest") return ContactDetail::closest;
-  if (name == "vertices") return ContactDetail::vertices;
-  if (name == "features") return ContactDetail::features;
-  if (name == "nearest") return ContactDetail::nearest;
-  throw std::runtime_error("no such detail");
+  const auto detail = graze::enumerator_named<ContactDetail>(name);
+  if (!detail) throw std::runtime_error("no such detail");
+  return *detail;
 }
 
 bool use(std::string_view name) {

@@ -17,6 +17,7 @@
 #include "scheduler/bobbing.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 #include "tools/temporary_folder.hpp"
 
@@ -239,8 +240,7 @@ TEST_CASE("allocations of every kind and thread are counted") {
 
 TEST_CASE("a thousand frames of a periodic motion take no memory after the first period") {
   if (is_skipped()) return;
-  const auto detail = GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                               ContactDetail::vertices, ContactDetail::features, ContactDetail::nearest);
+  const auto detail = GENERATE(from_range(all_details));
   const auto threads = GENERATE(1U, 2U);
   CAPTURE(static_cast<int>(detail), threads);
   SceneSettings settings = settings_of(0.05, 0.3, detail);
@@ -425,8 +425,7 @@ TEST_CASE("step_async and wait take no memory after the first period") {
 
 TEST_CASE("first contacts take no memory where room was reserved") {
   if (is_skipped()) return;
-  const auto detail = GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                               ContactDetail::vertices, ContactDetail::features, ContactDetail::nearest);
+  const auto detail = GENERATE(from_range(all_details));
   const auto threads = GENERATE(1U, 2U);
   const bool is_reserved = GENERATE(true, false);
   CAPTURE(static_cast<int>(detail), threads, is_reserved);

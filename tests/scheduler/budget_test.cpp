@@ -7,14 +7,11 @@
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
-
-constexpr std::array<ContactDetail, 6> details = {ContactDetail::none,     ContactDetail::closest,
-                                                  ContactDetail::regions,  ContactDetail::vertices,
-                                                  ContactDetail::features, ContactDetail::nearest};
 
 /// A stack of tori: the lower two in contact, the others further and further apart.
 struct Stack {
@@ -51,7 +48,7 @@ void check_undone(const FrameReport& report) {
 
 TEST_CASE("in no time everything is read, bounded and left undone") {
   for (const unsigned threads : {1U, 2U})
-    for (const ContactDetail detail : details)
+    for (const ContactDetail detail : all_details)
       for (std::uint64_t seed = 0; seed < 40; ++seed) {
         const oracle::RandomScene given = oracle::random_scene(seed);
         SceneSettings settings = settings_of(given.threshold, 100, detail);
@@ -111,7 +108,7 @@ TEST_CASE("a time budget holds where everything is in contact, and what it leave
   constexpr std::size_t steps = 12;
   const auto mesh = mesh_of(models::sphere(60, 40));
   for (const unsigned threads : {1U, 2U})
-    for (const ContactDetail detail : details) {
+    for (const ContactDetail detail : all_details) {
       SceneSettings settings = settings_of(0.5, 0.5, detail);
       settings.threads = threads;
       settings.time_budget = std::chrono::microseconds(static_cast<std::int64_t>(budget_ms * 1000));
@@ -155,7 +152,7 @@ TEST_CASE("a negative budget is refused") {
 
 TEST_CASE("a work budget is the same in every run and for any number of threads") {
   const MovingScene moving;
-  for (const ContactDetail detail : details)
+  for (const ContactDetail detail : all_details)
     for (const std::uint64_t budget : {std::uint64_t{0}, std::uint64_t{7}, std::uint64_t{60}}) {
       SceneSettings settings = settings_of(0.05, 0.25, detail);
       settings.work_budget = budget;
@@ -178,7 +175,7 @@ TEST_CASE("a work budget is the same in every run and for any number of threads"
 
 TEST_CASE("what a work budget leaves done is exact, and the bounds of the rest hold") {
   const MovingScene moving;
-  for (const ContactDetail detail : details) {
+  for (const ContactDetail detail : all_details) {
     SceneSettings settings = settings_of(0.05, 0.25, detail);
     std::size_t done = 0;
     std::size_t undone = 0;
@@ -212,7 +209,7 @@ TEST_CASE("what a work budget leaves done is exact, and the bounds of the rest h
 
 TEST_CASE("urgent pairs come first: those in contact, then the nearest") {
   for (const ContactDetail detail :
-       {ContactDetail::closest, ContactDetail::features, ContactDetail::vertices}) {
+       {ContactDetail::closest, ContactDetail::features, ContactDetail::vertices, ContactDetail::nearest}) {
     const double contact_distance = 0.125;
     const auto completed = [&](std::uint64_t budget) {
       SceneSettings settings = settings_of(contact_distance, 100, detail);

@@ -8,6 +8,7 @@
 #include "scenes/coinciding_scenes.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 namespace {
@@ -34,8 +35,7 @@ ReportHandle built_afresh(std::string_view name, ContactDetail detail, std::size
 TEST_CASE("coinciding surfaces: reports equal those of a scene built afresh in each frame") {
   for (const std::string_view name :
        {"layers_on", "wall_touching", "twins_on", "boxes_flush", "boxes_apart", "character"})
-    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                                       ContactDetail::vertices, ContactDetail::features}) {
+    for (const ContactDetail detail : all_details) {
       const auto played = scenes::make_coinciding_scene(name);
       const SceneSettings settings = settings_of(*played, detail, 2);
       Scene scene(settings);

@@ -8,6 +8,7 @@
 
 #include "scheduler/moving_scene.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 namespace {
@@ -16,8 +17,10 @@ using AgedKey = std::tuple<std::uint32_t, std::uint32_t, ContactKind, Feature, F
 
 }  // namespace
 
+static_assert(all_details.size() == 6, "add the number of a new detail to each list of numbers here");
+
 TEMPLATE_TEST_CASE_SIG("age: the steps for which two features have been in contact, detail", "",
-                       ((int number), number), 1, 2, 3, 4) {
+                       ((int number), number), 1, 2, 3, 4, 5) {
   const MovingScene moving;
   std::map<AgedKey, std::uint32_t> ages;
   std::uint32_t oldest = 0;

@@ -3,6 +3,7 @@
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -70,7 +71,7 @@ TEST_CASE("a pair ignored while in contact ends once, and begins again when it i
 }
 
 TEST_CASE("a pair that pierces ends with distance 0 when it is ignored") {
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features}) {
+  for (const ContactDetail detail : surface_details) {
     NeedleOverPlate pair(settings_of(0, 1, detail));
     CHECK(only_pair(*pair.step_at(-1)).phase == PairPhase::began);
     pair.scene.ignore(pair.needle, pair.plate);
@@ -83,8 +84,7 @@ TEST_CASE("a pair that pierces ends with distance 0 when it is ignored") {
 }
 
 TEST_CASE("an ignored pair that parts in the same step ends with the distance of now") {
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features,
-                                     ContactDetail::vertices, ContactDetail::regions}) {
+  for (const ContactDetail detail : all_details) {
     Scene scene(settings_of(0.5, 1, detail));
     const ObjectId low = scene.add(plate_mesh());
     const ObjectId high = scene.add(plate_mesh());

@@ -18,6 +18,7 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -204,8 +205,7 @@ TEST_CASE("face groups: scenes with calls between steps are those of brute force
   std::size_t contacts = 0;
   std::size_t ended_by_groups = 0;
   for (std::uint64_t seed = 1; seed < 140; seed += 2) {
-    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                                       ContactDetail::vertices, ContactDetail::features}) {
+    for (const ContactDetail detail : all_details) {
       INFO("seed " << seed << ", detail " << static_cast<int>(detail));
       GroupedScenes scenes(seed, detail);
       for (int step = 0; step < 8; ++step) scenes.step();
@@ -214,7 +214,7 @@ TEST_CASE("face groups: scenes with calls between steps are those of brute force
       ended_by_groups += scenes.ended_by_groups;
     }
   }
-  CHECK(steps == 70 * 5 * 8);
+  CHECK(steps == 70 * all_details.size() * 8);
   CHECK(contacts > 1000);
   CHECK(ended_by_groups > 10);
 }
@@ -237,7 +237,7 @@ TEST_CASE("face groups: a pair at rest is searched again when groups change") {
 }
 
 TEST_CASE("face groups: a pair of which nothing is left ends as an ignored one") {
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features}) {
+  for (const ContactDetail detail : surface_details) {
     NeedleOverSplitPlate stage(detail);
     CHECK(only_pair(*stage.scene.step()).phase == PairPhase::began);
     stage.scene.ignore(stage.plate, 0, stage.needle, 0);

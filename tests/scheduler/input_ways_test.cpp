@@ -12,6 +12,7 @@
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -171,8 +172,7 @@ struct Apart {
 }  // namespace
 
 TEST_CASE("every way of input gives the same reports, bit for bit") {
-  const auto detail = GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                               ContactDetail::vertices, ContactDetail::features);
+  const auto detail = GENERATE(from_range(all_details));
   const auto threads = GENERATE(1U, 2U);
   SceneSettings settings = settings_of(0.1, 0.4, detail);
   settings.threads = threads;

@@ -4,17 +4,15 @@
 #include <iostream>
 
 #include "core/pair/pair_query.hpp"
+#include "scenes/played_scene.hpp"
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
-
-constexpr std::array<ContactDetail, 5> details = {ContactDetail::none, ContactDetail::closest,
-                                                  ContactDetail::regions, ContactDetail::vertices,
-                                                  ContactDetail::features};
 
 /// Requires that two steps counted the same; their times may differ.
 void require_same_counters(const StepStatistics& mine, const StepStatistics& theirs) {
@@ -85,7 +83,7 @@ std::vector<ReportHandle> step_random_scenes(ContactDetail detail, const Accurac
 TEST_CASE("a moving scene's reports are the same bit for bit with every instruction set") {
   const MovingScene moving;
   std::size_t runs = 0;
-  for (const ContactDetail detail : details)
+  for (const ContactDetail detail : all_details)
     for (const Accuracy& accuracy : accuracies_of(detail)) {
       SceneSettings settings = settings_of(0.05, 0.25, detail);
       settings.accuracy = accuracy;
@@ -97,9 +95,26 @@ TEST_CASE("a moving scene's reports are the same bit for bit with every instruct
             << " runs of 12 frames\n";
 }
 
+TEST_CASE(
+    "reports about solids, groups, limits and replaced meshes are the same with every instruction set") {
+  for (const std::string_view name : {"solids", "limits", "seams"})
+    CHECK(compare_instruction_sets([&] {
+            const auto played = scenes::make_played_scene(name);
+            SceneSettings settings = played->settings();
+            settings.threads = 1;
+            Scene scene(settings);
+            std::vector<ReportHandle> reports;
+            for (std::size_t frame = 0; frame < 8; ++frame) {
+              played->advance(scene, frame);
+              reports.push_back(scene.step());
+            }
+            return reports;
+          }) > 1'000);
+}
+
 TEST_CASE("random scenes' reports are the same bit for bit with every instruction set") {
   std::size_t scenes = 0;
-  for (const ContactDetail detail : details)
+  for (const ContactDetail detail : all_details)
     for (const Accuracy& accuracy : accuracies_of(detail)) {
       CHECK(compare_instruction_sets([&] { return step_random_scenes(detail, accuracy); }) > 100);
       scenes += 200;

@@ -16,6 +16,7 @@
 #include "scheduler/failure_scene.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 namespace {
@@ -133,13 +134,10 @@ class Failures {
   std::map<std::size_t, std::optional<FreshReport>> fresh_;
 };
 
-constexpr std::array details{ContactDetail::none, ContactDetail::closest, ContactDetail::regions,
-                             ContactDetail::vertices, ContactDetail::features};
-
 void fail_in(FailureStory story, std::size_t event, Lack lack, std::uint64_t each, Tally& tally) {
   const FailureScene scene(story, event);
   std::uint64_t configuration = static_cast<std::uint64_t>(story) + event;
-  for (const ContactDetail detail : details)
+  for (const ContactDetail detail : all_details)
     for (const unsigned threads : {1U, 2U}) {
       CAPTURE(event, static_cast<int>(detail), threads, static_cast<int>(lack));
       Failures(scene, detail, threads, tally).fail_all(configuration * 7 % each, each, lack);

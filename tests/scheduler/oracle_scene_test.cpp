@@ -7,14 +7,11 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
-
-constexpr std::array<ContactDetail, 6> details = {ContactDetail::none,     ContactDetail::closest,
-                                                  ContactDetail::regions,  ContactDetail::vertices,
-                                                  ContactDetail::features, ContactDetail::nearest};
 
 /// Compares one row, or its absence, with what brute force says.
 void check_pair(const FrameReport& report, const PairReport* row, const Tolerance& tolerance,
@@ -36,7 +33,7 @@ TEST_CASE("two objects: bounds, contacts and listing are those of brute force") 
   for (std::uint64_t seed = 0; seed < seed_count; ++seed) {
     const oracle::RandomScene given = oracle::random_scene(1000 + seed);
     INFO("seed " << 1000 + seed << "\na: " << text_of(given.a) << "b: " << text_of(given.b));
-    for (const ContactDetail detail : details) {
+    for (const ContactDetail detail : all_details) {
       const double range =
           seed % 3 == 0 ? std::numeric_limits<double>::infinity() : given.threshold / 2 + 0.25;
       Scene scene(settings_of(given.threshold, range, detail));
@@ -53,7 +50,7 @@ TEST_CASE("two objects: bounds, contacts and listing are those of brute force") 
   }
   CHECK(contacts > 1000);
   CHECK(unlisted > 20);
-  std::cout << "compared " << seed_count * details.size() << " scenes, " << contacts << " contacts\n";
+  std::cout << "compared " << seed_count * all_details.size() << " scenes, " << contacts << " contacts\n";
 }
 
 TEST_CASE("six objects: each of their fifteen pairs is that of brute force") {
@@ -67,7 +64,7 @@ TEST_CASE("six objects: each of their fifteen pairs is that of brute force") {
       shapes.push_back(given.b);
       threshold = std::max(threshold, given.threshold);
     }
-    for (const ContactDetail detail : details) {
+    for (const ContactDetail detail : all_details) {
       SceneSettings settings = settings_of(threshold, 1, detail);
       settings.threads = 2;
       Scene scene(settings);

@@ -5,14 +5,10 @@
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
-namespace {
-
-constexpr std::array<ContactDetail, 3> surface_details = {ContactDetail::none, ContactDetail::closest,
-                                                          ContactDetail::features};
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("a pair goes through its phases") {
   for (const ContactDetail detail : surface_details) {
@@ -116,8 +112,7 @@ TEST_CASE("a body wholly inside another without touching is not in contact") {
 }
 
 TEST_CASE("two objects in one place are at distance 0, with finite normals") {
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features,
-                                     ContactDetail::vertices, ContactDetail::regions}) {
+  for (const ContactDetail detail : all_details) {
     Scene scene(settings_of(0.125, 1, detail));
     const auto mesh = mesh_of(models::torus(8, 6, 1, 0.25));
     scene.add(mesh);

@@ -29,6 +29,7 @@ class RandomCalls {
     ObjectId id;
     std::shared_ptr<const Mesh> mesh;
     Motion motion;
+    bool is_solid = false;
     std::unique_ptr<Positions> memory = std::make_unique<Positions>();
     std::unique_ptr<std::vector<Eigen::Vector3f>> floats = std::make_unique<std::vector<Eigen::Vector3f>>();
   };
@@ -39,16 +40,15 @@ class RandomCalls {
 
   void add(Scene& scene) {
     Body body;
-    body.mesh =
-        std::array{plate_mesh(), needle_mesh(), split_plate_mesh()}[static_cast<std::size_t>(below(3))];
+    const std::array meshes{plate_mesh(), needle_mesh(), split_plate_mesh(), box_mesh()};
+    body.mesh = meshes[static_cast<std::size_t>(below(static_cast<int>(meshes.size())))];
     ObjectSettings settings;
+    settings.solid = body.is_solid = body.mesh == meshes.back() && chance(2);
     settings.motion = body.motion = static_cast<Motion>(below(3));
     settings.name = chance(2) ? "named " + std::to_string(objects_.size()) : "";
     settings.kind = static_cast<std::uint32_t>(below(3));
     settings.margin = below(4) / 16.0;
-    if (chance(2))
-      for (std::uint32_t face = 0; face < body.mesh->face_count(); ++face)
-        settings.face_groups.push_back(group());
+    if (chance(2)) settings.face_groups = groups_of(*body.mesh);
     body.id = scene.add(body.mesh, settings);
     objects_.push_back(std::move(body));
   }
@@ -56,6 +56,13 @@ class RandomCalls {
   static std::shared_ptr<const Mesh> split_plate_mesh() {
     constexpr std::array<std::array<std::uint32_t, 3>, 2> triangles{{{0, 1, 2}, {0, 2, 3}}};
     return std::make_shared<const Mesh>(Mesh::from_triangles(plate_mesh()->rest(), triangles));
+  }
+  /// A closed surface, of one of two sizes.
+  std::shared_ptr<const Mesh> box_mesh() { return mesh_of(models::box({1, 0.5, chance(2) ? 0.25 : 0.75})); }
+  std::vector<std::uint8_t> groups_of(const Mesh& mesh) {
+    std::vector<std::uint8_t> groups;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) groups.push_back(group());
+    return groups;
   }
   std::uint8_t group() { return static_cast<std::uint8_t>(below(2)); }
   Positions placed(const Body& body) {
@@ -104,11 +111,11 @@ class RandomCalls {
     chance(2) ? scene.ignore(a, group_a, b, group_b) : scene.watch(a, group_a, b, group_b);
   }
   void replace(Scene& scene, Body& body) {
-    auto mesh = chance(2) ? plate_mesh() : needle_mesh();
+    auto mesh = body.is_solid ? box_mesh() : chance(2) ? plate_mesh() : needle_mesh();
     std::vector<std::uint32_t> new_of_old;
     for (std::uint32_t vertex = 0; vertex < body.mesh->vertex_count(); ++vertex)
       new_of_old.push_back(vertex < mesh->vertex_count() ? vertex : Mesh::no_vertex);
-    scene.replace_mesh(body.id, mesh, new_of_old);
+    scene.replace_mesh(body.id, mesh, new_of_old, chance(2) ? groups_of(*mesh) : std::vector<std::uint8_t>());
     body.mesh = std::move(mesh);
     body.memory->clear();
     body.floats->clear();

@@ -20,6 +20,7 @@
 #include "scheduler/report_text.hpp"
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 namespace {
@@ -268,8 +269,10 @@ Map identity(std::size_t count) {
 
 }  // namespace
 
+static_assert(all_details.size() == 6, "add the number of a new detail to each list of numbers here");
+
 TEMPLATE_TEST_CASE_SIG("replaced meshes: reports of a scene built afresh, phases and ages, detail", "",
-                       ((int number), number), 1, 3, 4) {
+                       ((int number), number), 1, 3, 4, 5) {
   SceneSettings settings = settings_of(0.05, range, static_cast<ContactDetail>(number));
   settings.threads = 2;
   CutScene scene(settings, 11);

@@ -20,8 +20,9 @@ std::string row_text(const FrameReport& report, const PairReport& pair, std::str
   std::ostringstream out;
   out << std::hexfloat;
   out << pair.a.index << ":" << pair.a.generation << " " << pair.b.index << ":" << pair.b.generation << " "
-      << phase << (pair.complete ? "" : " incomplete") << (pair.stale ? " stale" : "") << " "
-      << pair.distance.lower << ".." << pair.distance.upper;
+      << phase << (pair.complete ? "" : " incomplete") << (pair.contacts_cut ? " cut" : "")
+      << (pair.stale ? " stale" : "") << " inside:" << to_string(pair.inside) << " " << pair.distance.lower
+      << ".." << pair.distance.upper;
   write(out, pair.witness.feature_a);
   write(out, pair.witness.feature_b);
   write(out, pair.witness.point_a);

@@ -169,7 +169,8 @@ TEST_CASE("rest: pairs that rest among others that do not are as if they had bee
   std::uint64_t rested = 0;
   std::uint64_t ended = 0;
   std::uint32_t seed = 0;
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::vertices, ContactDetail::features}) {
+  for (const ContactDetail detail :
+       {ContactDetail::none, ContactDetail::vertices, ContactDetail::features, ContactDetail::nearest}) {
     SceneSettings settings = settings_of(0.02, 0.1, detail);
     settings.threads = ++seed;
     Heap heap(settings, seed);

@@ -5,14 +5,12 @@
 
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::array<ContactDetail, 3> surface_details = {ContactDetail::none, ContactDetail::closest,
-                                                          ContactDetail::features};
-
 ObjectSettings with_margin(double margin) {
   ObjectSettings settings;
   settings.margin = margin;
@@ -79,8 +77,7 @@ TEST_CASE("margins do not widen the range") {
 }
 
 TEST_CASE("with an infinite range every pair is listed") {
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features,
-                                     ContactDetail::vertices, ContactDetail::regions}) {
+  for (const ContactDetail detail : all_details) {
     Scene scene(settings_of(0.5, infinity, detail));
     std::vector<ObjectId> ids;
     for (int i = 0; i < 5; ++i) {

@@ -9,15 +9,12 @@
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 namespace {
 
 constexpr std::size_t frame_count = 30;
-constexpr std::array<ContactDetail, 5> details = {ContactDetail::none, ContactDetail::closest,
-                                                  ContactDetail::regions, ContactDetail::vertices,
-                                                  ContactDetail::features};
-
 SceneSettings settings_for(ContactDetail detail, unsigned threads) {
   SceneSettings settings = settings_of(0.05, 0.25, detail);
   settings.threads = threads;
@@ -63,7 +60,7 @@ TEST_CASE("the moving scene goes through every phase") {
 
 TEST_CASE("reports are the same bit for bit for any number of threads and in every run") {
   const MovingScene moving;
-  for (const ContactDetail detail : details) {
+  for (const ContactDetail detail : all_details) {
     const auto expected = moving.play(settings_for(detail, 1), frame_count);
     for (const unsigned threads : {1U, 2U, 3U, 8U, 0U}) {
       const auto found = moving.play(settings_for(detail, threads), frame_count);
@@ -85,7 +82,7 @@ TEST_CASE("reports are the same bit for bit for any number of threads and in eve
 
 TEST_CASE("reports equal those of a scene built afresh in each frame") {
   const MovingScene moving;
-  for (const ContactDetail detail : details) {
+  for (const ContactDetail detail : all_details) {
     const SceneSettings settings = settings_for(detail, 2);
     const auto reports = moving.play(settings, frame_count);
     for (std::size_t frame = 0; frame < frame_count; ++frame) {
@@ -135,7 +132,7 @@ TEST_CASE("objects added in another order have the same contacts") {
   std::size_t contacts = 0;
   for (std::size_t frame = 1; frame < frame_count; frame += 4)
     for (const ContactDetail detail :
-         {ContactDetail::closest, ContactDetail::features, ContactDetail::vertices}) {
+         {ContactDetail::closest, ContactDetail::features, ContactDetail::vertices, ContactDetail::nearest}) {
       const SceneSettings settings = settings_for(detail, 2);
       const auto expected = contacts_of(*moving.built_afresh(settings, frame), moving.given_order(), detail);
       contacts += expected.size();

@@ -11,6 +11,7 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
+#include "support/details.hpp"
 #include "support/random_solids.hpp"
 #include "support/reduce.hpp"
 
@@ -28,9 +29,6 @@ constexpr std::uint64_t solid_grid_scenes = 2'500 / solid_part_count;  // each t
 constexpr std::uint64_t solid_grid_scenes = 10'000 / solid_part_count;
 #endif
 constexpr std::uint64_t solid_generic_scenes = solid_grid_scenes / 5;
-
-constexpr std::array<ContactDetail, 4> surface_details = {ContactDetail::none, ContactDetail::closest,
-                                                          ContactDetail::features, ContactDetail::nearest};
 
 ObjectSettings solid_settings(bool is_solid) {
   ObjectSettings settings;
@@ -55,12 +53,6 @@ Containment containment_of(Inside inside) {
 std::string name_of(Containment containment) {
   static constexpr std::array names = {"none", "a_in_b", "b_in_a", "crossing"};
   return names[static_cast<std::size_t>(containment)];
-}
-
-std::string name_of(ContactDetail detail) {
-  if (detail == ContactDetail::none) return "none";
-  if (detail == ContactDetail::closest) return "closest";
-  return detail == ContactDetail::features ? "features" : "nearest";
 }
 
 /// Holds what brute force says of a pair. The scene has to outlive it.
@@ -213,7 +205,7 @@ std::string solid_fault(const RandomSolids& given, std::uint64_t seed, SolidTall
         solid_difference(*report, row, first_phase(truth), truth, detail, std::max(range, given.threshold));
     if (detail != ContactDetail::none && seed / 6 % 2 == 0)
       difference += difference_from_surfaces(given, detail, range, *report, row);
-    if (!difference.empty()) text += "detail " + name_of(detail) + ": " + difference;
+    if (!difference.empty()) text += "detail " + std::string(name_of(detail)) + ": " + difference;
   }
   if (tally != nullptr) {
     tally->contacts += truth.solid.contacts.size();

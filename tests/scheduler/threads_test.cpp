@@ -240,8 +240,8 @@ TEST_CASE("threads: scenes stepped from the tasks of a caller's own parallel loo
 TEST_CASE("threads: one large pair is worked on by all of them") {
   const auto ball = mesh_of(models::sphere(120, 80));
   REQUIRE(ball->vertex_count() > 8192);
-  for (const ContactDetail detail :
-       {ContactDetail::features, ContactDetail::vertices, ContactDetail::closest, ContactDetail::none}) {
+  for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices, ContactDetail::closest,
+                                     ContactDetail::none, ContactDetail::nearest}) {
     const std::uint64_t alone = hash_of_large_pair(detail, 1, 4, ball);
     for (const unsigned threads : {2U, 4U}) CHECK(hash_of_large_pair(detail, threads, 4, ball) == alone);
   }

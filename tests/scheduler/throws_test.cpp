@@ -8,6 +8,7 @@
 
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 
 namespace graze::tests {
 namespace {
@@ -42,7 +43,7 @@ void check_refused(const ObjectSettings& settings, const std::string& word) {
 TEST_CASE("a scene with bad settings is refused") {
   for (const double bad : {-1.0, nothing, infinity}) check_refused(settings_of(bad, 1), "contact_distance");
   for (const double bad : {-1.0, nothing}) check_refused(settings_of(0, bad), "range");
-  for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features}) {
+  for (const ContactDetail detail : surface_details) {
     SceneSettings settings = settings_of(0.1, 1, detail);
     settings.accuracy = Accuracy::paper({1, 0.5});
     check_refused(settings, "paper");

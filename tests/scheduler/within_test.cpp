@@ -3,6 +3,7 @@
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/details.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -29,8 +30,7 @@ TEST_CASE("within a tolerance bounds hold, and are no wider than it") {
   std::size_t loose = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const oracle::RandomScene given = oracle::random_scene(3000 + seed);
-    for (const ContactDetail detail : {ContactDetail::none, ContactDetail::closest, ContactDetail::features,
-                                       ContactDetail::regions, ContactDetail::vertices})
+    for (const ContactDetail detail : all_details)
       for (const double tolerance : {0.0, 0.125, 10.0}) {
         SceneSettings settings = settings_of(given.threshold, 100, detail);
         settings.accuracy = Accuracy::within(tolerance);
@@ -69,7 +69,7 @@ TEST_CASE("within a tolerance contacts and phases of a moving scene are those of
   const MovingScene moving;
   std::size_t loose = 0;
   for (const ContactDetail detail :
-       {ContactDetail::features, ContactDetail::closest, ContactDetail::vertices}) {
+       {ContactDetail::features, ContactDetail::closest, ContactDetail::vertices, ContactDetail::nearest}) {
     SceneSettings settings = settings_of(0.05, 0.5, detail);
     const auto exact = moving.play(settings, 20);
     settings.accuracy = Accuracy::within(0.25);

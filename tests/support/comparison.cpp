@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "support/oracle_grouped_nearest.hpp"
+
 namespace graze::tests {
 namespace {
 
@@ -54,6 +56,13 @@ std::string difference_of(const Contact& contact, const oracle::Named& expected,
   return out.str();
 }
 
+bool are_all_faces_looked_at(const oracle::Shape& a, const oracle::Shape& b, const oracle::FacePairs& pairs) {
+  for (std::uint32_t face_a = 0; face_a < a.faces.size(); ++face_a)
+    for (std::uint32_t face_b = 0; face_b < b.faces.size(); ++face_b)
+      if (!pairs.may({FeatureKind::face, face_a}, {FeatureKind::face, face_b})) return false;
+  return true;
+}
+
 }  // namespace
 
 Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double threshold, ContactDetail detail,
@@ -69,7 +78,9 @@ Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double thre
     expected.contacts = oracle::regions(a, b, threshold, rest_a, rest_b, pairs);
   if (detail == ContactDetail::closest)
     if (const auto closest = oracle::closest(a, b, threshold, pairs)) expected.contacts = {*closest};
-  if (detail == ContactDetail::nearest) expected.contacts = oracle::nearest(a, b, threshold);
+  if (detail == ContactDetail::nearest)
+    expected.contacts = are_all_faces_looked_at(a, b, pairs) ? oracle::nearest(a, b, threshold)
+                                                             : oracle::nearest(a, b, threshold, pairs);
   expected.in_contact = !expected.contacts.empty();
   // A pair that is near at the fold of a quad only is in contact, but `nearest` lists no folds.
   if (detail == ContactDetail::none || detail == ContactDetail::nearest)

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <graze/settings.hpp>
+#include <graze/enumerators.hpp>
+#include <graze/settings_fields.hpp>
 #include <string>
 #include <vector>
 
@@ -245,5 +246,19 @@ TEST_CASE("bench compares with its aims only where that is asked for, and says w
 }
 
 #endif
+
+TEST_CASE("command line: help lists every detail and every setting of a run, and each detail is taken") {
+  const std::string help = run_graze({"run", "--help"}).out;
+  CHECK_THAT(help, Contains(listed_names<ContactDetail>()));
+  for_each_field<SceneSettings, &SceneSettings::arena, &SceneSettings::time_budget,
+                 &SceneSettings::work_budget>([&](const auto& field) {
+    std::string option = "--" + std::string(field.name);
+    std::ranges::replace(option, '_', '-');
+    CHECK_THAT(help, Contains(option + " "));
+  });
+  const SpikesOnSheet files;
+  for (const ContactDetail detail : enumerators<ContactDetail>)
+    CHECK(run_graze({"run", files.scene, "--detail", std::string(name_of(detail))}).exit_code == 0);
+}
 
 }  // namespace graze::tests

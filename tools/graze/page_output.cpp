@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <graze/io/error.hpp>
+#include <graze/settings_fields.hpp>
 
 #include "output/terminal.hpp"
 #include "output/text.hpp"
@@ -53,6 +54,18 @@ void check_page_file(const std::string& option, const fs::path& file) {
   if (!has_viewer()) viewer_page();  // its error says how to get one
 }
 
+io::PageObject page_object(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
+                           const ObjectSettings& settings) {
+  static_assert(
+      are_all_fields<ObjectSettings, &ObjectSettings::name, &ObjectSettings::motion,
+                     &ObjectSettings::user_data, &ObjectSettings::solid,
+                     // These say which pairs are looked at. A page shows what came of it.
+                     &ObjectSettings::layer, &ObjectSettings::collides_with, &ObjectSettings::group,
+                     &ObjectSettings::margin, &ObjectSettings::kind, &ObjectSettings::face_groups>(),
+      "each field of ObjectSettings is in pages, or is named as one that is not");
+  return {name, mesh, settings.motion, settings.user_data, settings.solid};
+}
+
 PageOutput::PageOutput(const fs::path& path, const SceneSettings& settings, std::size_t frame_count,
                        const Options& options)
     : path_(path),
@@ -93,8 +106,7 @@ PlayedPage::PlayedPage(const fs::path& path, io::Player& player, const SceneSett
     : page_(path, settings, player.frame_count(), options) {
   for (const io::SceneObject& object : player.objects()) {
     const ObjectSettings known = player.scene().object_settings(object.id);
-    page_.writer().add_object(object.id,
-                              {object.name, object.mesh, known.motion, known.user_data, known.solid});
+    page_.writer().add_object(object.id, page_object(object.name, object.mesh, known));
     is_deformable_.push_back(known.motion == Motion::deformable);
   }
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <graze/io/page.hpp>
 #include <graze/io/player.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ void check_page_file(const std::string& option, const std::filesystem::path& fil
 
 /// Whether a file has a page's data alone, by its ending.
 bool is_page_data(const std::filesystem::path& file);
+
+/// What a page shows of an object with these settings.
+io::PageObject page_object(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
+                           const ObjectSettings& settings);
 
 /// Writes a page, and says in time that it would become large.
 class PageOutput {

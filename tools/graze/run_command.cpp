@@ -10,6 +10,8 @@
 #include <graze/io/report_json.hpp>
 #include <graze/io/scene_file.hpp>
 #include <graze/recorder.hpp>
+#include <graze/scene_enumerators.hpp>
+#include <graze/settings_fields.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -76,8 +78,28 @@ Accuracy parse_accuracy(const std::string& text) {
 }
 
 ContactDetail parse_detail(const std::string& word) {
-  if (const auto detail = io::contact_detail_from(word)) return *detail;
-  throw InputError("--detail: expected none, closest, regions, vertices or features, got \"" + word + "\"");
+  if (const auto detail = enumerator_named<ContactDetail>(word)) return *detail;
+  throw InputError("--detail: expected " + listed_names<ContactDetail>() + ", got \"" + word + "\"");
+}
+
+/// Puts what the command line says in place of what the scene says.
+void replace_settings(SceneSettings& settings, const RunOptions& options) {
+  static_assert(
+      are_all_fields<SceneSettings, &SceneSettings::contact_distance, &SceneSettings::range,
+                     &SceneSettings::detail, &SceneSettings::accuracy, &SceneSettings::threads,
+                     &SceneSettings::max_contacts, &SceneSettings::max_contacts_per_pair,
+                     &SceneSettings::region_distances,
+                     // A run has no frame rate to keep, and its tasks are the only ones.
+                     &SceneSettings::time_budget, &SceneSettings::work_budget, &SceneSettings::arena>(),
+      "each setting has an option, or is named as one that has none");
+  if (options.contact_distance) settings.contact_distance = *options.contact_distance;
+  if (options.range) settings.range = *options.range;
+  if (options.detail) settings.detail = parse_detail(*options.detail);
+  if (options.accuracy) settings.accuracy = parse_accuracy(*options.accuracy);
+  if (options.threads) settings.threads = *options.threads;
+  if (options.max_contacts) settings.max_contacts = options.max_contacts;
+  if (options.max_contacts_per_pair) settings.max_contacts_per_pair = options.max_contacts_per_pair;
+  if (options.region_distances) settings.region_distances = *options.region_distances;
 }
 
 /// The scene that the files name, with what the command line says in place of what the scene says.
@@ -88,15 +110,7 @@ io::SceneDescription describe(const RunOptions& options) {
                      ": stands beside a scene file; give one scene file, or mesh files only");
   io::SceneDescription scene = is_scene ? io::read_scene_file(options.files[0])
                                         : io::scene_of_meshes({options.files.begin(), options.files.end()});
-  SceneSettings& settings = scene.settings;
-  if (options.contact_distance) settings.contact_distance = *options.contact_distance;
-  if (options.range) settings.range = *options.range;
-  if (options.detail) settings.detail = parse_detail(*options.detail);
-  if (options.accuracy) settings.accuracy = parse_accuracy(*options.accuracy);
-  if (options.threads) settings.threads = *options.threads;
-  if (options.max_contacts) settings.max_contacts = options.max_contacts;
-  if (options.max_contacts_per_pair) settings.max_contacts_per_pair = options.max_contacts_per_pair;
-  if (options.region_distances) settings.region_distances = *options.region_distances;
+  replace_settings(scene.settings, options);
   if (options.outside_files) scene.outside_files = true;
   if (options.frames) scene.frames = options.frames;
   if (options.frames_per_second) scene.frames_per_second = *options.frames_per_second;
@@ -277,7 +291,7 @@ void add_run_command(CLI::App& app) {
       ->check(real_number(NumberRange::at_least_0));
   command->add_option("--range", options->range, "Pairs closer than this are listed with their distance")
       ->check(real_number(NumberRange::at_least_0_or_infinite));
-  command->add_option("--detail", options->detail, "none, closest, regions, vertices or features");
+  command->add_option("--detail", options->detail, listed_names<ContactDetail>());
   command->add_option("--accuracy", options->accuracy, "exact, within:T, paper or paper:E1,E2,...");
   command
       ->add_option("--max-contacts", options->max_contacts,

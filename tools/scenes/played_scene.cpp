@@ -9,6 +9,7 @@
 #include "scenes/grid.hpp"
 #include "scenes/random.hpp"
 #include "scenes/scene_parts.hpp"
+#include "scenes/seam_scene.hpp"
 #include "scenes/skinned_human.hpp"
 
 namespace graze::scenes {
@@ -25,6 +26,7 @@ struct Body {
   Vector3d speed = Vector3d::Zero();  ///< radians a frame
   double phase = 0;
   double wobble = 0;  ///< relative to the radius
+  bool is_solid = false;
 
   void place(std::size_t frame, std::vector<Eigen::Vector3f>& positions) const {
     const auto time = static_cast<double>(frame);
@@ -50,7 +52,8 @@ class BodiesScene : public PlayedScene {
   void advance(Scene& scene, std::size_t frame) override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       bodies_[i].place(frame, positions_[i]);
-      if (frame == 0) scene.bind_positions(scene.add(bodies_[i].mesh), positions_[i]);
+      if (frame == 0)
+        scene.bind_positions(scene.add(bodies_[i].mesh, {.solid = bodies_[i].is_solid}), positions_[i]);
     }
   }
 
@@ -61,18 +64,18 @@ class BodiesScene : public PlayedScene {
 };
 
 /// The paper's first experiment: five tori and five pawns whose paths cross.
-std::unique_ptr<PlayedScene> paths() {
+std::vector<Body> bodies_of_paths() {
   Random random(1);
   const std::array meshes{mesh_on_grid(models::torus()), mesh_on_grid(models::pawn())};
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < 10; ++i)
     bodies.push_back({meshes[i % 2], random.turn(), random.vector(-1.8, 1.8), random.vector(0.8, 1.6),
                       random.vector(0.02, 0.06), random.between(0, 6), 0.03});
-  return std::make_unique<BodiesScene>(settings_of(0.05, 0.25), std::move(bodies));
+  return bodies;
 }
 
 /// Eighteen tori and spheres so close that each is in contact with most of its neighbours.
-std::unique_ptr<PlayedScene> pile() {
+std::vector<Body> bodies_of_pile() {
   Random random(3);
   const std::array meshes{mesh_on_grid(models::torus(24, 12, 0.7, 0.3)),
                           mesh_on_grid(models::sphere(20, 13))};
@@ -84,7 +87,45 @@ std::unique_ptr<PlayedScene> pile() {
     bodies.push_back({meshes[i % 3 == 2 ? 1 : 0], random.turn(), 1.4 * cell + random.vector(-0.2, 0.2),
                       random.vector(0.02, 0.06), random.vector(0.05, 0.2), random.between(0, 6), 0.02});
   }
-  return std::make_unique<BodiesScene>(settings_of(0.02, 0.1), std::move(bodies));
+  return bodies;
+}
+
+SceneSettings nearest_settings_of(double contact_distance, double range) {
+  SceneSettings settings = settings_of(contact_distance, range);
+  settings.detail = ContactDetail::nearest;
+  return settings;
+}
+
+/// Half of the bodies of the pile, as solids, of which the report lists the nearest contacts only.
+std::unique_ptr<PlayedScene> limits() {
+  std::vector<Body> bodies = bodies_of_pile();
+  bodies.resize(bodies.size() / 2);
+  for (Body& body : bodies) body.is_solid = true;
+  SceneSettings settings = nearest_settings_of(0.02, 0.1);
+  settings.max_contacts = 200;
+  settings.max_contacts_per_pair = 40;
+  return std::make_unique<BodiesScene>(settings, std::move(bodies));
+}
+
+models::MeshData scaled(models::MeshData data, double by) {
+  for (Vector3d& position : data.positions) position *= by;
+  return data;
+}
+
+/// Solids that pass through each other, small ones inside of large ones, and a sheet that bounds nothing.
+std::unique_ptr<PlayedScene> solids() {
+  Random random(11);
+  const std::array meshes{
+      mesh_on_grid(models::sphere(12, 8, models::Faces::quads)),
+      mesh_on_grid(scaled(models::sphere(8, 5), 0.25)), mesh_on_grid(models::torus(16, 8, 0.7, 0.3)),
+      mesh_on_grid(models::box({0.5, 0.7, 0.9})), mesh_on_grid(models::sheet(8, 8, 2, 2))};
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < 12; ++i) {
+    const std::size_t shape = i % meshes.size();
+    bodies.push_back({meshes[shape], random.turn(), random.vector(-1, 1), random.vector(0.2, 0.6),
+                      random.vector(0.05, 0.2), random.between(0, 6), 0.02, shape + 1 < meshes.size()});
+  }
+  return std::make_unique<BodiesScene>(nearest_settings_of(0.03, 0.2), std::move(bodies));
 }
 
 /// Two spheres that touch in a small patch.
@@ -232,15 +273,20 @@ class CrowdScene : public PlayedScene {
 }  // namespace
 
 std::vector<std::string_view> played_scene_names() {
-  return {"paths", "pile", "pair", "skinned", "crowd"};
+  return {"paths", "pile", "pair", "skinned", "crowd", "nearest", "solids", "limits", "seams"};
 }
 
 std::unique_ptr<PlayedScene> make_played_scene(std::string_view name, PairSize pair_size) {
-  if (name == "paths") return paths();
-  if (name == "pile") return pile();
+  if (name == "paths") return std::make_unique<BodiesScene>(settings_of(0.05, 0.25), bodies_of_paths());
+  if (name == "pile") return std::make_unique<BodiesScene>(settings_of(0.02, 0.1), bodies_of_pile());
   if (name == "pair") return pair(pair_size);
   if (name == "skinned") return std::make_unique<SkinnedScene>();
   if (name == "crowd") return std::make_unique<CrowdScene>();
+  if (name == "nearest")
+    return std::make_unique<BodiesScene>(nearest_settings_of(0.05, 0.25), bodies_of_paths());
+  if (name == "solids") return solids();
+  if (name == "limits") return limits();
+  if (name == "seams") return make_seam_scene();
   return nullptr;
 }
 

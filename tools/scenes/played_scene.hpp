@@ -15,7 +15,7 @@ class PlayedScene {
   PlayedScene(const PlayedScene&) = delete;
   PlayedScene& operator=(const PlayedScene&) = delete;
 
-  /// Detail, thresholds and exact accuracy; threads are for the caller to say.
+  /// Detail, thresholds, limits and exact accuracy; threads are for the caller to say.
   [[nodiscard]] virtual SceneSettings settings() const = 0;
   /// Brings `scene`, which was made with these settings, to where everything is in `frame`. Frames come one
   /// after the other from 0, which adds the objects. Memory that is bound lives as long as this.
@@ -25,7 +25,9 @@ class PlayedScene {
   PlayedScene() = default;
 };
 
-/// paths (the paper's first experiment), pile, pair (large ones), skinned, crowd (comes and goes).
+/// paths (the paper's first experiment), pile, pair (large ones), skinned, crowd (comes and goes). Then those
+/// with the detail `nearest`: nearest, solids (through and inside each other), limits (of contacts); and
+/// seams (groups of faces, and meshes that are replaced).
 std::vector<std::string_view> played_scene_names();
 
 /// How large the surfaces of the scene `pair` are.

@@ -43,6 +43,9 @@ void ReportHash::add(const PairReport& pair) {
   add(number_of(pair.phase) << 2U | (pair.complete ? 2U : 0U) | (pair.stale ? 1U : 0U));
   add_distance(pair);
   add(std::uint64_t{pair.contact_count});
+  // Rows without solids and limits have the hashes that they had before there were any.
+  if (pair.inside != Inside::none) add(number_of(pair.inside));
+  if (pair.contacts_cut) add(std::uint64_t{1});
 }
 
 void ReportHash::add(const Contact& contact) {

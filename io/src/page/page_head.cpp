@@ -1,5 +1,7 @@
 #include "page/page_head.hpp"
 
+#include <graze/scene_enumerators.hpp>
+
 #include "report/report_fields.hpp"
 #include "report/statistics_fields.hpp"
 #include "text/file_bytes.hpp"
@@ -9,18 +11,6 @@ namespace graze::io {
 namespace {
 
 constexpr std::uint64_t page_version = 1;
-
-std::string_view motion_word(Motion motion) {
-  switch (motion) {
-    case Motion::deformable:
-      return "deformable";
-    case Motion::rigid:
-      return "rigid";
-    case Motion::fixed:
-      return "fixed";
-  }
-  return "";
-}
 
 void write_whole_numbers(JsonText& json, std::string_view key, const std::vector<std::uint64_t>& numbers) {
   json.key(key).open('[');
@@ -39,7 +29,7 @@ void write_page_frame(JsonText& json, std::string_view key, std::int64_t frame) 
 
 void write_head_object(JsonText& json, const PageHeadObject& object, std::size_t serial) {
   json.open('{').key("serial").whole(serial).key("name").text(object.name);
-  json.key("motion").text(motion_word(object.motion)).key("solid").flag(object.solid);
+  json.key("motion").text(name_of(object.motion)).key("solid").flag(object.solid);
   json.key("mesh").whole(object.mesh);
   write_page_frame(json, "first", object.first);
   write_page_frame(json, "last", object.last);

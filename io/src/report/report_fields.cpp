@@ -1,14 +1,32 @@
 #include "report/report_fields.hpp"
 
 #include <algorithm>
-#include <graze/io/scene_file.hpp>
+#include <chrono>
+#include <concepts>
+#include <graze/enumerators.hpp>
+#include <optional>
 
 #include "report/statistics_fields.hpp"
 
 namespace graze::io {
 namespace {
 
-void write_accuracy(JsonText& json, const Accuracy& accuracy) {
+void write_value(JsonText& json, std::floating_point auto value) {
+  json.real(value);
+}
+void write_value(JsonText& json, std::unsigned_integral auto value) {
+  json.whole(value);
+}
+void write_value(JsonText& json, std::same_as<bool> auto value) {
+  json.flag(value);
+}
+void write_value(JsonText& json, NamedEnumeration auto value) {
+  json.text(name_of(value));
+}
+void write_value(JsonText& json, std::chrono::microseconds time) {
+  json.whole(static_cast<std::uint64_t>(time.count()));
+}
+void write_value(JsonText& json, const Accuracy& accuracy) {
   if (accuracy.mode() == AccuracyMode::exact) {
     json.text("exact");
     return;
@@ -24,21 +42,22 @@ void write_accuracy(JsonText& json, const Accuracy& accuracy) {
   json.close('}');
 }
 
+template <typename Value>
+void write_setting(JsonText& json, std::string_view key, const Value& value) {
+  json.key(key);
+  write_value(json, value);
+}
+template <typename Value>
+void write_setting(JsonText& json, std::string_view key, const std::optional<Value>& value) {
+  if (value) write_setting(json, key, *value);
+}
+
 }  // namespace
 
 void write_settings(JsonText& json, const SceneSettings& settings) {
   json.open('{');
-  json.key("contact_distance").real(settings.contact_distance);
-  json.key("range").real(settings.range);
-  json.key("detail").text(to_string(settings.detail));
-  json.key("accuracy");
-  write_accuracy(json, settings.accuracy);
-  if (settings.time_budget)
-    json.key("time_budget_us").whole(static_cast<std::uint64_t>(settings.time_budget->count()));
-  if (settings.work_budget) json.key("work_budget").whole(*settings.work_budget);
-  if (settings.max_contacts) json.key("max_contacts").whole(*settings.max_contacts);
-  if (settings.max_contacts_per_pair)
-    json.key("max_contacts_per_pair").whole(*settings.max_contacts_per_pair);
+  for_each_reported_setting(
+      [&](const auto& field) { write_setting(json, key_of(field), settings.*field.member); });
   json.close('}');
 }
 

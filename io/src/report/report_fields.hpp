@@ -2,13 +2,27 @@
 
 #include <cstdint>
 #include <graze/report.hpp>
-#include <graze/settings.hpp>
+#include <graze/settings_fields.hpp>
+#include <string_view>
 
 #include "text/json_text.hpp"
 
 namespace graze::io {
 
-/// Writes the settings that shape an answer. Threads are left out: they do not change it.
+/// Calls `visit` with the field of each setting that a report has. Threads and arena are left out: they
+/// change no answer. A report has no region distances, and so no limit of them.
+template <typename Visit>
+void for_each_reported_setting(const Visit& visit) {
+  for_each_field<SceneSettings, &SceneSettings::threads, &SceneSettings::arena,
+                 &SceneSettings::region_distances>(visit);
+}
+/// The key of a setting in a report.
+template <auto member>
+constexpr std::string_view key_of(const SettingsField<member>& field) {
+  return times_among<member, &SceneSettings::time_budget>() == 1 ? "time_budget_us" : field.name;
+}
+
+/// Writes the settings that shape an answer.
 void write_settings(JsonText& json, const SceneSettings& settings);
 
 /// Writes all statistics of a step; without times also no StepStatistics::thread_bytes.

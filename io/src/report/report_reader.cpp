@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <concepts>
 #include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
-#include <graze/io/scene_file.hpp>
+#include <graze/scene_enumerators.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "report/report_fields.hpp"
 #include "report/report_lines.hpp"
 #include "report/statistics_fields.hpp"
 
@@ -22,25 +25,12 @@ class BadLine : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-constexpr std::array insides{Inside::none, Inside::a_in_b, Inside::b_in_a, Inside::crossing};
-constexpr std::array phases{PairPhase::near, PairPhase::began, PairPhase::touching, PairPhase::ended};
-constexpr std::array contact_kinds{ContactKind::VV, ContactKind::VE, ContactKind::VF,
-                                   ContactKind::EE, ContactKind::EF, ContactKind::FF};
-constexpr std::array feature_kinds{FeatureKind::vertex, FeatureKind::edge, FeatureKind::face};
-constexpr std::array sides{Side::none, Side::front, Side::back};
-constexpr std::array diagnostic_kinds{
-    DiagnosticKind::stale_id,   DiagnosticKind::wrong_count,  DiagnosticKind::null_memory,
-    DiagnosticKind::bad_pose,   DiagnosticKind::wrong_motion, DiagnosticKind::misaligned_memory,
-    DiagnosticKind::not_finite, DiagnosticKind::too_large,    DiagnosticKind::broken_promise,
-    DiagnosticKind::bad_pair,   DiagnosticKind::bad_rule,     DiagnosticKind::out_of_memory};
-
 /// The enumerator whose name a JSON text is.
-template <typename Enumerators>
-typename Enumerators::value_type named(const Enumerators& all, const json& value) {
+template <NamedEnumeration Enum>
+Enum named(const json& value) {
   const auto& word = value.get_ref<const std::string&>();
-  const auto found =
-      std::ranges::find_if(all, [&](auto enumerator) { return to_string(enumerator) == word; });
-  if (found == all.end()) throw BadLine("\"" + word + "\" is no word of the format");
+  const auto found = enumerator_named<Enum>(word);
+  if (!found) throw BadLine("\"" + word + "\" is no word of the format");
   return *found;
 }
 
@@ -71,7 +61,7 @@ EdgeVertices read_edge(const json& value) {
 }
 
 Feature read_feature(const json& value, EdgeVertices& edge) {
-  const Feature feature{named(feature_kinds, value.at(0)), read_whole<std::uint32_t>(value.at(1))};
+  const Feature feature{named<FeatureKind>(value.at(0)), read_whole<std::uint32_t>(value.at(1))};
   if (feature.kind == FeatureKind::edge) edge = read_edge(value.at(2));
   return feature;
 }
@@ -79,15 +69,15 @@ Feature read_feature(const json& value, EdgeVertices& edge) {
 /// Reads a contact. Its `since` stays in the numbers of the file, as ReportedFrame::frame does.
 ReportedContact read_contact(const json& value) {
   ReportedContact read;
-  read.contact.kind = named(contact_kinds, value.at("kind"));
+  read.contact.kind = named<ContactKind>(value.at("kind"));
   read.contact.feature_a = read_feature(value.at("a"), read.edge_a);
   read.contact.feature_b = read_feature(value.at("b"), read.edge_b);
   read.contact.distance = read_real(value.at("distance"));
   read.contact.point_a = read_point(value.at("point_a"));
   read.contact.point_b = read_point(value.at("point_b"));
   read.contact.normal = read_point(value.at("normal"));
-  read.contact.side_a = named(sides, value.at("side").at(0));
-  read.contact.side_b = named(sides, value.at("side").at(1));
+  read.contact.side_a = named<Side>(value.at("side").at(0));
+  read.contact.side_b = named<Side>(value.at("side").at(1));
   if (value.contains("since")) read.contact.since = read_whole<std::uint64_t>(value.at("since"));
   return read;
 }
@@ -96,11 +86,11 @@ ReportedPair read_pair(const json& value) {
   ReportedPair pair;
   pair.a = read_whole<std::uint32_t>(value.at("a"));
   pair.b = read_whole<std::uint32_t>(value.at("b"));
-  pair.phase = named(phases, value.at("phase"));
+  pair.phase = named<PairPhase>(value.at("phase"));
   pair.complete = value.value("complete", true);
   pair.contacts_cut = value.value("contacts_cut", false);
   pair.stale = value.value("stale", false);
-  if (value.contains("inside")) pair.inside = named(insides, value.at("inside"));
+  if (value.contains("inside")) pair.inside = named<Inside>(value.at("inside"));
   pair.distance = {read_real(value.at("distance").at(0)), read_real(value.at("distance").at(1))};
   const json& witness = value.at("witness");
   pair.witness.feature_a = read_feature(witness.at("a"), pair.witness_edge_a);
@@ -120,7 +110,7 @@ ReportedDiagnostic read_diagnostic(const json& value) {
   ReportedDiagnostic diagnostic;
   if (const json& object = value.at("object"); !object.is_null())
     diagnostic.object = read_whole<std::uint32_t>(object);
-  diagnostic.kind = named(diagnostic_kinds, value.at("kind"));
+  diagnostic.kind = named<DiagnosticKind>(value.at("kind"));
   diagnostic.message = value.at("message").get<std::string>();
   return diagnostic;
 }
@@ -152,28 +142,45 @@ ReportedFrame read_frame(const json& value) {
   return frame;
 }
 
-Accuracy read_accuracy(const json& value) {
-  if (value == "exact") return Accuracy::exact();
-  if (value.contains("within")) return Accuracy::within(value.at("within").get<double>());
-  return Accuracy::paper(value.at("paper").get<std::vector<double>>());
+void read_value(const json& value, std::floating_point auto& number) {
+  number = read_real(value);
+}
+template <std::unsigned_integral Whole>
+void read_value(const json& value, Whole& number) {
+  number = read_whole<Whole>(value);
+}
+void read_value(const json& value, std::same_as<bool> auto& truth) {
+  truth = value.get<bool>();
+}
+template <NamedEnumeration Enum>
+void read_value(const json& value, Enum& enumerator) {
+  enumerator = named<Enum>(value);
+}
+void read_value(const json& value, std::chrono::microseconds& time) {
+  time = std::chrono::microseconds(read_whole<std::int64_t>(value));
+}
+void read_value(const json& value, Accuracy& accuracy) {
+  if (value == "exact")
+    accuracy = Accuracy::exact();
+  else if (value.contains("within"))
+    accuracy = Accuracy::within(value.at("within").get<double>());
+  else
+    accuracy = Accuracy::paper(value.at("paper").get<std::vector<double>>());
+}
+
+template <typename Value>
+void read_setting(const json& settings, std::string_view key, Value& value) {
+  read_value(settings.at(key), value);
+}
+template <typename Value>
+void read_setting(const json& settings, std::string_view key, std::optional<Value>& value) {
+  if (settings.contains(key)) read_value(settings.at(key), value.emplace());
 }
 
 SceneSettings read_settings(const json& value) {
   SceneSettings settings;
-  settings.contact_distance = read_real(value.at("contact_distance"));
-  settings.range = read_real(value.at("range"));
-  const auto detail = contact_detail_from(value.at("detail").get<std::string>());
-  if (!detail) throw BadLine("detail is no word of the format");
-  settings.detail = *detail;
-  settings.accuracy = read_accuracy(value.at("accuracy"));
-  if (value.contains("time_budget_us"))
-    settings.time_budget = std::chrono::microseconds(read_whole<std::int64_t>(value.at("time_budget_us")));
-  if (value.contains("work_budget"))
-    settings.work_budget = read_whole<std::uint64_t>(value.at("work_budget"));
-  if (value.contains("max_contacts"))
-    settings.max_contacts = read_whole<std::size_t>(value.at("max_contacts"));
-  if (value.contains("max_contacts_per_pair"))
-    settings.max_contacts_per_pair = read_whole<std::size_t>(value.at("max_contacts_per_pair"));
+  for_each_reported_setting(
+      [&](const auto& field) { read_setting(value, key_of(field), settings.*field.member); });
   return settings;
 }
 

@@ -2,7 +2,6 @@
 #include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
-#include <graze/io/scene_file.hpp>
 
 #include "report/report_fields.hpp"
 #include "report/report_lines.hpp"

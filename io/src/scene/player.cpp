@@ -3,6 +3,7 @@
 #include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/player.hpp>
+#include <graze/settings_fields.hpp>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -135,6 +136,8 @@ void Player::State::take_warnings(Playback& playback) {
 }
 
 void Player::State::set_rule(const RuleDescription& rule, const SceneSettings& settings) {
+  static_assert(are_all_fields<PairRule, &PairRule::contact_distance, &PairRule::range, &PairRule::epsilon>(),
+                "each field of PairRule is set here");
   PairRule pair_rule;
   pair_rule.contact_distance = rule.contact_distance.value_or(settings.contact_distance);
   pair_rule.range = rule.range.value_or(settings.range);

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <graze/io/error.hpp>
 #include <graze/io/scene_file.hpp>
+#include <graze/scene_enumerators.hpp>
 #include <limits>
 #include <set>
 
+#include "scene/described_fields.hpp"
 #include "scene/scene_placement.hpp"
 #include "text/json_path.hpp"
 
@@ -15,19 +17,12 @@ constexpr std::uint32_t any_number = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t largest_kind = 255;
 constexpr std::uint32_t largest_face_group = 255;
 
-constexpr std::array<std::pair<std::string_view, ContactDetail>, 6> details{{
-    {"none", ContactDetail::none},
-    {"closest", ContactDetail::closest},
-    {"regions", ContactDetail::regions},
-    {"vertices", ContactDetail::vertices},
-    {"features", ContactDetail::features},
-    {"nearest", ContactDetail::nearest},
-}};
-
-ContactDetail read_detail(const JsonPath& json) {
-  const auto detail = contact_detail_from(json.text());
-  if (!detail) json.fail("a contact detail", "write none, closest, regions, vertices or features");
-  return *detail;
+/// An enumerator by its name. `expected` says what stands there, such as "a motion".
+template <NamedEnumeration Enum>
+Enum read_enumerator(const JsonPath& json, std::string_view expected) {
+  const auto enumerator = enumerator_named<Enum>(json.text());
+  if (!enumerator) json.fail(expected, "write " + listed_names<Enum>());
+  return *enumerator;
 }
 
 std::vector<double> read_epsilon(const JsonPath& json) {
@@ -50,14 +45,6 @@ Accuracy read_accuracy(const JsonPath& json) {
 double read_range(const JsonPath& json) {
   if (json.value() == "infinity") return std::numeric_limits<double>::infinity();
   return json.number_not_negative();
-}
-
-Motion read_motion(const JsonPath& json) {
-  const std::string word = json.text();
-  if (word == "deformable") return Motion::deformable;
-  if (word == "rigid") return Motion::rigid;
-  if (word == "fixed") return Motion::fixed;
-  json.fail("a motion", "write deformable, rigid or fixed");
 }
 
 NumberOrName read_number_or_name(const JsonPath& json) {
@@ -121,35 +108,68 @@ void check_motion(const ObjectDescription& object, const JsonPath& json) {
     json.find("poses")->refuse(R"(poses need a rigid object; write "motion": "rigid", or leave them out)");
 }
 
+// One overload for each type of a field of ObjectSettings.
+
+void read_field(const JsonPath& json, std::string& text) {
+  text = json.text();
+}
+void read_field(const JsonPath& json, Motion& motion) {
+  motion = read_enumerator<Motion>(json, "a motion");
+}
+void read_field(const JsonPath& json, std::uint32_t& number) {
+  const bool is_kind = json.key() == field_name<ObjectSettings, &ObjectSettings::kind>();
+  number = json.whole_number(0, is_kind ? largest_kind : any_number);
+}
+void read_field(const JsonPath& json, double& length) {
+  length = json.number_not_negative();
+}
+void read_field(const JsonPath& json, bool& truth) {
+  truth = json.truth();
+}
+void read_field(const JsonPath& json, std::vector<std::uint8_t>& groups) {
+  for (std::size_t i = 0; i < json.array_size("write a number for each face, such as [0, 0, 1]"); ++i)
+    groups.push_back(read_face_group(json.item(i)));
+}
+
+/// Calls `visit` with the key and the member of each field of ObjectSettings that an entry may have.
+template <typename Visit>
+void for_each_described_field(const Visit& visit) {
+  const auto visit_one = [&](auto described) {
+    visit(field_name<ObjectSettings, described.field>(), described.member);
+  };
+  std::apply([&](auto... described) { (visit_one(described), ...); }, described_fields);
+}
+
+void expect_object_keys(const JsonPath& json) {
+  std::vector<std::string_view> keys;
+  for_each_described_field([&](std::string_view key, auto) { keys.push_back(key); });
+  keys.insert(keys.begin() + 1,
+              {"mesh", "node", "up", "unit", "positions", "animation", "transform", "poses"});
+  json.expect_keys(keys);
+}
+
 ObjectDescription read_object(const JsonPath& json, const std::filesystem::path& folder) {
-  json.expect_keys({"name", "mesh", "node", "up", "unit", "motion", "positions", "animation", "transform",
-                    "poses", "layer", "collides_with", "group", "margin", "kind", "solid", "face_groups"});
+  expect_object_keys(json);
   ObjectDescription object;
   object.place = json.where();
   object.mesh = folder / json.require("mesh", "name the object's mesh file").text();
-  if (const auto name = json.find("name")) object.name = name->text();
   if (const auto node = json.find("node")) object.node = read_number_or_name(*node);
   read_frame(json, object);
   if (const auto positions = json.find("positions")) object.positions = folder / positions->text();
   if (const auto animation = json.find("animation")) object.animation = read_number_or_name(*animation);
   if (const auto transform = json.find("transform")) object.transform = read_placement(*transform);
   if (const auto poses = json.find("poses")) object.poses = read_poses(*poses, object.transform);
-  if (const auto layer = json.find("layer")) object.layer = layer->whole_number(0, any_number);
-  if (const auto mask = json.find("collides_with")) object.collides_with = mask->whole_number(0, any_number);
-  if (const auto group = json.find("group")) object.group = group->whole_number(0, any_number);
-  if (const auto margin = json.find("margin")) object.margin = margin->number_not_negative();
-  if (const auto solid = json.find("solid")) object.solid = solid->truth();
-  if (const auto kind = json.find("kind")) object.kind = kind->whole_number(0, largest_kind);
-  if (const auto groups = json.find("face_groups"))
-    for (std::size_t i = 0; i < groups->array_size("write a number for each face, such as [0, 0, 1]"); ++i)
-      object.face_groups.push_back(read_face_group(groups->item(i)));
   if (!object.positions.empty() || object.animation) object.motion = Motion::deformable;
-  if (const auto motion = json.find("motion")) object.motion = read_motion(*motion);
+  for_each_described_field([&](std::string_view key, auto member) {
+    if (const auto value = json.find(key)) read_field(*value, object.*member);
+  });
   check_motion(object, json);
   return object;
 }
 
 RuleDescription read_rule(const JsonPath& json) {
+  static_assert(are_all_fields<PairRule, &PairRule::contact_distance, &PairRule::range, &PairRule::epsilon>(),
+                "each field of PairRule is a key here");
   json.expect_keys({"kinds", "contact_distance", "range", "epsilon"});
   RuleDescription rule;
   const JsonPath kinds = json.require("kinds", "name the two kinds it is for, such as [0, 3]");
@@ -172,15 +192,42 @@ IgnoreDescription read_ignore(const JsonPath& json) {
           json.where()};
 }
 
+// One overload for each type of a setting of scene files.
+
+void read_setting(const JsonPath& json, double& length) {
+  const bool may_be_infinite = json.key() == field_name<SceneSettings, &SceneSettings::range>();
+  length = may_be_infinite ? read_range(json) : json.number_not_negative();
+}
+void read_setting(const JsonPath& json, ContactDetail& detail) {
+  detail = read_enumerator<ContactDetail>(json, "a contact detail");
+}
+void read_setting(const JsonPath& json, Accuracy& accuracy) {
+  accuracy = read_accuracy(json);
+}
+void read_setting(const JsonPath& json, std::optional<std::size_t>& most) {
+  most = json.whole_number(1, any_number);
+}
+
+/// Calls `visit` with each setting that scene files have. Threads, the arena, budgets and region distances
+/// belong to a run, and not to a scene: the command line says them.
+template <typename Visit>
+void for_each_setting_of_files(const Visit& visit) {
+  for_each_field<SceneSettings, &SceneSettings::threads, &SceneSettings::arena, &SceneSettings::time_budget,
+                 &SceneSettings::work_budget, &SceneSettings::region_distances>(visit);
+}
+
+void expect_scene_keys(const JsonPath& json) {
+  std::vector<std::string_view> keys = {"graze"};
+  for_each_setting_of_files([&](const auto& field) { keys.push_back(field.name); });
+  keys.insert(keys.end(),
+              {"frames", "frames_per_second", "up", "unit", "objects", "rules", "ignore", "outside_files"});
+  json.expect_keys(keys);
+}
+
 void read_settings(const JsonPath& json, SceneSettings& settings) {
-  if (const auto distance = json.find("contact_distance"))
-    settings.contact_distance = distance->number_not_negative();
-  if (const auto range = json.find("range")) settings.range = read_range(*range);
-  if (const auto detail = json.find("detail")) settings.detail = read_detail(*detail);
-  if (const auto accuracy = json.find("accuracy")) settings.accuracy = read_accuracy(*accuracy);
-  if (const auto most = json.find("max_contacts")) settings.max_contacts = most->whole_number(1, any_number);
-  if (const auto most = json.find("max_contacts_per_pair"))
-    settings.max_contacts_per_pair = most->whole_number(1, any_number);
+  for_each_setting_of_files([&](const auto& field) {
+    if (const auto value = json.find(field.name)) read_setting(*value, settings.*field.member);
+  });
 }
 
 void read_scene_objects(const JsonPath& json, const std::filesystem::path& folder, SceneDescription& scene) {
@@ -201,9 +248,7 @@ void read_scene_objects(const JsonPath& json, const std::filesystem::path& folde
 SceneDescription read_scene_file(const std::filesystem::path& path) {
   const nlohmann::json document = parse_json_file(path);
   const JsonPath root(path.string(), document);
-  root.expect_keys({"graze", "contact_distance", "range", "detail", "accuracy", "max_contacts",
-                    "max_contacts_per_pair", "frames", "frames_per_second", "up", "unit", "objects", "rules",
-                    "ignore", "outside_files"});
+  expect_scene_keys(root);
   const JsonPath version = root.require("graze", R"(add "graze": 1, the version of the format)");
   if (version.value() != 1) version.fail("version 1", "this program reads version 1 of the format");
 
@@ -239,16 +284,12 @@ SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files
 }
 
 std::optional<ContactDetail> contact_detail_from(std::string_view word) {
-  const auto* const found =
-      std::ranges::find(details, word, &std::pair<std::string_view, ContactDetail>::first);
-  if (found == details.end()) return std::nullopt;
-  return found->second;
+  return enumerator_named<ContactDetail>(word);
 }
 
 std::string_view to_string(ContactDetail detail) {
-  const auto* const found =
-      std::ranges::find(details, detail, &std::pair<std::string_view, ContactDetail>::second);
-  return found == details.end() ? "unknown" : found->first;
+  const std::string_view name = name_of(detail);
+  return name.empty() ? "unknown" : name;
 }
 
 }  // namespace graze::io

@@ -13,6 +13,7 @@
 #include "mesh/axes.hpp"
 #include "mesh/known_formats.hpp"
 #include "mesh/raw_object.hpp"
+#include "scene/described_fields.hpp"
 #include "text/file_bytes.hpp"
 #include "text/text_lines.hpp"
 #include "text/unique_names.hpp"
@@ -190,15 +191,10 @@ void Loader::load_object(std::size_t entry_index, const KnownFile& known, std::s
   LoadedSceneObject object;
   object.entry = entry_index;
   object.source = open_source(entry, known, index);
+  std::apply([&](auto... described) { ((object.settings.*described.field = entry.*described.member), ...); },
+             described_fields);
   object.settings.name = name_of(entry, file.objects()[index], is_only_one);
-  object.settings.motion = object.source ? Motion::deformable : entry.motion;
-  object.settings.layer = entry.layer;
-  object.settings.collides_with = entry.collides_with;
-  object.settings.group = entry.group;
-  object.settings.face_groups = entry.face_groups;
-  object.settings.margin = entry.margin;
-  object.settings.solid = entry.solid;
-  object.settings.kind = entry.kind;
+  if (object.source) object.settings.motion = Motion::deformable;
   object.placement = linear_map(entry.transform.stretch) * linear_map(conversion(entry, file));
   if (object.settings.motion == Motion::deformable)
     object.placement = entry.transform.pose() * object.placement;

@@ -113,7 +113,11 @@ void JsonPath::refuse(std::string_view problem) const {
   throw InputError(where() + ": " + std::string(problem));
 }
 
-void JsonPath::expect_keys(std::initializer_list<std::string_view> keys) const {
+std::string_view JsonPath::key() const {
+  return std::string_view(path_).substr(path_.rfind('.') + 1);
+}
+
+void JsonPath::expect_keys(std::span<const std::string_view> keys) const {
   if (!value_->is_object()) fail("an object", "write { } with keys inside");
   for (const auto& [key, unused] : value_->items()) {
     if (std::ranges::find(keys, key) != keys.end()) continue;

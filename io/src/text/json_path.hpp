@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,11 +27,14 @@ class JsonPath {
   [[nodiscard]] const nlohmann::json& value() const { return *value_; }
   /// `scene.json: objects[2].margin`; the file alone for the whole document.
   [[nodiscard]] std::string where() const;
+  /// The last key of the path, such as `margin`.
+  [[nodiscard]] std::string_view key() const;
   [[noreturn]] void fail(std::string_view expected, std::string_view remedy) const;
   [[noreturn]] void refuse(std::string_view problem) const;
 
   /// An object with no other keys than these.
-  void expect_keys(std::initializer_list<std::string_view> keys) const;
+  void expect_keys(std::initializer_list<std::string_view> keys) const { expect_keys(std::span(keys)); }
+  void expect_keys(std::span<const std::string_view> keys) const;
   [[nodiscard]] std::optional<JsonPath> find(std::string_view key) const;
   [[nodiscard]] JsonPath require(std::string_view key, std::string_view remedy) const;
 

@@ -12,6 +12,7 @@
 #include <graze/object_id.hpp>
 #include <graze/position_view.hpp>
 #include <graze/report.hpp>
+#include <graze/scene_enumerators.hpp>
 #include <graze/settings.hpp>
 #include <limits>
 #include <optional>
@@ -33,24 +34,12 @@ template <typename Enum>
 constexpr std::underlying_type_t<Enum> underlying(Enum value) {
   return static_cast<std::underlying_type_t<Enum>>(value);
 }
-/// The last enumerator of each type of which a recording has values. Others are refused when they are read.
+/// The last value of each enumeration that a recording has. Others are refused when they are read.
 template <typename Enum>
 inline constexpr std::underlying_type_t<Enum> last_of =
     std::numeric_limits<std::underlying_type_t<Enum>>::max();
-template <>
-inline constexpr auto last_of<Motion> = underlying(Motion::fixed);
-template <>
-inline constexpr auto last_of<BindPolicy> = underlying(BindPolicy::when_told);
-template <>
-inline constexpr auto last_of<ArenaPolicy> = underlying(ArenaPolicy::callers);
-template <>
-inline constexpr auto last_of<ContactDetail> = underlying(ContactDetail::nearest);
-template <>
-inline constexpr auto last_of<AccuracyMode> = underlying(AccuracyMode::paper);
-template <>
-inline constexpr auto last_of<DiagnosticKind> = underlying(DiagnosticKind::out_of_memory);
-template <>
-inline constexpr auto last_of<PairPhase> = underlying(PairPhase::ended);
+template <NamedEnumeration Enum>
+inline constexpr std::underlying_type_t<Enum> last_of<Enum> = underlying(enumerators<Enum>.back());
 
 /// The fewest bytes that a value takes in a recording, or fewer.
 template <typename Value>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <graze/position_view.hpp>
 #include <graze/report.hpp>
-#include <graze/settings.hpp>
+#include <graze/settings_fields.hpp>
 #include <limits>
 #include <tuple>
 #include <type_traits>
@@ -70,27 +70,16 @@ concept Is = std::same_as<std::remove_const_t<Candidate>, Type>;
 
 // The fields of each record and of what records are made of, in the order in which they stand in a recording.
 
-template <Is<ObjectSettings> T>
+/// Every field of settings, in the order of their lists.
+template <typename T>
+requires HasSettingsFields<std::remove_const_t<T>>
 auto fields(T& r) {
-  return std::tie(r.name, r.motion, r.layer, r.collides_with, r.group, r.margin, r.kind, r.user_data, r.solid,
-                  r.face_groups);
-}
-template <Is<PairRule> T>
-auto fields(T& r) {
-  return std::tie(r.contact_distance, r.range, r.epsilon);
+  return std::apply([&](const auto&... field) { return std::tie(r.*field.member...); },
+                    settings_fields<std::remove_const_t<T>>);
 }
 template <Is<Diagnostic> T>
 auto fields(T& r) {
   return std::tie(r.object, r.kind, r.message);
-}
-template <Is<SceneCapacity> T>
-auto fields(T& r) {
-  return std::tie(r.objects, r.calls_per_step, r.near_pairs, r.contacts, r.reports);
-}
-template <Is<SceneSettings> T>
-auto fields(T& r) {
-  return std::tie(r.contact_distance, r.range, r.detail, r.accuracy, r.threads, r.arena, r.time_budget,
-                  r.work_budget, r.max_contacts, r.max_contacts_per_pair, r.region_distances);
 }
 template <Is<AddRecord> T>
 auto fields(T& r) {

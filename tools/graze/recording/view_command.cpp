@@ -57,8 +57,7 @@ class ReplayedPage {
       const ObjectSettings& settings = object.settings;
       const std::string name =
           settings.name.empty() ? "object " + std::to_string(object.serial) : settings.name;
-      page_.writer().add_object(object.id,
-                                {name, object.mesh, settings.motion, settings.user_data, settings.solid});
+      page_.writer().add_object(object.id, page_object(name, object.mesh, settings));
     }
     known_ = std::move(now);
   }

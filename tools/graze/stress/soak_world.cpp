@@ -1,6 +1,7 @@
 #include "stress/soak_world.hpp"
 
 #include <algorithm>
+#include <graze/enumerators.hpp>
 #include <limits>
 
 #include "models/models.hpp"
@@ -24,13 +25,19 @@ struct Mode {
   ContactDetail detail;
   double tolerance;  ///< of Accuracy::within; 0: exact
 };
-constexpr std::array<Mode, 7> modes = {{{"features", ContactDetail::features, 0},
+constexpr std::array<Mode, 8> modes = {{{"features", ContactDetail::features, 0},
                                         {"closest", ContactDetail::closest, 0},
                                         {"none", ContactDetail::none, 0},
                                         {"features within 0.05", ContactDetail::features, 0.05},
                                         {"regions", ContactDetail::regions, 0},
                                         {"vertices", ContactDetail::vertices, 0},
+                                        {"nearest", ContactDetail::nearest, 0},
                                         {"none within 0.05", ContactDetail::none, 0.05}}};
+static_assert(std::ranges::all_of(enumerators<ContactDetail>,
+                                  [](ContactDetail detail) {
+                                    return std::ranges::count(modes, detail, &Mode::detail) > 0;
+                                  }),
+              "each detail has a mode");
 
 }  // namespace
 

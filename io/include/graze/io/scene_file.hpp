@@ -132,8 +132,8 @@ GRAZE_API SceneDescription read_scene_file(const std::filesystem::path& path);
 /// the first animation. Every other object is at rest.
 GRAZE_API SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files);
 
-/// Returns the detail that a word names: `none`, `closest`, `regions`, `vertices` or `features`. Returns no
-/// value for another word.
+/// Returns the detail that a word names: `none`, `closest`, `regions`, `vertices`, `features` or `nearest`.
+/// Returns no value for another word. It is enumerator_named<ContactDetail>().
 GRAZE_API std::optional<ContactDetail> contact_detail_from(std::string_view word);
 /// Returns the enumerator's own name, such as "features".
 GRAZE_API std::string_view to_string(ContactDetail detail);
