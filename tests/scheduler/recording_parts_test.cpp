@@ -2,6 +2,7 @@
 // diverged in them, whatever the accuracy and the limits. What they must have in common with the recorded
 // answers is still compared.
 
+#include <algorithm>
 #include <graze/recorder.hpp>
 #include <graze/recording.hpp>
 #include <limits>
@@ -213,6 +214,31 @@ TEST_CASE("recording parts: an object that was frozen before a keyframe is froze
     CHECK(found.first_difference == "");
     CHECK(found.not_compared == 0);
   }
+}
+
+TEST_CASE(
+    "recording parts: memory that was told of before a keyframe, and read after it, is read in a part") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "run.graze";
+  SceneSettings settings = settings_of(0.5, 2);
+  settings.threads = 1;
+  NeedleOverPlate stage(settings);
+  Positions memory = lifted(*needle_mesh(), 50);
+  Recorder recorder(stage.scene, file, never_dropping());
+  stage.scene.bind_positions(stage.needle, memory, BindPolicy::when_told);
+  for (std::size_t frame = 0; frame < 24; ++frame) {
+    if (frame < 8) {  // far from the plate, so that the promise keeps the needle unread
+      const Positions now = lifted(*needle_mesh(), 50 - 0.125 * static_cast<double>(frame));
+      std::copy(now.begin(), now.end(), memory.begin());
+      stage.scene.positions_changed(stage.needle, 0.25);
+    }
+    if (frame == 13) stage.scene.set_positions(stage.plate, lifted(*plate_mesh(), 48.875));
+    CHECK((*stage.scene.step()).pairs().size() == (frame < 13 ? 0U : 1U));
+  }
+  recorder.close();
+  for (const std::size_t first : {8U, 12U}) CHECK(findings_of(file, first).first_difference == "");
+  cut_recording(Recording(file), {.first_frame = 10}, folder / "part.graze");
+  CHECK(findings_of(folder / "part.graze").first_difference == "");
 }
 
 TEST_CASE("recording parts: what must hold is compared, and the rest is counted") {

@@ -139,11 +139,20 @@ void ReplayedScene::take(const BindRecord& record) {
   KeptPositions memory = object->positions.in_form(object->object.mesh->rest(), record.is_double);
   scene_.bind_positions(object->object.id, memory.view(), record.policy);
   object->positions = std::move(memory);  // only now may the memory of an earlier binding go
+  object->policy = record.policy;
+  object->is_told = true;
 }
 
 /// The memory stays where it is, since a binding has made room for positions of its form.
+///
+/// The recorded scene has read it in this step. The call that told it so may have come before the keyframe at
+/// which the replay began, where promises kept the object unread. Then this scene is told now.
 void ReplayedScene::take(const MemoryRecord& record) {
-  if (Object* const object = find(record.object)) object->positions.take(record.positions);
+  Object* const object = find(record.object);
+  if (object == nullptr) return;
+  object->positions.take(record.positions);
+  const bool was_told = std::exchange(object->is_told, false);
+  if (!was_told && object->policy == BindPolicy::when_told) scene_.positions_changed(object->object.id);
 }
 
 /// Positions of another form than before come only where there is no binding, and say nothing then.
@@ -164,8 +173,10 @@ void ReplayedScene::take(const SetRule& record) {
 }
 
 void ReplayedScene::take(const PositionsChanged& record) {
-  if (const Object* const object = find(record.object))
-    scene_.positions_changed(object->object.id, record.max_displacement);
+  Object* const object = find(record.object);
+  if (object == nullptr) return;
+  object->is_told = true;
+  scene_.positions_changed(object->object.id, record.max_displacement);
 }
 
 void ReplayedScene::take(const IgnorePair& record) {

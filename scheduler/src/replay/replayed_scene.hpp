@@ -44,6 +44,8 @@ class ReplayedScene {
     ObjectId recorded;
     std::array<double, 12> pose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     KeptPositions positions;  ///< what it is bound to, or what it was given last; empty at rest
+    BindPolicy policy = BindPolicy::every_step;
+    bool is_told = false;  ///< the scene knows of new memory, and has not been seen to read it
     bool is_removed = false;
   };
   [[nodiscard]] Object* find(ObjectId recorded);
