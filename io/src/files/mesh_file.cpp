@@ -11,12 +11,15 @@
 #include "mesh/raw_object.hpp"
 #include "mesh/rig.hpp"
 #include "text/file_bytes.hpp"
+#include "text/out_of_memory.hpp"
 #include "text/text_lines.hpp"
 #include "text/unique_names.hpp"
 
 namespace graze::io {
 
 struct MeshFile::Content {
+  static std::shared_ptr<const Content> read(const std::filesystem::path& path);
+
   std::vector<LoadedObject> objects;
   std::vector<std::string> animations;
   std::vector<std::string> warnings;
@@ -54,6 +57,10 @@ RiggedFile read_objects(const std::filesystem::path& path) {
 MeshFile::MeshFile(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 MeshFile MeshFile::read(const std::filesystem::path& path) {
+  return with_memory_for(path, [&] { return MeshFile(Content::read(path)); });
+}
+
+std::shared_ptr<const MeshFile::Content> MeshFile::Content::read(const std::filesystem::path& path) {
   RiggedFile source = read_objects(path);
   auto content = std::make_shared<Content>();
   content->warnings = std::move(source.file.warnings);
@@ -82,7 +89,7 @@ MeshFile MeshFile::read(const std::filesystem::path& path) {
   source.rig.bodies = std::move(bodies);
   for (const auto& clip : source.rig.clips) content->animations.push_back(clip.name);
   content->rig = std::move(source.rig);
-  return MeshFile(std::move(content));
+  return content;
 }
 
 std::span<const LoadedObject> MeshFile::objects() const {

@@ -7,6 +7,7 @@
 
 #include "scene/scene_placement.hpp"
 #include "text/json_path.hpp"
+#include "text/out_of_memory.hpp"
 
 namespace graze::io {
 namespace {
@@ -198,7 +199,9 @@ void read_scene_objects(const JsonPath& json, const std::filesystem::path& folde
 
 }  // namespace
 
-SceneDescription read_scene_file(const std::filesystem::path& path) {
+namespace {
+
+SceneDescription read_scene(const std::filesystem::path& path) {
   const nlohmann::json document = parse_json_file(path);
   const JsonPath root(path.string(), document);
   root.expect_keys({"graze", "contact_distance", "range", "detail", "accuracy", "max_contacts",
@@ -222,6 +225,12 @@ SceneDescription read_scene_file(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < ignore->array_size(R"(write [["name", "name"], ...])"); ++i)
       scene.ignore.push_back(read_ignore(ignore->item(i)));
   return scene;
+}
+
+}  // namespace
+
+SceneDescription read_scene_file(const std::filesystem::path& path) {
+  return with_memory_for(path, [&] { return read_scene(path); });
 }
 
 SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files) {

@@ -66,7 +66,8 @@ struct FileFrame {
 class GRAZE_API MeshFile {
  public:
   /// Reads a file. Throws InputError if it is missing or damaged, if its format is not read, or if it has no
-  /// face. Also throws InputError if a face uses a vertex that does not exist or is not finite.
+  /// face. Also throws InputError if a face uses a vertex that does not exist or is not finite, if the file
+  /// unfolds to far more than its size, and if there is not enough memory for it.
   static MeshFile read(const std::filesystem::path& path);
 
   /// Returns the objects of the file, of which there is at least one.
