@@ -76,6 +76,22 @@ TEST_CASE("concave polygons are cut without overlap") {
     }
     check_cut(comb);
   }
+  SECTION("combs of very many corners, with teeth on a line and in a spiral") {
+    constexpr int teeth = 15000;
+    std::vector<Eigen::Vector3d> comb = {{0, 0, -1}, {0, 2 * teeth, -1}};
+    std::vector<Eigen::Vector3d> spiral;
+    for (int tooth = teeth; tooth > 0; --tooth) {
+      comb.emplace_back(0, 2 * tooth, 5);
+      comb.emplace_back(0, 2 * tooth - 1, 0);
+    }
+    for (const double width : {0.0, 0.5})
+      for (int i = 0; i < teeth; ++i) {
+        const double angle = 0.01 * (width == 0 ? i : teeth - 1 - i);
+        spiral.emplace_back((angle + 1 + width) * std::cos(angle), (angle + 1 + width) * std::sin(angle), 0);
+      }
+    std::ranges::reverse(spiral);
+    check_cut(GENERATE_COPY(comb, spiral));
+  }
   SECTION("stars with random rays in random planes") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> length(0.1, 1.0);

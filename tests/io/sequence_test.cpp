@@ -88,6 +88,67 @@ TEST_CASE("a sequence of another count is refused by file, frame and counts") {
             ": frame 2: the file has 3 vertices, the mesh 4; write every frame with the mesh's vertices");
 }
 
+TEST_CASE("a sequence says which frame has other faces, and which one is cut") {
+  const TemporaryFolder folder;
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
+  const std::string faces = "f 1 2 3 4\nf 1 5 2\n";
+  const auto notes = [&](const std::vector<std::string>& frames) {
+    const auto file = io::MeshFile::read(folder.write("mesh.obj", vertices + faces));
+    for (std::size_t i = 0; i < frames.size(); ++i) folder.write("f" + std::to_string(i) + ".obj", frames[i]);
+    const auto source = io::open_sequence(folder / "f#.obj", file.objects()[0], 0);
+    std::vector<Eigen::Vector3d> positions;
+    for (std::uint32_t frame = 0; frame < frames.size(); ++frame) source->read(frame, positions);
+    std::vector<std::string> said;
+    for (const std::string& note : source->warnings()) {
+      CHECK(note.starts_with((folder / "f").string()));
+      said.push_back(note.substr((folder / "f").string().size()));
+    }
+    return said;
+  };
+  const std::string same = vertices + faces;
+  CHECK(notes({same, vertices, same, vertices + "f 2 1 5\nf 1 2 3 4\n"}).empty());
+  CHECK(notes({same, same, vertices + "f 1 2 3\nf 1 3 4\nf 1 5 2\n", vertices + "f 1 2 4\n"}) ==
+        std::vector<std::string>{
+            "2.obj: frame 2: 2 of its 3 faces are not the mesh's, so its vertices may be in "
+            "another order; write every frame with the mesh's faces"});
+  CHECK(notes({same, vertices + "f 1 5 2\n", same}) ==
+        std::vector<std::string>{
+            "1.obj: frame 1: its faces have 1 triangles and the mesh's 3; write every frame "
+            "with the mesh's faces"});
+  CHECK(notes({same, same.substr(0, same.size() - 1), vertices.substr(0, vertices.size() - 1)}) ==
+        std::vector<std::string>{
+            "1.obj: frame 1: it ends within a line, as the first frame does not, so its last "
+            "number may be cut; write it again"});
+  CHECK(notes({vertices.substr(0, vertices.size() - 1), same.substr(0, same.size() - 1)}).empty());
+}
+
+TEST_CASE("an object of an OBJ file of several groups is moved by its own vertices or by all of the file") {
+  const TemporaryFolder folder;
+  const auto text = [](double height, const std::string& groups) {
+    std::string lines;
+    for (int i = 0; i < 6; ++i)
+      lines +=
+          "v " + std::to_string(i) + " " + std::to_string(i % 2) + " " + std::to_string(height + i) + "\n";
+    return lines + groups;
+  };
+  const std::string groups = "g one\nf 1 2 3\ng two\nf 2 4 6\n";
+  const auto file = io::MeshFile::read(folder.write("mesh.obj", text(0, groups)));
+  folder.write("same_0.obj", text(7, groups));
+  folder.write("all_0.obj", text(7, ""));
+  folder.write("other_0.obj", text(7, "g one\nf 1 2 3\ng two\nf 2 4 5\n"));
+  for (const std::string name : {"same_#.obj", "all_#.obj"}) {
+    std::vector<Eigen::Vector3d> positions;
+    const auto source = io::open_sequence(folder / name, file.objects()[1], name[0] == 's' ? 1 : 0);
+    source->read(0, positions);
+    CHECK(positions == std::vector<Eigen::Vector3d>{{1, 1, 8}, {3, 1, 10}, {5, 1, 12}});
+    CHECK(source->warnings().empty());
+  }
+  const auto other = io::open_sequence(folder / "other_#.obj", file.objects()[1], 1);
+  REQUIRE(other->warnings().size() == 1);
+  CHECK_THAT(other->warnings()[0],
+             Catch::Matchers::Contains("use other vertices of the file than the mesh's"));
+}
+
 TEST_CASE("a sequence that is not there or not clear is refused") {
   const TemporaryFolder folder;
   folder.write("s01.obj", obj_frame(0));

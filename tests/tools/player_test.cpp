@@ -111,6 +111,33 @@ TEST_CASE("objects that are ignored, by entry or by name, are never a pair") {
   CHECK(pairs(R"(, "ignore": [["a", "b"], ["b", "pair/left"]])") == 1);
 }
 
+TEST_CASE("the objects of an entry that is ignored with itself meet other objects only") {
+  const TemporaryFolder folder;
+  folder.write("one.obj", triangle_obj);
+  std::string crowd;
+  constexpr int count = 1001;
+  for (int i = 0; i < count; ++i)
+    crowd += "g m" + std::to_string(i) + "\nv 0 0 " + std::to_string(i) + "\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
+  folder.write("crowd.obj", crowd);
+  folder.write("few.obj", crowd.substr(0, crowd.find("g m3\n")));
+  const auto pairs = [&](const std::string& keys, const std::string& ignored) {
+    Player player = play(folder, R"("objects": [{"name": "few", "mesh": "few.obj")" + keys +
+                                     R"(}, {"name": "a", "mesh": "one.obj"}], "range": 10)" + ignored);
+    player.advance(0);
+    return player.scene().step()->pairs().size();
+  };
+  CHECK(pairs("", "") == 6);
+  CHECK(pairs("", R"(, "ignore": [["few", "few"]])") == 3);
+  CHECK(pairs(R"(, "group": 7)", R"(, "ignore": [["few", "few"]])") == 3);
+  CHECK(pairs("", R"(, "ignore": [["few", "few"], ["few", "a"]])") == 0);
+  // Each pair of two entries is kept one by one, so there is a limit.
+  CHECK_THAT(
+      error_of(folder, R"("objects": [{"name": "a", "mesh": "crowd.obj"}, {"name": "b", "mesh": "crowd.obj"}],
+                                  "ignore": [["a", "a"], ["a", "b"]])"),
+      Catch::Matchers::EndsWith("ignore[1]: 1002001 pairs are ignored up to here, and 1000000 may be; "
+                                "give the objects a \"group\", or \"layer\" and \"collides_with\""));
+}
+
 TEST_CASE("faces that are ignored by their groups are never in a pair") {
   const TemporaryFolder folder;
   folder.write("one.obj", triangle_obj);

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <graze/error.hpp>
+#include <new>
 #include <string>
 
 #if GRAZE_HAS_ORACLES
@@ -74,6 +75,9 @@ int run_guarded(int argument_count, char** arguments) {
     return run_program(argument_count, arguments);
   } catch (const graze::tools::CheckFailed& error) {
     return complain(error.what(), check_failed);
+  } catch (const std::bad_alloc&) {
+    return complain("there is not enough memory; take smaller meshes, fewer objects or fewer outputs",
+                    bad_input);
   } catch (const std::exception& error) {
     return complain(error.what(), bad_input);
   }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <span>
+#include <unordered_map>
+#include <vector>
 
 #include "assimp/assimp_convert.hpp"
 #include "assimp/assimp_pivots.hpp"
+#include "mesh/skin.hpp"
 #include "mesh/weld.hpp"
 #include "text/file_bytes.hpp"
 
@@ -21,7 +24,7 @@ class BodyReader {
   BodyReader(const std::filesystem::path& path, const NodeTable& nodes, std::uint32_t node,
              bool use_rest_weights)
       : path_(path), nodes_(nodes), use_rest_weights_(use_rest_weights) {
-    result_.body.node = node;
+    result_.body.node = result_.body.morph_node = node;
     geometric_ = geometric_transform(nodes, node);
   }
 
@@ -40,7 +43,10 @@ class BodyReader {
   NodeObject finish() {
     Body& body = result_.body;
     for (auto& target : body.targets) target.offsets.resize(body.vertices.size(), Eigen::Vector3d::Zero());
-    if (!body.bones.empty()) body.influences.resize(body.vertices.size());
+    if (!body.influences.empty()) {
+      body.influences.resize(body.vertices.size());
+      set_bones(body, joints_);
+    }
     const auto numbers = weld(body);
     for (auto& corner : result_.faces.corners) corner = numbers[corner];
     return std::move(result_);
@@ -95,16 +101,15 @@ class BodyReader {
 
   /// Meshes of one node name the same bones; each is kept once.
   std::uint32_t number_of_bone(std::uint32_t node, const Eigen::Affine3d& offset) {
-    auto& bones = result_.body.bones;
-    const auto equal = std::find_if(bones.begin(), bones.end(), [&](const Bone& bone) {
-      return bone.node == node && bone.offset.matrix() == offset.matrix();
-    });
-    const auto number = static_cast<std::uint32_t>(equal - bones.begin());
-    if (equal == bones.end()) bones.push_back({node, offset});
+    const auto [begin, end] = joints_of_node_.equal_range(node);
+    for (auto known = begin; known != end; ++known)
+      if (joints_[known->second].offset.matrix() == offset.matrix()) return known->second;
+    const auto number = static_cast<std::uint32_t>(joints_.size());
+    joints_.push_back({node, offset});
+    joints_of_node_.emplace(node, number);
     return number;
   }
 
-  /// Keeps a vertex's influences in order of bones, each bone once.
   void add_influence(const aiMesh& mesh, std::uint32_t bone, const aiVertexWeight& source) {
     if (!(source.mWeight > 0)) return;
     if (source.mVertexId >= mesh.mNumVertices)
@@ -112,19 +117,15 @@ class BodyReader {
                          " of ", mesh.mNumVertices, "; export the skeleton again"));
     auto& influences = result_.body.influences;
     influences.resize(result_.body.vertices.size());
-    auto& of_vertex = influences[first_ + source.mVertexId];
-    const auto position =
-        std::find_if(of_vertex.begin(), of_vertex.end(), [&](const Influence& i) { return i.bone >= bone; });
-    if (position != of_vertex.end() && position->bone == bone)
-      position->weight += static_cast<double>(source.mWeight);
-    else
-      of_vertex.insert(position, {bone, static_cast<double>(source.mWeight)});
+    influences[first_ + source.mVertexId].push_back({bone, static_cast<double>(source.mWeight)});
   }
 
   const std::filesystem::path& path_;
   const NodeTable& nodes_;
   bool use_rest_weights_;
   Eigen::Affine3d geometric_;
+  std::vector<Bone> joints_;
+  std::unordered_multimap<std::uint32_t, std::uint32_t> joints_of_node_;
   std::uint32_t first_ = 0;  ///< the number of the current mesh's first vertex
   NodeObject result_;
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
 
 #include "assimp/assimp_convert.hpp"
 #include "assimp/assimp_pivots.hpp"
@@ -12,9 +15,20 @@ namespace {
 template <typename Value>
 void add_key(Track<Value>& track, double seconds, const Value& value) {
   if (!std::isfinite(seconds)) return;
-  const auto next_key = std::upper_bound(track.seconds.begin(), track.seconds.end(), seconds);
-  track.values.insert(track.values.begin() + (next_key - track.seconds.begin()), value);
-  track.seconds.insert(next_key, seconds);
+  track.values.push_back(value);
+  track.seconds.push_back(seconds);
+}
+
+/// Puts the keys of a track into order of time. Keys of one time stay in the order of the file.
+template <typename Value>
+void sort_keys(Track<Value>& track) {
+  if (std::ranges::is_sorted(track.seconds)) return;
+  std::vector<std::size_t> order(track.seconds.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t key) { return track.seconds[key]; });
+  Track<Value> sorted;
+  for (const std::size_t key : order) add_key(sorted, track.seconds[key], track.values[key]);
+  track = std::move(sorted);
 }
 
 Track<Eigen::Vector3d> read_track(const aiVectorKey* keys, unsigned count, double seconds_per_tick) {
@@ -23,6 +37,7 @@ Track<Eigen::Vector3d> read_track(const aiVectorKey* keys, unsigned count, doubl
     const Eigen::Vector3d value = to_eigen(keys[i].mValue);
     if (value.allFinite()) add_key(track, keys[i].mTime * seconds_per_tick, value);
   }
+  sort_keys(track);
   return track;
 }
 
@@ -33,12 +48,13 @@ Track<Eigen::Quaterniond> read_track(const aiQuatKey* keys, unsigned count, doub
     const double norm = value.norm();
     if (norm > 0 && std::isfinite(norm)) add_key(track, keys[i].mTime * seconds_per_tick, value.normalized());
   }
+  sort_keys(track);
   return track;
 }
 
 /// A key names the targets it is for. (FBX has keys for some of them only.)
-std::vector<Track<double>> read_morph_tracks(const aiMeshMorphAnim& source, double seconds_per_tick) {
-  constexpr unsigned most_targets = 65536;
+std::vector<Track<double>> read_morph_tracks(const aiMeshMorphAnim& source, double seconds_per_tick,
+                                             unsigned most_targets) {
   std::vector<Track<double>> tracks;
   for (unsigned i = 0; i < source.mNumKeys; ++i) {
     const aiMeshMorphKey& key = source.mKeys[i];
@@ -49,6 +65,7 @@ std::vector<Track<double>> read_morph_tracks(const aiMeshMorphAnim& source, doub
       add_key(tracks[target], key.mTime * seconds_per_tick, key.mWeights[j]);
     }
   }
+  for (auto& track : tracks) sort_keys(track);
   return tracks;
 }
 
@@ -77,8 +94,9 @@ double last_key(const Clip& clip) {
 
 class ClipReader {
  public:
-  ClipReader(const aiAnimation& source, const NodeTable& nodes)
-      : source_(source),
+  ClipReader(const aiScene& scene, const aiAnimation& source, const NodeTable& nodes)
+      : scene_(scene),
+        source_(source),
         nodes_(nodes),
         seconds_per_tick_(1.0 /
                           (source.mTicksPerSecond > 0 ? source.mTicksPerSecond : default_ticks_per_second)) {}
@@ -110,9 +128,18 @@ class ClipReader {
     const std::string name = channel.mName.C_Str();
     const auto node = find_morphed(nodes_, name);
     if (!node) return;
-    clip_.morph_weights[*node] = read_morph_tracks(channel, seconds_per_tick_);
+    clip_.morph_weights[*node] = read_morph_tracks(channel, seconds_per_tick_, target_count(*node));
   }
 
+  /// How many morph targets the meshes of a node have.
+  [[nodiscard]] unsigned target_count(std::uint32_t node) const {
+    unsigned count = 0;
+    for (const unsigned mesh : std::span(nodes_.sources[node]->mMeshes, nodes_.sources[node]->mNumMeshes))
+      if (mesh < scene_.mNumMeshes) count = std::max(count, scene_.mMeshes[mesh]->mNumAnimMeshes);
+    return count;
+  }
+
+  const aiScene& scene_;
   const aiAnimation& source_;
   const NodeTable& nodes_;
   double seconds_per_tick_;
@@ -124,7 +151,7 @@ class ClipReader {
 std::vector<Clip> read_clips(const aiScene& scene, const NodeTable& nodes) {
   std::vector<Clip> clips;
   for (unsigned i = 0; i < scene.mNumAnimations; ++i)
-    clips.push_back(ClipReader(*scene.mAnimations[i], nodes).read());
+    clips.push_back(ClipReader(scene, *scene.mAnimations[i], nodes).read());
   return clips;
 }
 

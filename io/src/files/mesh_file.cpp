@@ -12,12 +12,15 @@
 #include "mesh/raw_object.hpp"
 #include "mesh/rig.hpp"
 #include "text/file_bytes.hpp"
+#include "text/out_of_memory.hpp"
 #include "text/text_lines.hpp"
 #include "text/unique_names.hpp"
 
 namespace graze::io {
 
 struct MeshFile::Content {
+  static std::shared_ptr<const Content> read(const std::filesystem::path& path, const ReadOptions& options);
+
   std::vector<LoadedObject> objects;
   std::vector<std::string> animations;
   std::vector<std::string> warnings;
@@ -30,14 +33,11 @@ struct MeshFile::Content {
 
 namespace {
 
-bool is_animated(const Rig& rig, std::size_t body) {
-  return body < rig.bodies.size() && std::any_of(rig.clips.begin(), rig.clips.end(), [&](const Clip& clip) {
-           return reaches(rig, clip, rig.bodies[body]);
-         });
-}
-
-void warn_of_cuts(const std::filesystem::path& path, const std::string& object, const CutFaces& cut,
-                  std::vector<std::string>& warnings) {
+void note_cuts(const std::filesystem::path& path, const std::string& object, const CutFaces& cut,
+               std::vector<std::string>& warnings) {
+  if (cut.too_complex)
+    fail(path, joined("object '", object, "': face ", *cut.too_complex,
+                      " (counted from 0) has too many corners; cut it into triangles in your modeller"));
   if (cut.faces == 0) return;
   warnings.push_back(joined(path.string(), ": object '", object, "': ", cut.faces,
                             " faces with more than 4 corners were cut into ", cut.triangles, " triangles"));
@@ -58,17 +58,24 @@ RiggedFile read_objects(const std::filesystem::path& path, const ReadOptions& op
 MeshFile::MeshFile(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 MeshFile MeshFile::read(const std::filesystem::path& path, const ReadOptions& options) {
+  return with_memory_for(path, [&] { return MeshFile(Content::read(path, options)); });
+}
+
+std::shared_ptr<const MeshFile::Content> MeshFile::Content::read(const std::filesystem::path& path,
+                                                                 const ReadOptions& options) {
   RiggedFile source = read_objects(path, options);
   auto content = std::make_shared<Content>();
   content->warnings = std::move(source.file.warnings);
   std::vector<Body> bodies;
+  const MovedNodes moved(source.rig);
   UniqueNames names;
   for (std::size_t i = 0; i < source.file.objects.size(); ++i) {
     RawObject& object = source.file.objects[i];
     if (object.surface.corner_counts.empty()) continue;
     const std::string wanted = object.name.empty() ? path.stem().string() : object.name;
-    LoadedObject loaded{names.make(shortened(wanted, longest_name)), nullptr, is_animated(source.rig, i)};
-    warn_of_cuts(path, loaded.name, cut_large_faces(object.surface), content->warnings);
+    LoadedObject loaded{names.make(shortened(wanted, longest_name)), nullptr,
+                        i < source.rig.bodies.size() && moved.move(source.rig.bodies[i])};
+    note_cuts(path, loaded.name, cut_large_faces(object.surface), content->warnings);
     loaded.mesh = make_mesh(path, loaded.name, object.surface, object.file_vertices);
     object.surface = {};
     loaded.file_vertices = std::move(object.file_vertices);
@@ -83,7 +90,7 @@ MeshFile MeshFile::read(const std::filesystem::path& path, const ReadOptions& op
   source.rig.bodies = std::move(bodies);
   for (const auto& clip : source.rig.clips) content->animations.push_back(clip.name);
   content->rig = std::move(source.rig);
-  return MeshFile(std::move(content));
+  return content;
 }
 
 std::span<const LoadedObject> MeshFile::objects() const {

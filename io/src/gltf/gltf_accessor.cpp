@@ -103,7 +103,8 @@ class AccessorReader {
     here_ = joined("accessors[", number.get<std::uint64_t>(), "]");
   }
 
-  GltfNumbers read() {
+  /// Reads the format and the count, and no element. There are bytes for so many elements.
+  void open() {
     const std::string type = text_of(member(accessor_, "type"));
     if (type != type_)
       document_.fail_at(
@@ -112,14 +113,27 @@ class AccessorReader {
     layout_.width = width_of(type_);
     layout_.is_normalised = member(accessor_, "normalized") == true;
     layout_.offset = document_.whole_number(accessor_, "byteOffset", here_, most_bytes, 0);
-    const std::uint64_t count = document_.whole_number(accessor_, "count", here_, most_elements, 0);
+    count_ = document_.whole_number(accessor_, "count", here_, most_elements, 0);
+    const json& view = member(accessor_, "bufferView");
+    if (view.is_null())
+      check_zeros();
+    else
+      bytes_of(view, layout_, count_, here_);
+  }
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+  /// Reads the elements of these numbers, which ascend; all where there are none.
+  GltfNumbers read(const GltfElements* elements) {
+    if (elements != nullptr && !elements->empty() && elements->back() >= count_)
+      document_.fail_at(here_, joined("there is no element ", elements->back(), "; export the file again"));
     const json& view = member(accessor_, "bufferView");
     GltfNumbers numbers{layout_.width, {}};
     if (view.is_null())
-      numbers.values = zeros(count);
+      numbers.values = zeros(elements);
     else
-      numbers.values = read_elements(view, layout_, count, here_);
-    if (member(accessor_, "sparse").is_object()) replace_sparse(numbers, count);
+      numbers.values = read_elements(view, layout_, count_, elements, here_);
+    if (member(accessor_, "sparse").is_object()) replace_sparse(numbers, elements);
     return numbers;
   }
 
@@ -133,17 +147,22 @@ class AccessorReader {
   }
 
   /// An accessor without a view is of zeros. It has no bytes that would limit its count.
-  std::vector<double> zeros(std::uint64_t count) {
+  void check_zeros() {
     const std::uint64_t bytes = document_.total_bytes();
-    if (count > bytes)
-      document_.fail_at(here_, joined(count, " elements are more than ", bytes,
+    if (count_ > bytes)
+      document_.fail_at(here_, joined(count_, " elements are more than ", bytes,
                                       " bytes of buffers can mean; correct the count"));
-    document_.count_read(count * layout_.width, here_);
-    return std::vector<double>(count * layout_.width, 0.0);
   }
 
-  std::vector<double> read_elements(const json& view, Layout layout, std::uint64_t count,
-                                    const std::string& json_path) {
+  std::vector<double> zeros(const GltfElements* elements) {
+    const std::uint64_t wanted = elements == nullptr ? count_ : elements->size();
+    document_.count_read(wanted * layout_.width, here_);
+    return std::vector<double>(wanted * layout_.width, 0.0);
+  }
+
+  /// The bytes of a view, which hold so many elements.
+  std::string_view bytes_of(const json& view, Layout& layout, std::uint64_t count,
+                            const std::string& json_path) {
     const std::string_view bytes = document_.view_bytes(view, json_path);
     const json& entry = element(document_.list("bufferViews"), view);
     layout.stride = document_.whole_number(entry, "byteStride", json_path, 65535, 0);
@@ -151,19 +170,27 @@ class AccessorReader {
     if (count > 0 && layout.offset + (count - 1) * layout.stride + layout.element_bytes() > bytes.size())
       document_.fail_at(json_path, joined(count, " elements do not fit into the ", bytes.size(),
                                           " bytes of its bufferView; export the file again"));
-    document_.count_read(count * layout.width, json_path);
+    return bytes;
+  }
+
+  std::vector<double> read_elements(const json& view, Layout layout, std::uint64_t count,
+                                    const GltfElements* elements, const std::string& json_path) {
+    const std::string_view bytes = bytes_of(view, layout, count, json_path);
+    const std::uint64_t wanted = elements == nullptr ? count : elements->size();
+    document_.count_read(wanted * layout.width, json_path);
     std::vector<double> values;
-    values.reserve(count * layout.width);
+    values.reserve(wanted * layout.width);
     const std::size_t size = size_of(layout.component);
-    for (std::uint64_t index = 0; index < count; ++index) {
-      const char* const start = bytes.data() + layout.offset + index * layout.stride;
+    for (std::uint64_t index = 0; index < wanted; ++index) {
+      const std::uint64_t number = elements == nullptr ? index : (*elements)[index];
+      const char* const start = bytes.data() + layout.offset + number * layout.stride;
       for (std::size_t i = 0; i < layout.width; ++i)
         values.push_back(value_at(layout.component, start + i * size, layout.is_normalised));
     }
     return values;
   }
 
-  void replace_sparse(GltfNumbers& numbers, std::uint64_t count) {
+  void replace_sparse(GltfNumbers& numbers, const GltfElements* elements) {
     const json& sparse = member(accessor_, "sparse");
     const std::string json_path = joined(here_, ".sparse");
     const std::uint64_t replaced = document_.whole_number(sparse, "count", json_path, most_elements, 0);
@@ -174,17 +201,27 @@ class AccessorReader {
     index_layout.offset = document_.whole_number(indices, "byteOffset", json_path, most_bytes, 0);
     Layout value_layout = layout_;
     value_layout.offset = document_.whole_number(values, "byteOffset", json_path, most_bytes, 0);
-    const auto where = read_elements(member(indices, "bufferView"), index_layout, replaced, json_path);
-    const auto what = read_elements(member(values, "bufferView"), value_layout, replaced, json_path);
+    const auto where =
+        read_elements(member(indices, "bufferView"), index_layout, replaced, nullptr, json_path);
+    const auto what = read_elements(member(values, "bufferView"), value_layout, replaced, nullptr, json_path);
     for (std::uint64_t i = 0; i < replaced; ++i) {
-      if (!(where[i] >= 0 && where[i] < static_cast<double>(count)))
-        document_.fail_at(json_path, joined("it replaces an element that is not among the ", count,
+      if (!(where[i] >= 0 && where[i] < static_cast<double>(count_)))
+        document_.fail_at(json_path, joined("it replaces an element that is not among the ", count_,
                                             "; export the file again"));
+      const auto position = position_of(static_cast<std::uint64_t>(where[i]), elements);
+      if (!position) continue;
       const auto first = what.begin() + static_cast<std::ptrdiff_t>(i * layout_.width);
       std::copy_n(first, layout_.width,
-                  numbers.values.begin() +
-                      static_cast<std::ptrdiff_t>(static_cast<std::uint64_t>(where[i]) * layout_.width));
+                  numbers.values.begin() + static_cast<std::ptrdiff_t>(*position * layout_.width));
     }
+  }
+
+  /// Where an element is among those that are read.
+  static std::optional<std::uint64_t> position_of(std::uint64_t number, const GltfElements* elements) {
+    if (elements == nullptr) return number;
+    const auto found = std::ranges::lower_bound(*elements, number);
+    if (found == elements->end() || *found != number) return std::nullopt;
+    return static_cast<std::uint64_t>(found - elements->begin());
   }
 
   GltfDocument& document_;
@@ -193,6 +230,7 @@ class AccessorReader {
   const std::string& json_path_;
   std::string here_;
   Layout layout_;
+  std::uint64_t count_ = 0;
 };
 
 }  // namespace
@@ -203,7 +241,23 @@ std::size_t accessor_count(const GltfDocument& document, const json& number) {
 
 GltfNumbers read_accessor(GltfDocument& document, const json& number, const char* type,
                           const std::string& json_path) {
-  return AccessorReader(document, number, type, json_path).read();
+  AccessorReader reader(document, number, type, json_path);
+  reader.open();
+  return reader.read(nullptr);
+}
+
+GltfNumbers read_accessor(GltfDocument& document, const json& number, const char* type,
+                          const std::string& json_path, const GltfElements& elements) {
+  AccessorReader reader(document, number, type, json_path);
+  reader.open();
+  return reader.read(&elements);
+}
+
+std::uint64_t element_count(GltfDocument& document, const json& number, const char* type,
+                            const std::string& json_path) {
+  AccessorReader reader(document, number, type, json_path);
+  reader.open();
+  return reader.count();
 }
 
 }  // namespace graze::io

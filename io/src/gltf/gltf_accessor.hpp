@@ -22,6 +22,9 @@ struct GltfNumbers {
   }
 };
 
+/// The numbers of elements, ascending.
+using GltfElements = std::vector<std::uint32_t>;
+
 /// How many elements the accessor says it has; 0 where there is none.
 std::size_t accessor_count(const GltfDocument& document, const nlohmann::json& number);
 
@@ -30,5 +33,11 @@ std::size_t accessor_count(const GltfDocument& document, const nlohmann::json& n
 /// buffers.
 GltfNumbers read_accessor(GltfDocument& document, const nlohmann::json& number, const char* type,
                           const std::string& json_path);
+/// Reads some of its elements.
+GltfNumbers read_accessor(GltfDocument& document, const nlohmann::json& number, const char* type,
+                          const std::string& json_path, const GltfElements& elements);
+/// How many elements it has, all of which are in its buffers. Throws InputError as above.
+std::uint64_t element_count(GltfDocument& document, const nlohmann::json& number, const char* type,
+                            const std::string& json_path);
 
 }  // namespace graze::io

@@ -124,6 +124,8 @@ class GltfClipReader {
           make_track<Eigen::Quaterniond>(read_keys(sampler, "VEC4", here), 0, Eigen::Quaterniond(0, 0, 0, 0));
     if (path == "weights") {
       const Keys keys = read_keys(sampler, "SCALAR", here);
+      constexpr std::uint64_t numbers_of_track = 14;
+      document_.count_kept(numbers_of_track * keys.numbers_a_key, here);
       auto& tracks = clip_.morph_weights[number];
       tracks.clear();
       for (std::size_t target_number = 0; target_number < keys.numbers_a_key; ++target_number)

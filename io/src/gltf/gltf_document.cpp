@@ -15,6 +15,7 @@
 
 #include "gltf/gltf_json.hpp"
 #include "gltf/gltf_uri.hpp"
+#include "mesh/unfolding.hpp"
 #include "text/file_bytes.hpp"
 #include "text/opened_files.hpp"
 
@@ -71,6 +72,7 @@ bool has_scheme(std::string_view uri) {
 GltfDocument::GltfDocument(const std::filesystem::path& path, bool outside_files)
     : path_(path), outside_files_(outside_files) {
   const std::string bytes = read_bytes(path);
+  bytes_read_ = bytes.size();
   if (bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1)
     fail(path, "this is binary glTF 1, which is not read; convert it to glTF 2");
   const Chunks chunks = find_chunks(path, bytes);
@@ -167,7 +169,10 @@ std::uint64_t GltfDocument::total_bytes() {
 
 const std::string& GltfDocument::buffer(std::uint64_t number, const std::string& json_path) {
   if (number >= buffers_.size()) fail_at(json_path, "its buffer does not exist; export the file again");
-  if (!buffers_[number]) buffers_[number] = load_buffer(number, joined("buffers[", number, "]"));
+  if (!buffers_[number]) {
+    buffers_[number] = load_buffer(number, joined("buffers[", number, "]"));
+    bytes_read_ += buffers_[number]->size();
+  }
   return *buffers_[number];
 }
 
@@ -217,16 +222,16 @@ std::string GltfDocument::bytes_of_uri(const std::string& uri, const std::string
 }
 
 void GltfDocument::count_read(std::uint64_t numbers, const std::string& json_path) {
-  count(read_, numbers, std::uint64_t{1} << 32U, json_path);
+  count(read_, numbers, std::max(std::uint64_t{1} << 28U, 16 * bytes_read_), json_path);
 }
 
 void GltfDocument::count_kept(std::uint64_t numbers, const std::string& json_path) {
-  count(kept_, numbers, std::uint64_t{1} << 28U, json_path);
+  count(kept_, numbers, most_unfolded(bytes_read_), json_path);
 }
 
 void GltfDocument::count(std::uint64_t& counter, std::uint64_t numbers, std::uint64_t most,
                          const std::string& json_path) const {
-  if (numbers > most - counter)
+  if (counter > most || numbers > most - counter)
     fail_at(json_path, joined("the file unfolds to more than ", most, " numbers here; split it"));
   counter += numbers;
 }

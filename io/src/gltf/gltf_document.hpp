@@ -40,7 +40,7 @@ class GltfDocument {
   std::uint64_t total_bytes();
 
   /// Counts numbers that are read, and those that are kept in memory, since one accessor may be used any
-  /// number of times. Throws when there are too many for any sane file.
+  /// number of times. Throws when there are more than a file of its size may have.
   void count_read(std::uint64_t numbers, const std::string& json_path);
   void count_kept(std::uint64_t numbers, const std::string& json_path);
 
@@ -59,6 +59,7 @@ class GltfDocument {
   bool is_version_1_ = false;
   std::optional<std::string> binary_chunk_;
   std::vector<std::optional<std::string>> buffers_;
+  std::uint64_t bytes_read_ = 0;  ///< of the file and its buffers
   std::uint64_t read_ = 0;
   std::uint64_t kept_ = 0;
 };

@@ -20,8 +20,14 @@ struct GltfMesh {
   std::vector<std::string> warnings;
 };
 
-/// Joins the primitives of `meshes[number]`. With a skin its joints are the body's bones, whose nodes are
-/// still numbers of the file. Throws InputError.
-GltfMesh read_gltf_mesh(GltfDocument& document, const nlohmann::json& number, const nlohmann::json& skin);
+/// Reads the joints of `skins[number]`, whose nodes are numbers of the file. `user` is the JSON path of what
+/// names the skin. Throws InputError.
+std::vector<Bone> read_gltf_skin(GltfDocument& document, const nlohmann::json& number,
+                                 const std::string& user);
+
+/// Joins the primitives of `meshes[number]`. The joints that it uses are the body's bones; without a skin
+/// `joints` is null. Throws InputError.
+GltfMesh read_gltf_mesh(GltfDocument& document, const nlohmann::json& number,
+                        const std::vector<Bone>* joints);
 
 }  // namespace graze::io

@@ -10,6 +10,7 @@
 #include "gltf/gltf_mesh.hpp"
 #include "gltf/gltf_nodes.hpp"
 #include "mesh/axes.hpp"
+#include "mesh/unfolding.hpp"
 #include "text/file_bytes.hpp"
 #include "text/text_lines.hpp"
 
@@ -28,11 +29,12 @@ class GltfReader {
     result_.rig.nodes = nodes_.nodes;
     result_.rig.clips = read_gltf_clips(document_, nodes_);
     for (std::uint32_t node = 0; node < nodes_.scene_count; ++node) add_node(node);
+    NodePlaces places(result_.rig, nullptr, 0);
     for (std::size_t i = 0; i < result_.rig.bodies.size(); ++i) {
       const Body& body = result_.rig.bodies[i];
       RawSurface& surface = result_.file.objects[i].surface;
-      pose(result_.rig, body, nullptr, 0, surface.positions);
-      turn_faces(surface, mirrored_vertices(result_.rig, body));
+      pose(places, body, surface.positions);
+      turn_faces(surface, mirrored_vertices(places, body));
     }
     if (small_faces_ > 0)
       result_.file.warnings.push_back(
@@ -57,29 +59,38 @@ class GltfReader {
     const json& instancing = member(member(source, "extensions"), "EXT_mesh_gpu_instancing");
     if (instancing.is_null() || !mesh.body.bones.empty()) {
       if (!instancing.is_null())
-        result_.file.warnings.push_back(joined(document_.path().string(), ": ", json_path,
-                                               ": its joints place it, so its instances were left out"));
-      add_object(mesh, node, name, member(source, "weights"), json_path);
+        result_.file.warnings.push_back(
+            joined(document_.path().string(), ": ", json_path,
+                   ": it has a skin, whose joints place it, so its instances were left out"));
+      add_object(mesh, node, node, name, member(source, "weights"), json_path);
       return;
     }
     for (const RigNode& instance : read_instances(member(instancing, "attributes"), node, json_path)) {
       const auto instance_node = static_cast<std::uint32_t>(result_.rig.nodes.size());
       result_.rig.nodes.push_back(instance);
-      add_object(mesh, instance_node, name, member(source, "weights"), json_path);
-      instances_of_[node].push_back(instance_node);
+      add_object(mesh, instance_node, node, name, member(source, "weights"), json_path);
     }
-    animate_instances(node);
   }
 
   /// Each mesh is read once for each skin that it is used with.
   const GltfMesh& mesh_of(const json& number, const json& skin) {
     const auto [known, is_new] = meshes_.try_emplace({number.get<std::uint64_t>(), skin.dump()});
     if (!is_new) return known->second;
-    known->second = read_gltf_mesh(document_, number, skin);
-    GltfMesh& mesh = known->second;
-    for (Bone& bone : mesh.body.bones) bone.node = nodes_.number_of[bone.node];
+    const std::vector<Bone>* joints =
+        skin.is_null() ? nullptr : &joints_of(skin, joined("meshes[", number.get<std::uint64_t>(), "]"));
+    known->second = read_gltf_mesh(document_, number, joints);
+    const GltfMesh& mesh = known->second;
     result_.file.warnings.insert(result_.file.warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
     return mesh;
+  }
+
+  /// Each skin is read once, however many meshes it holds.
+  const std::vector<Bone>& joints_of(const json& skin, const std::string& user) {
+    const auto [known, is_new] = skins_.try_emplace(skin.dump());
+    if (!is_new) return known->second;
+    known->second = read_gltf_skin(document_, skin, user);
+    for (Bone& bone : known->second) bone.node = nodes_.number_of[bone.node];
+    return known->second;
   }
 
   [[nodiscard]] std::string name_of(const json& node, std::uint64_t number, const json& mesh_number) const {
@@ -88,14 +99,15 @@ class GltfReader {
     return name.empty() ? joined("node ", number) : shortened(std::move(name), longest_name);
   }
 
-  /// A node's own morph weights win over its mesh's.
-  void add_object(const GltfMesh& mesh, std::uint32_t node, const std::string& name, const json& weights,
-                  const std::string& json_path) {
-    document_.count_kept(
-        3 * mesh.body.vertices.size() * (2 + mesh.body.targets.size()) + mesh.faces.corners.size(),
-        json_path);
+  /// A node's own morph weights win over its mesh's. An instance has those of the node that it hangs below.
+  void add_object(const GltfMesh& mesh, std::uint32_t node, std::uint32_t morph_node, const std::string& name,
+                  const json& weights, const std::string& json_path) {
+    document_.count_kept(3 * mesh.body.vertices.size() * (2 + mesh.body.targets.size()) +
+                             mesh.faces.corners.size() + numbers_of_object,
+                         json_path);
     Body body = mesh.body;
     body.node = node;
+    body.morph_node = morph_node;
     for (std::size_t i = 0; weights.is_array() && i < std::min(weights.size(), body.targets.size()); ++i)
       if (weights[i].is_number()) body.targets[i].rest_weight = weights[i].get<double>();
     result_.rig.bodies.push_back(std::move(body));
@@ -129,20 +141,10 @@ class GltfReader {
     return instances;
   }
 
-  /// Morph weights that are keyed for the node move each of its instances.
-  void animate_instances(std::uint32_t node) {
-    for (Clip& clip : result_.rig.clips) {
-      const auto tracks = clip.morph_weights.find(node);
-      if (tracks == clip.morph_weights.end()) continue;
-      const auto copy = tracks->second;
-      for (const std::uint32_t instance : instances_of_[node]) clip.morph_weights[instance] = copy;
-    }
-  }
-
   GltfDocument& document_;
   GltfNodes nodes_;
   std::map<std::pair<std::uint64_t, std::string>, GltfMesh> meshes_;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> instances_of_;
+  std::map<std::string, std::vector<Bone>> skins_;
   std::size_t small_faces_ = 0;
   RiggedFile result_;
 };

@@ -47,7 +47,8 @@ CutFaces cut_large_faces(RawSurface& surface) {
   CutFaces cut;
   RawSurface result;
   std::size_t begin = 0;
-  for (const auto count : surface.corner_counts) {
+  for (std::size_t number = 0; number < surface.corner_counts.size(); ++number) {
+    const std::uint32_t count = surface.corner_counts[number];
     const auto face = std::span<const std::uint32_t>(surface.corners).subspan(begin, count);
     begin += count;
     if (count <= 4) {
@@ -55,9 +56,10 @@ CutFaces cut_large_faces(RawSurface& surface) {
       continue;
     }
     const auto triangles = triangulate(surface.positions, face);
-    for (const auto& triangle : triangles) result.add_face(triangle);
+    if (!triangles) return {0, 0, number};
+    for (const auto& triangle : *triangles) result.add_face(triangle);
     ++cut.faces;
-    cut.triangles += triangles.size();
+    cut.triangles += triangles->size();
   }
   if (cut.faces > 0) {
     surface.corners = std::move(result.corners);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <graze/mesh.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ struct RawFile {
 struct CutFaces {
   std::size_t faces = 0;
   std::size_t triangles = 0;
+  std::optional<std::size_t> too_complex;  ///< a face that takes too long to cut; the surface is as it was
 };
 
 /// Cuts every face of more than four corners into triangles of its own corners, in place.

@@ -95,17 +95,10 @@ Eigen::Affine3d local_transform(const Rig& rig, std::uint32_t node, const Clip* 
   return rig.nodes[node].local;
 }
 
-Eigen::Affine3d global_transform(const Rig& rig, std::uint32_t node, const Clip* clip, double seconds) {
-  Eigen::Affine3d transform = local_transform(rig, node, clip, seconds);
-  for (auto parent = rig.nodes[node].parent; parent != RigNode::no_parent; parent = rig.nodes[parent].parent)
-    transform = local_transform(rig, parent, clip, seconds) * transform;
-  return transform;
-}
-
 void add_morphs(const Body& body, const Clip* clip, double seconds, std::vector<Eigen::Vector3d>& positions) {
   const std::vector<Track<double>>* tracks = nullptr;
   if (clip != nullptr) {
-    const auto found = clip->morph_weights.find(body.node);
+    const auto found = clip->morph_weights.find(body.morph_node);
     if (found != clip->morph_weights.end()) tracks = &found->second;
   }
   for (std::size_t target = 0; target < body.targets.size(); ++target) {
@@ -120,12 +113,11 @@ void add_morphs(const Body& body, const Clip* clip, double seconds, std::vector<
 }
 
 /// The mean of where the vertex's bones take it, by weight; the node's place where it has none.
-void apply_bones(const Rig& rig, const Body& body, const Clip* clip, double seconds,
-                 const Eigen::Affine3d& global, std::vector<Eigen::Vector3d>& positions) {
+void apply_bones(NodePlaces& places, const Body& body, std::vector<Eigen::Vector3d>& positions) {
   std::vector<Eigen::Affine3d> transforms;
   transforms.reserve(body.bones.size());
-  for (const auto& bone : body.bones)
-    transforms.push_back(global_transform(rig, bone.node, clip, seconds) * bone.offset);
+  for (const auto& bone : body.bones) transforms.emplace_back(places.of(bone.node) * bone.offset);
+  const Eigen::Affine3d& global = places.of(body.node);
   for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
     double total = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -138,32 +130,45 @@ void apply_bones(const Rig& rig, const Body& body, const Clip* clip, double seco
   }
 }
 
-bool moves(const Rig& rig, const Clip& clip, std::uint32_t node) {
-  for (; node != RigNode::no_parent; node = rig.nodes[node].parent)
-    if (clip.node_motions.contains(node)) return true;
-  return false;
+}  // namespace
+
+const Eigen::Affine3d& NodePlaces::of(std::uint32_t node) {
+  std::vector<std::uint32_t> unknown;
+  auto known = places_.end();
+  for (; node != RigNode::no_parent; node = rig_.nodes[node].parent) {
+    known = places_.find(node);
+    if (known != places_.end()) break;
+    unknown.push_back(node);
+  }
+  while (!unknown.empty()) {
+    const Eigen::Affine3d local = local_transform(rig_, unknown.back(), clip_, seconds_);
+    const Eigen::Affine3d place = known == places_.end() ? local : Eigen::Affine3d(known->second * local);
+    known = places_.emplace(unknown.back(), place).first;
+    unknown.pop_back();
+  }
+  return known->second;
 }
 
-}  // namespace
+void pose(NodePlaces& places, const Body& body, std::vector<Eigen::Vector3d>& positions) {
+  positions = body.vertices;
+  add_morphs(body, places.clip(), places.seconds(), positions);
+  if (!body.bones.empty()) return apply_bones(places, body, positions);
+  const Eigen::Affine3d& global = places.of(body.node);
+  for (auto& position : positions) position = global * position;
+}
 
 void pose(const Rig& rig, const Body& body, const Clip* clip, double seconds,
           std::vector<Eigen::Vector3d>& positions) {
-  positions = body.vertices;
-  add_morphs(body, clip, seconds, positions);
-  const Eigen::Affine3d global = global_transform(rig, body.node, clip, seconds);
-  if (body.bones.empty())
-    for (auto& position : positions) position = global * position;
-  else
-    apply_bones(rig, body, clip, seconds, global, positions);
+  NodePlaces places(rig, clip, seconds);
+  pose(places, body, positions);
 }
 
-std::vector<bool> mirrored_vertices(const Rig& rig, const Body& body) {
-  const bool by_node = global_transform(rig, body.node, nullptr, 0).linear().determinant() < 0;
+std::vector<bool> mirrored_vertices(NodePlaces& rest, const Body& body) {
+  const bool by_node = rest.of(body.node).linear().determinant() < 0;
   std::vector<bool> mirrored(body.vertices.size(), by_node);
   if (body.bones.empty()) return mirrored;
   std::vector<Eigen::Matrix3d> transforms;
-  for (const Bone& bone : body.bones)
-    transforms.push_back((global_transform(rig, bone.node, nullptr, 0) * bone.offset).linear());
+  for (const Bone& bone : body.bones) transforms.emplace_back((rest.of(bone.node) * bone.offset).linear());
   for (std::size_t vertex = 0; vertex < body.vertices.size(); ++vertex) {
     if (body.influences[vertex].empty()) continue;
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -174,13 +179,23 @@ std::vector<bool> mirrored_vertices(const Rig& rig, const Body& body) {
   return mirrored;
 }
 
-bool reaches(const Rig& rig, const Clip& clip, const Body& body) {
-  if (!body.targets.empty() && clip.morph_weights.contains(body.node)) return true;
+MovedNodes::MovedNodes(const Rig& rig) : is_moved_(rig.nodes.size()), is_morphed_(rig.nodes.size()) {
+  for (const Clip& clip : rig.clips) {
+    for (const auto& [node, motion] : clip.node_motions) is_moved_[node] = true;
+    for (const auto& [node, tracks] : clip.morph_weights) is_morphed_[node] = true;
+  }
+  for (std::size_t node = 0; node < rig.nodes.size(); ++node) {
+    const std::uint32_t parent = rig.nodes[node].parent;
+    if (parent != RigNode::no_parent && is_moved_[parent]) is_moved_[node] = true;
+  }
+}
+
+bool MovedNodes::move(const Body& body) const {
+  if (!body.targets.empty() && is_morphed_[body.morph_node]) return true;
   const auto is_unweighted = [](const auto& influences) { return influences.empty(); };
-  if (body.bones.empty() || std::any_of(body.influences.begin(), body.influences.end(), is_unweighted))
-    if (moves(rig, clip, body.node)) return true;
-  return std::any_of(body.bones.begin(), body.bones.end(),
-                     [&](const Bone& bone) { return moves(rig, clip, bone.node); });
+  if (body.bones.empty() || std::ranges::any_of(body.influences, is_unweighted))
+    if (is_moved_[body.node]) return true;
+  return std::ranges::any_of(body.bones, [&](const Bone& bone) { return is_moved_[bone.node]; });
 }
 
 }  // namespace graze::io

@@ -70,6 +70,7 @@ struct MorphTarget {
 /// An object before its node, its skeleton and its morph targets place it.
 struct Body {
   std::uint32_t node = 0;
+  std::uint32_t morph_node = 0;  ///< whose morph weights count
   std::vector<Eigen::Vector3d> vertices;
   std::vector<MorphTarget> targets;
   std::vector<Bone> bones;  ///< empty: the node alone places the object
@@ -84,15 +85,47 @@ struct Rig {
   std::vector<Body> bodies;
 };
 
+/// Where the nodes of a rig are at one time of a clip, or while nothing plays (null). A node that many bodies
+/// and bones ask for is computed once.
+class NodePlaces {
+ public:
+  /// Both must outlive it.
+  NodePlaces(const Rig& rig, const Clip* clip, double seconds) : rig_(rig), clip_(clip), seconds_(seconds) {}
+
+  [[nodiscard]] const Rig& rig() const { return rig_; }
+  [[nodiscard]] const Clip* clip() const { return clip_; }
+  [[nodiscard]] double seconds() const { return seconds_; }
+  /// From the node's space to that of the file.
+  const Eigen::Affine3d& of(std::uint32_t node);
+
+ private:
+  const Rig& rig_;
+  const Clip* clip_;
+  double seconds_;
+  std::unordered_map<std::uint32_t, Eigen::Affine3d> places_;
+};
+
+/// Computes a body's vertices where the nodes are at `places`.
+void pose(NodePlaces& places, const Body& body, std::vector<Eigen::Vector3d>& positions);
 /// Computes a body's vertices at `seconds` of `clip`, or while nothing plays (null).
 void pose(const Rig& rig, const Body& body, const Clip* clip, double seconds,
           std::vector<Eigen::Vector3d>& positions);
 
 /// For each vertex, whether its node or its bones mirror the space around it while nothing plays. A face of
-/// mirrored vertices is inside out.
-std::vector<bool> mirrored_vertices(const Rig& rig, const Body& body);
+/// mirrored vertices is inside out. `rest` is of no clip.
+std::vector<bool> mirrored_vertices(NodePlaces& rest, const Body& body);
 
-/// Whether `clip` has keys for anything that places `body`.
-bool reaches(const Rig& rig, const Clip& clip, const Body& body);
+/// What the clips of a rig move.
+class MovedNodes {
+ public:
+  explicit MovedNodes(const Rig& rig);
+
+  /// Whether a clip has keys for anything that places `body`.
+  [[nodiscard]] bool move(const Body& body) const;
+
+ private:
+  std::vector<bool> is_moved_;    ///< itself or by a node above it
+  std::vector<bool> is_morphed_;  ///< has keys of morph weights
+};
 
 }  // namespace graze::io

@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
+
+#include "mesh/corner_tree.hpp"
 
 namespace graze::io {
 namespace {
@@ -17,35 +20,26 @@ Eigen::Vector3d polygon_normal(std::span<const Eigen::Vector3d> positions,
   return normal;
 }
 
-double doubled_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
 /// A polygon in its plane, counter-clockwise, losing one corner after the other. Cutting off an ear changes
-/// what its two neighbours are and nothing else, so n corners of which r are not convex cost n·r tests,
-/// whatever the polygon looks like.
+/// what its two neighbours are and nothing else. Which corners are in the way of an ear is asked of a tree of
+/// their places, so n corners cost about n times the square root of n.
 class EarClipper {
  public:
   EarClipper(std::span<const Eigen::Vector3d> positions, std::span<const std::uint32_t> polygon)
-      : polygon_(polygon), previous_(polygon.size()), next_(polygon.size()), is_ear_(polygon.size()) {
-    const Eigen::Vector3d normal = polygon_normal(positions, polygon);
-    Eigen::Index axis = 0;
-    normal.cwiseAbs().maxCoeff(&axis);
-    const Eigen::Index u = (axis + 1) % 3;
-    const Eigen::Index v = (axis + 2) % 3;
-    const double sign = normal[axis] < 0 ? -1.0 : 1.0;
-    for (const auto vertex : polygon) flat_.emplace_back(positions[vertex][u], sign * positions[vertex][v]);
+      : polygon_(polygon), flat_(flattened(positions, polygon)) {
     const std::size_t n = polygon.size();
     for (std::size_t i = 0; i < n; ++i) {
-      previous_[i] = (i + n - 1) % n;
-      next_[i] = (i + 1) % n;
+      previous_.push_back((i + n - 1) % n);
+      next_.push_back((i + 1) % n);
     }
-    for (std::size_t i = 0; i < n; ++i)
-      if (!is_convex(i)) blocking_.push_back(i);
+    for (std::size_t i = 0; i < n; ++i) is_blocking_.push_back(!is_convex(i));
+    places_.emplace(flat_, is_blocking_);
     for (std::size_t i = 0; i < n; ++i) set_ear(i, tests_as_ear(i));
   }
 
-  std::vector<std::array<std::uint32_t, 3>> run() {
+  /// Nothing where the search takes too long.
+  std::optional<std::vector<std::array<std::uint32_t, 3>>> run() {
+    constexpr std::uint64_t most_tests = 200'000'000;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::size_t ear = 0;
     for (std::size_t left = polygon_.size(); left > 3; --left) {
@@ -53,34 +47,58 @@ class EarClipper {
       triangles.push_back({polygon_[previous_[ear]], polygon_[ear], polygon_[next_[ear]]});
       cut_off(ear);
       ear = next_[ear];
+      if (places_->tests() > most_tests) return std::nullopt;
     }
     triangles.push_back({polygon_[previous_[ear]], polygon_[ear], polygon_[next_[ear]]});
     return triangles;
   }
 
  private:
+  static std::vector<Eigen::Vector2d> flattened(std::span<const Eigen::Vector3d> positions,
+                                                std::span<const std::uint32_t> polygon) {
+    const Eigen::Vector3d normal = polygon_normal(positions, polygon);
+    Eigen::Index axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    const Eigen::Index u = (axis + 1) % 3;
+    const Eigen::Index v = (axis + 2) % 3;
+    const double sign = normal[axis] < 0 ? -1.0 : 1.0;
+    std::vector<Eigen::Vector2d> flat;
+    // Numbers that are not finite have no order. A mesh that uses one is refused later.
+    const auto finite = [](double number) { return std::isfinite(number) ? number : 0.0; };
+    for (const auto vertex : polygon)
+      flat.emplace_back(finite(positions[vertex][u]), finite(sign * positions[vertex][v]));
+    return flat;
+  }
+
   /// The first ear from `start` on; `start` itself where rounding or crossing edges leave none.
   [[nodiscard]] std::size_t find_ear(std::size_t start) const {
-    if (ears_ == 0) return start;
-    std::size_t corner = start;
-    while (!is_ear_[corner]) corner = next_[corner];
-    return corner;
+    if (ears_.empty()) return start;
+    const auto ear = ears_.lower_bound(start);
+    return ear == ears_.end() ? *ears_.begin() : *ear;
   }
 
   void cut_off(std::size_t ear) {
     const std::array neighbours{previous_[ear], next_[ear]};
     next_[neighbours[0]] = neighbours[1];
     previous_[neighbours[1]] = neighbours[0];
-    std::erase_if(blocking_, [&](std::size_t corner) {
-      return corner == ear || ((corner == neighbours[0] || corner == neighbours[1]) && is_convex(corner));
-    });
+    stop_blocking(ear);
+    for (const std::size_t corner : neighbours)
+      if (is_convex(corner)) stop_blocking(corner);
     set_ear(ear, false);
     for (const std::size_t corner : neighbours) set_ear(corner, tests_as_ear(corner));
   }
 
   void set_ear(std::size_t corner, bool is_ear) {
-    if (is_ear != is_ear_[corner]) ears_ = is_ear ? ears_ + 1 : ears_ - 1;
-    is_ear_[corner] = is_ear;
+    if (is_ear)
+      ears_.insert(corner);
+    else
+      ears_.erase(corner);
+  }
+
+  void stop_blocking(std::size_t corner) {
+    if (!is_blocking_[corner]) return;
+    is_blocking_[corner] = false;
+    places_->remove(corner);
   }
 
   [[nodiscard]] bool is_convex(std::size_t corner) const {
@@ -91,31 +109,22 @@ class EarClipper {
   /// corners that are not convex are tested, since at least one of the corners inside a triangle is not
   /// convex.
   [[nodiscard]] bool tests_as_ear(std::size_t corner) const {
-    if (!is_convex(corner)) return false;
-    const auto& a = flat_[previous_[corner]];
-    const auto& b = flat_[corner];
-    const auto& c = flat_[next_[corner]];
-    return std::ranges::none_of(blocking_, [&](std::size_t other) {
-      const auto& point = flat_[other];
-      if (point == a || point == b || point == c) return false;
-      return doubled_area(a, b, point) >= 0 && doubled_area(b, c, point) >= 0 &&
-             doubled_area(c, a, point) >= 0;
-    });
+    return is_convex(corner) &&
+           !places_->any_inside(flat_[previous_[corner]], flat_[corner], flat_[next_[corner]]);
   }
 
   std::span<const std::uint32_t> polygon_;
   std::vector<Eigen::Vector2d> flat_;
   std::vector<std::size_t> previous_, next_;
-  std::vector<bool> is_ear_;
-  std::size_t ears_ = 0;
-  /// The corners that are not convex.
-  std::vector<std::size_t> blocking_;
+  std::set<std::size_t> ears_;
+  std::vector<bool> is_blocking_;     ///< whether a corner is not convex
+  std::optional<CornerTree> places_;  ///< of the corners that block
 };
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Eigen::Vector3d> positions,
-                                                      std::span<const std::uint32_t> polygon) {
+std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate(
+    std::span<const Eigen::Vector3d> positions, std::span<const std::uint32_t> polygon) {
   return EarClipper(positions, polygon).run();
 }
 

@@ -24,6 +24,19 @@ std::uint64_t hash_of(const Eigen::Vector3d& position) {
   return hash;
 }
 
+/// The hash of all that makes two vertices one. Vertices of one place may differ in their influences alone.
+std::uint64_t hash_of(const Body& body, std::uint32_t vertex) {
+  std::uint64_t hash = hash_of(body.vertices[vertex]);
+  const auto add = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x9e3779b97f4a7c15U, 29); };
+  if (!body.influences.empty())
+    for (const Influence& influence : body.influences[vertex]) {
+      add(influence.bone);
+      add(bits_of(influence.weight));
+    }
+  for (const MorphTarget& target : body.targets) add(hash_of(target.offsets[vertex]));
+  return hash;
+}
+
 bool same_vertex(const Body& body, std::uint32_t a, std::uint32_t b) {
   if (!same(body.vertices[a], body.vertices[b])) return false;
   if (!body.influences.empty() && body.influences[a] != body.influences[b]) return false;
@@ -46,7 +59,7 @@ std::vector<std::uint32_t> weld(Body& body) {
   std::vector<std::uint32_t> new_number;
   new_number.reserve(body.vertices.size());
   for (std::uint32_t vertex = 0; vertex < body.vertices.size(); ++vertex) {
-    const std::uint64_t hash = hash_of(body.vertices[vertex]);
+    const std::uint64_t hash = hash_of(body, vertex);
     const auto [begin, end] = new_by_hash.equal_range(hash);
     const auto equal = std::find_if(
         begin, end, [&](const auto& entry) { return same_vertex(body, kept[entry.second], vertex); });

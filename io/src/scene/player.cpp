@@ -9,6 +9,7 @@
 
 #include "scene/scene_loading.hpp"
 #include "text/opened_files.hpp"
+#include "text/out_of_memory.hpp"
 
 namespace graze::io {
 namespace {
@@ -212,7 +213,8 @@ void Player::State::advance_object(std::size_t index, std::uint32_t frame) {
   }
 }
 
-Player::Player(const SceneDescription& description) : state_(std::make_unique<State>(description)) {}
+Player::Player(const SceneDescription& description)
+    : state_(with_memory_for(description.file, [&] { return std::make_unique<State>(description); })) {}
 Player::~Player() = default;
 Player::Player(Player&&) noexcept = default;
 Player& Player::operator=(Player&&) noexcept = default;
@@ -234,7 +236,8 @@ std::span<const std::filesystem::path> Player::files() const {
 }
 
 void Player::advance(std::uint32_t frame) {
-  for (std::size_t index = 0; index < state_->objects.size(); ++index) state_->advance_object(index, frame);
+  for (std::size_t index = 0; index < state_->objects.size(); ++index)
+    with_memory_for(state_->objects[index].name, [&] { state_->advance_object(index, frame); });
 }
 
 const Eigen::Isometry3d& Player::pose(std::size_t index) const {

@@ -9,6 +9,7 @@
 #include "scene/described_fields.hpp"
 #include "scene/scene_placement.hpp"
 #include "text/json_path.hpp"
+#include "text/out_of_memory.hpp"
 
 namespace graze::io {
 namespace {
@@ -245,7 +246,9 @@ void read_scene_objects(const JsonPath& json, const std::filesystem::path& folde
 
 }  // namespace
 
-SceneDescription read_scene_file(const std::filesystem::path& path) {
+namespace {
+
+SceneDescription read_scene(const std::filesystem::path& path) {
   const nlohmann::json document = parse_json_file(path);
   const JsonPath root(path.string(), document);
   expect_scene_keys(root);
@@ -268,6 +271,12 @@ SceneDescription read_scene_file(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < ignore->array_size(R"(write [["name", "name"], ...])"); ++i)
       scene.ignore.push_back(read_ignore(ignore->item(i)));
   return scene;
+}
+
+}  // namespace
+
+SceneDescription read_scene_file(const std::filesystem::path& path) {
+  return with_memory_for(path, [&] { return read_scene(path); });
 }
 
 SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files) {

@@ -30,7 +30,9 @@ class GRAZE_API Player {
  public:
   /// Loads every file and makes the scene. Throws InputError if a file cannot be read or does not fit its
   /// mesh. Also throws InputError if a node, an animation or a name is not there, or if Scene refuses the
-  /// settings.
+  /// settings. Also throws InputError if there is not enough memory, and if the entries of `ignore` take out
+  /// more than 1,000,000 pairs. The objects of an entry that is ignored with itself count as no pair: they
+  /// get a group of their own (ObjectSettings::group).
   explicit Player(const SceneDescription& description);
   /// Frees the scene and all that was loaded.
   ~Player();
