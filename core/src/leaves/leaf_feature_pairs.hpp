@@ -24,7 +24,8 @@ namespace graze {
 /// `range.found(a, b)` for each pair that is not further than these, at times twice. It calls
 /// `range.left_out(limit)` when something further than that was discarded. It asks `range.keep(lower)` about
 /// features that are too large for float, with a bound from double. It calls `range.may_touch(segment,
-/// is_of_a)` for every segment that touches a face of the other surface, and perhaps for others.
+/// is_of_a)` for every segment that touches a face of the other surface, and perhaps for others. Keys from
+/// one for which `range.is_superfluous(key)` holds on are of no interest.
 ///
 /// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance,
 /// and two edges have a key only if both closest points are inside.
@@ -41,11 +42,7 @@ class LeafFeaturePairs {
 
   /// The features that the scratch has taken.
   void add_selected() {
-    if (!(batches_.frame == scratch_.frame)) {
-      finish_batches();
-      batches_.frame = scratch_.frame;
-      limit_ = -1;
-    }
+    use_frame();
     const SelectedLeaf& a = scratch_.a;
     const SelectedLeaf& b = scratch_.b;
     if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
@@ -64,6 +61,21 @@ class LeafFeaturePairs {
     near_segments(a.folds, b.folds);
   }
 
+  /// Of the features that the scratch has taken, edges and folds with the faces that they may pierce, alone.
+  void add_selected_piercings() {
+    use_frame();
+    const SelectedLeaf& a = scratch_.a;
+    const SelectedLeaf& b = scratch_.b;
+    if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
+      touching(a.edges, b.triangles, faces, batches_.through_b, handle_through_b());
+      touching(a.folds, b.triangles, faces, batches_.through_b, handle_through_b());
+    }
+    if (const kernels::Block faces = boxes_of(a.triangles); faces.count > 0) {
+      touching(b.edges, a.triangles, faces, batches_.through_a, handle_through_a());
+      touching(b.folds, a.triangles, faces, batches_.through_a, handle_through_a());
+    }
+  }
+
   /// Features that an earlier search has listed.
   void add_listed(std::span<const FeaturePair> listed) {
     batches_.frame = scratch_.frame;
@@ -78,6 +90,14 @@ class LeafFeaturePairs {
   }
 
  private:
+  /// Goes on in the frame of the features that the scratch has taken.
+  void use_frame() {
+    if (batches_.frame == scratch_.frame) return;
+    finish_batches();
+    batches_.frame = scratch_.frame;
+    limit_ = -1;
+  }
+
   // ---- By a list
 
   /// A surface's mesh, and where its vertices are in the frame.
@@ -288,8 +308,10 @@ class LeafFeaturePairs {
       if (!pair_.may(segment, face) || !may_touch(pair_.a, segment, pair_.b, face, known)) return;
       range_.may_touch(segment, true);
       pair_.check_time();
-      if (!is_segment(pair_.a, segment)) return;
       const FeaturePiece a = piece_of(segment);
+      if (range_.is_superfluous(FeaturePairKey::of(a, face_piece(face.index, Piece::fold), Meeting::pierced)))
+        return;
+      if (!is_segment(pair_.a, segment)) return;
       if (const auto b = pierced(pair_.a, a, pair_.b, face, known))
         sink_(FeaturePairKey::of(a, *b, Meeting::pierced), SquaredRange{});
     };
@@ -299,8 +321,10 @@ class LeafFeaturePairs {
       if (!pair_.may(face, segment) || !may_touch(pair_.b, segment, pair_.a, face, known)) return;
       range_.may_touch(segment, false);
       pair_.check_time();
-      if (!is_segment(pair_.b, segment)) return;
       const FeaturePiece b = piece_of(segment);
+      if (range_.is_superfluous(FeaturePairKey::of(face_piece(face.index, Piece::fold), b, Meeting::pierced)))
+        return;
+      if (!is_segment(pair_.b, segment)) return;
       if (const auto a = pierced(pair_.b, b, pair_.a, face, known))
         sink_(FeaturePairKey::of(*a, b, Meeting::pierced), SquaredRange{});
     };

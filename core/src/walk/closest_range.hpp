@@ -104,6 +104,10 @@ class ClosestRange {
   }
   /// Whether an edge may pierce a face.
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }
+  /// Where one key is enough and one is known at distance 0, only lower ones may take its place.
+  [[nodiscard]] bool is_superfluous(const FeaturePairKey& lowest) const {
+    return is_decided() && set_.front() < lowest;
+  }
   static constexpr bool nearest_only = false;
   void may_touch(const FeatureRef& /*segment*/, bool /*is_of_a*/) const {}
   [[nodiscard]] static double touching() { return 0; }
