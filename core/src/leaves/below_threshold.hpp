@@ -26,6 +26,7 @@ struct BelowThreshold {
   void may_touch(const FeatureRef& segment, bool is_of_a) const {
     if (touching_edges != nullptr) touching_edges->add(segment, is_of_a);
   }
+  [[nodiscard]] static bool wants_touching() { return false; }
   [[nodiscard]] static bool is_superfluous(const FeaturePairKey& /*lowest*/) { return false; }
   [[nodiscard]] bool keep(double lower) const { return lower < limit() || lower == 0; }
   void left_out(double /*limit*/) const {}

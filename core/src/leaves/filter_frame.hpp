@@ -136,7 +136,7 @@ class FilterFrame {
   }
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  double scale_ = 0;                              ///< 0 for the frame of nothing
+  double scale_ = 0;                                ///< 0 for the frame of nothing
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Zero();  ///< in rows, where the frame is turned
   bool is_turned_ = false;
 };

@@ -8,7 +8,9 @@ namespace {
 
 /// The range of a query for what touches alone.
 struct Touching : BelowThreshold<false> {
-  [[nodiscard]] bool is_superfluous(const FeaturePairKey& /*lowest*/) const { return touching_edges->pierced; }
+  [[nodiscard]] bool is_superfluous(const FeaturePairKey& /*lowest*/) const {
+    return touching_edges->pierced;
+  }
 };
 
 }  // namespace

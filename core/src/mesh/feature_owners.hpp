@@ -17,7 +17,8 @@ class FeatureOwners {
   explicit FeatureOwners(const IndexedMesh& mesh) : mesh_(mesh), faces_(mesh.vertex_count(), 0) {
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face)
       for (const std::uint32_t corner : mesh.face(face)) ++faces_[corner];
-    if (*std::max_element(faces_.begin(), faces_.end()) <= most_faces) std::vector<std::uint32_t>().swap(faces_);
+    if (*std::max_element(faces_.begin(), faces_.end()) <= most_faces)
+      std::vector<std::uint32_t>().swap(faces_);
   }
 
   [[nodiscard]] std::uint32_t of_face(std::uint32_t face) const { return first_of(mesh_.face(face)); }

@@ -14,8 +14,6 @@ namespace {
 
 /// A leaf is long if it is this many times as long as it is wide.
 constexpr double least_length = 4;
-/// A leaf with fewer faces is not asked. It may be as narrow as one edge, whatever the mesh is like.
-constexpr std::uint32_t least_faces = 4;
 /// A mesh with fewer long leaves counts as having none: the axes of space serve those as well.
 constexpr std::size_t least_count = 8;
 
@@ -81,7 +79,8 @@ LongRegions::LongRegions(const IndexedMesh& mesh) {
   std::vector<Lengthwise> longest(regions.size());
   std::size_t leaves = 0;
   for (std::size_t index = 0; index < regions.size(); ++index) {
-    if (!regions[index].is_leaf() || regions[index].face_count < least_faces) continue;
+    // A leaf without a face may be as narrow as one edge, whatever the mesh is like.
+    if (!regions[index].is_leaf() || regions[index].face_count == 0) continue;
     const std::optional<Lengthwise> axes = axes_if_long(mesh, regions[index]);
     if (!axes) continue;
     ++leaves;

@@ -558,8 +558,8 @@ void Surface::forget_bounds() noexcept {
 
 std::size_t Surface::byte_count() const {
   return sizeof(Surface) + bytes_of(in_float_) + bytes_of(in_double_) + bytes_of(radii_) +
-         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) + bytes_of(oriented_boxes_) + blocks_.byte_count() +
-         stretches_.byte_count();
+         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) +
+         bytes_of(oriented_boxes_) + blocks_.byte_count() + stretches_.byte_count();
 }
 
 }  // namespace graze

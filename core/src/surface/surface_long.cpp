@@ -46,7 +46,8 @@ void Surface::box_inner_long_regions() {
     OrientedExtent extent(axes_of(each), position(each.corners[0]));
     for (std::uint32_t child = region.first_child; child < region.first_child + region.child_count; ++child) {
       const std::uint32_t of_child = all.index_of(child);
-      extent.add(of_child == LongRegions::none ? OrientedBox::of(face_boxes_[child]) : oriented_boxes_[of_child]);
+      extent.add(of_child == LongRegions::none ? OrientedBox::of(face_boxes_[child])
+                                               : oriented_boxes_[of_child]);
     }
     oriented_boxes_[index] = extent.box();
   }
