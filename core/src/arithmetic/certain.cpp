@@ -229,6 +229,28 @@ bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eig
   return false;
 }
 
+/// Projects both segments on the way between points that are about the closest. Any other way gives a bound,
+/// too, so it does not matter how well they are found.
+bool certainly_apart(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b) {
+  const Plain u = difference<double>(a[1], a[0]);
+  const Plain r = difference<double>(b[0], a[0]);
+  const Plain s = difference<double>(b[1], a[0]);
+  const Plain v = s - r;
+  const double uu = dot(u, u);
+  const double vv = dot(v, v);
+  const double uv = dot(u, v);
+  const double ur = dot(u, r);
+  const double vr = dot(v, r);
+  const double on_a = to_unit_interval((ur * vv - vr * uv) / (uu * vv - uv * uv));
+  const double on_b = to_unit_interval((uv * on_a - vr) / vv);
+  const Plain way = (r + v * on_b) - u * to_unit_interval((uv * on_b + ur) / uu);
+  const double squared = dot(way, way);
+  const double furthest = std::max(uu, std::max(dot(r, r), dot(s, s)));
+  if (!is_in_range(squared) || !is_in_range(furthest)) return false;
+  const double gap = std::min(dot(way, r), dot(way, s)) - std::max(dot(way, u), 0.0);
+  return gap > 16 * roundoff * std::sqrt(squared * furthest);
+}
+
 Passing certain_passing(const std::array<Eigen::Vector3d, 2>& segment,
                         const std::array<Eigen::Vector3d, 3>& corner) {
   const Plain u = difference<double>(corner[1], corner[0]);

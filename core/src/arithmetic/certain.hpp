@@ -54,6 +54,9 @@ enum class Along : std::uint8_t { first, second, inside };
 bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
                    std::array<Along, 2>& along, SquaredRange& squared);
 
+/// Whether two segments are certainly apart. It may say no of segments that are.
+bool certainly_apart(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b);
+
 /// Whether a segment passes through the inside of a triangle, from one side of its plane to the other.
 enum class Passing : std::uint8_t { unsure, no, yes };
 Passing certain_passing(const std::array<Eigen::Vector3d, 2>& segment,

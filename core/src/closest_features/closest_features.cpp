@@ -381,6 +381,19 @@ ClosestPiecesOfSegments nearest_pieces_of_segments(const Surface& surface_a, con
   return nearest.found();
 }
 
+bool are_nearest_inside(const Surface& surface_a, const FeaturePiece& segment_a, const Surface& surface_b,
+                        const FeaturePiece& segment_b, DecisionCount& count, SquaredRange& squared) {
+  const Simplex a = simplex_of(surface_a, segment_a);
+  const Simplex b = simplex_of(surface_b, segment_b);
+  if (shared_ends(a, b)) return false;
+  std::array<Along, 2> along{};
+  if (certain_along({a.point[0], a.point[1]}, {b.point[0], b.point[1]}, along, squared)) {
+    ++count.in_double;
+    return along[0] == Along::inside && along[1] == Along::inside;
+  }
+  return !is_point(a) && !is_point(b) && !are_parallel(a, b, count) && are_closest_inside(a, b, count);
+}
+
 bool is_folded(const Surface& surface, std::uint32_t face, DecisionCount& count) {
   const IndexedMesh& mesh = surface.mesh();
   if (triangle_count(mesh, face) == 1 || diagonal_of(mesh, face).feature.kind != FeatureKind::face)

@@ -82,6 +82,10 @@ ClosestPiecesOfSegments nearest_pieces_of_segments(const Surface& surface_a, con
                                                    const Surface& surface_b, const FeaturePiece& segment_b,
                                                    DecisionCount& count, SquaredRange& squared);
 
+/// Whether that is one pair of points, inside both segments.
+bool are_nearest_inside(const Surface& surface_a, const FeaturePiece& segment_a, const Surface& surface_b,
+                        const FeaturePiece& segment_b, DecisionCount& count, SquaredRange& squared);
+
 /// Whether a quad's diagonal is a fold. It is one where the corners do not lie in one plane. It is one as
 /// well where they do, but with both triangles on one side of the diagonal: they lie on each other, and the
 /// diagonal is a border.

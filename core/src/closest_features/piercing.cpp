@@ -47,17 +47,33 @@ Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t o
   return result;
 }
 
+/// Asks of an edge and a triangle what most of them answer, without pieces.
+Passing passing_of(const Surface& surface, const FeaturePiece& segment, const Surface& other,
+                   std::uint32_t face) {
+  const auto corner = other.mesh().face(face);
+  if (corner.size() != 3 || segment.feature.kind != FeatureKind::edge) return Passing::unsure;
+  const auto end = surface.mesh().edge(segment.feature.index);
+  return certain_passing({surface.position(end[0]), surface.position(end[1])},
+                         {other.position(corner[0]), other.position(corner[1]), other.position(corner[2])});
+}
+
 }  // namespace
 
 std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeaturePiece& segment,
                                           const Surface& other, std::uint32_t face, DecisionCount& count) {
+  if (const Passing passing = passing_of(surface, segment, other, face); passing != Passing::unsure) {
+    ++count.in_double;
+    return passing == Passing::yes ? std::optional(face_piece(face, Piece::first)) : std::nullopt;
+  }
   const Simplex ends = simplex_of(surface, segment);
   const bool is_quad = triangle_count(other.mesh(), face) == 2;
   const bool has_fold = is_quad && diagonal_of(other.mesh(), face).feature.kind == FeatureKind::face;
   const auto cross_triangle = [&](Piece piece, std::size_t open_side) {
     const Simplex triangle = simplex_of(other, face_piece(face, piece));
     if (share_a_corner(ends, triangle)) return Crossing::none;
-    const Passing passing = certain_passing({ends.point[0], ends.point[1]}, triangle.point);
+    const bool was_asked = !is_quad && segment.feature.kind == FeatureKind::edge;
+    const Passing passing =
+        was_asked ? Passing::unsure : certain_passing({ends.point[0], ends.point[1]}, triangle.point);
     if (passing != Passing::unsure) {
       ++count.in_double;
       return passing == Passing::yes ? Crossing::inside : Crossing::none;

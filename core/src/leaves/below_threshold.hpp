@@ -1,5 +1,6 @@
 #pragma once
 
+#include "closest_features/feature_pair_key.hpp"
 #include "core/pair/near_list.hpp"
 #include "leaves/touching_edges.hpp"
 #include "pair/near_listing.hpp"
@@ -25,6 +26,8 @@ struct BelowThreshold {
   void may_touch(const FeatureRef& segment, bool is_of_a) const {
     if (touching_edges != nullptr) touching_edges->add(segment, is_of_a);
   }
+  [[nodiscard]] static bool wants_touching() { return false; }
+  [[nodiscard]] static bool is_superfluous(const FeaturePairKey& /*lowest*/) { return false; }
   [[nodiscard]] bool keep(double lower) const { return lower < limit() || lower == 0; }
   void left_out(double /*limit*/) const {}
 };

@@ -32,13 +32,14 @@ class ClosestFeaturesBatch {
   /// Before the first pair of features of a pair of surfaces.
   void begin() { segments_ = points_and_triangles_ = 0; }
 
-  // Each function may give `sink(key, squared range)` the keys of pairs that were added before.
-  template <typename Sink>
+  // Each function may give `sink(key, squared range)` the keys of pairs that were added before. If `inside`
+  // is true, two edges have a key only if their closest points are inside both.
+  template <bool inside, typename Sink>
   void add_edges(const SurfacePair& pair, std::uint32_t edge_a, std::uint32_t edge_b, const Sink& sink) {
     put(pair.a, pair.a.mesh().edge(edge_a), segment_batch_.a, segments_);
     put(pair.b, pair.b.mesh().edge(edge_b), segment_batch_.b, segments_);
     segment_[segments_++] = {edge_a, edge_b};
-    if (segments_ == kernels::contact_lanes) resolve_segments(pair, sink);
+    if (segments_ == kernels::contact_lanes) resolve_segments<inside>(pair, sink);
   }
   template <typename Sink>
   void add_vertex_and_face(const SurfacePair& pair, std::uint32_t vertex_a, std::uint32_t face_b,
@@ -51,9 +52,9 @@ class ClosestFeaturesBatch {
     add({vertex_b, face_a, false}, pair, sink);
   }
   /// Finds the closest features of the pairs that are left.
-  template <typename Sink>
+  template <bool inside, typename Sink>
   void finish(const SurfacePair& pair, const Sink& sink) {
-    resolve_segments(pair, sink);
+    resolve_segments<inside>(pair, sink);
     resolve_points_and_triangles(pair, sink);
   }
 
@@ -97,15 +98,22 @@ class ClosestFeaturesBatch {
                                                      pieces.of_face(pair), pieces.face, pair.count, squared);
     sink(pieces.key(piece), squared);
   }
-  template <typename Sink>
+  template <bool inside, typename Sink>
   void resolve_alone(const EdgePair& edges, const SurfacePair& pair, const Sink& sink) {
     SquaredRange squared;
-    const ClosestPiecesOfSegments found = nearest_pieces_of_segments(
-        pair.a, edge_piece(edges.a), pair.b, edge_piece(edges.b), pair.count, squared);
+    const FeaturePiece a = edge_piece(edges.a);
+    const FeaturePiece b = edge_piece(edges.b);
+    if constexpr (inside) {
+      if (are_nearest_inside(pair.a, a, pair.b, b, pair.count, squared))
+        sink(FeaturePairKey::of(a, b), squared);
+      return;
+    }
+    const ClosestPiecesOfSegments found =
+        nearest_pieces_of_segments(pair.a, a, pair.b, b, pair.count, squared);
     for (std::uint32_t k = 0; k < found.size; ++k)
       sink(FeaturePairKey::of(found.pieces[k][0], found.pieces[k][1]), squared);
   }
-  template <typename Sink>
+  template <bool inside, typename Sink>
   void resolve_segments(const SurfacePair& pair, const Sink& sink);
   template <typename Sink>
   void resolve_points_and_triangles(const SurfacePair& pair, const Sink& sink);
@@ -127,7 +135,7 @@ class ClosestFeaturesBatch {
   std::size_t points_and_triangles_ = 0;
 };
 
-template <typename Sink>
+template <bool inside, typename Sink>
 void ClosestFeaturesBatch::resolve_segments(const SurfacePair& pair, const Sink& sink) {
   if (segments_ == 0) return;
   kernels::voronoi().segments(segment_batch_);
@@ -138,7 +146,7 @@ void ClosestFeaturesBatch::resolve_segments(const SurfacePair& pair, const Sink&
         piece_of_edge(pair.b.mesh(), b, static_cast<std::size_t>(segment_batch_.along_b[lane])));
   };
   resolve_lanes(segment_batch_.found, segments_, pair, sink, certain,
-                [&](std::size_t lane) { resolve_alone(segment_[lane], pair, sink); });
+                [&](std::size_t lane) { resolve_alone<inside>(segment_[lane], pair, sink); });
 }
 
 template <typename Sink>

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/box.hpp"
+#include "core/surface/oriented_box.hpp"
 #include "kernels/filter.hpp"
 #include "kernels/positions.hpp"
 #include "surface/leaf_slab.hpp"
@@ -31,6 +33,22 @@ class FilterFrame {
     if (extent > 0) scale_ = std::ldexp(1.0, -std::clamp(std::ilogb(extent), -most, most));
   }
 
+  /// A frame along the axes of a long leaf, which is turned. There the boxes of its faces are tight.
+  FilterFrame(const Box& a, const Box& b, const Eigen::Matrix3d& axes) : FilterFrame(a, b) {
+    axes_ = axes;
+    is_turned_ = true;
+  }
+
+  [[nodiscard]] bool is_turned() const { return is_turned_; }
+  /// Whether it lies along a long leaf, or along the axes of space where that is null. Its boxes of the leaf
+  /// may be about twice as wide as those along the leaf's own axes.
+  [[nodiscard]] bool lies_along(const OrientedBox* leaf) const {
+    if (leaf == nullptr || !is_turned_) return leaf == nullptr && !is_turned_;
+    const double width = leaf->half.tail<2>().maxCoeff();
+    const double sine = axes_.row(0).cross(leaf->axes.row(0)).norm();
+    constexpr double little_roll = 0.98;
+    return sine * leaf->half.x() <= width && std::abs(axes_.row(2).dot(leaf->axes.row(2))) >= little_roll;
+  }
   /// Whether it does for other leaves: their own frame is not much larger or smaller, nor so far away that
   /// float would see too little of them.
   [[nodiscard]] bool serves(const Box& a, const Box& b) const {
@@ -39,11 +57,17 @@ class FilterFrame {
     return ratio >= 0x1p-9 && ratio <= 0x1p9 &&
            (own.origin_ - origin_).cwiseAbs().maxCoeff() * own.scale_ <= 0x1p9;
   }
-  friend bool operator==(const FilterFrame&, const FilterFrame&) = default;
+  friend bool operator==(const FilterFrame& left, const FilterFrame& right) {
+    return left.origin_ == right.origin_ && left.scale_ == right.scale_ &&
+           left.is_turned_ == right.is_turned_ && (!left.is_turned_ || left.axes_ == right.axes_);
+  }
 
   [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
-    return (point - origin_) * scale_;
+    const Eigen::Vector3d local = (point - origin_) * scale_;
+    return is_turned_ ? Eigen::Vector3d(axes_ * local) : local;
   }
+  // The next four are of a frame that is not turned.
+
   /// The frame as the passes over many points take it.
   [[nodiscard]] kernels::PointFrame for_points() const {
     return {{origin_.x(), origin_.y(), origin_.z(), 0}, scale_};
@@ -63,9 +87,10 @@ class FilterFrame {
     return rounded(to_local(box.min).array().max(to_local(other.min).array() - reach),
                    to_local(box.max).array().min(to_local(other.max).array() + reach));
   }
-  /// The slab of a leaf with this middle vertex.
+
+  /// The slab of a leaf with this middle vertex. In a turned frame boxes serve as well, so it has none.
   [[nodiscard]] kernels::SlabInFrame to_local(const LeafSlab& slab, const Eigen::Vector3d& middle) const {
-    if (!slab.is_known()) return {{0, 0, 0}, 0, 0};
+    if (!slab.is_known() || is_turned_) return {{0, 0, 0}, 0, 0};
     const Eigen::Vector3d local = to_local(middle);
     const double along = slab.normal.cast<double>().dot(local);
     const double rounding = (local.cwiseAbs().sum() + static_cast<double>(slab.radius) * scale_) * 0x1p-22;
@@ -111,7 +136,9 @@ class FilterFrame {
   }
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  double scale_ = 0;  ///< 0 for the frame of nothing
+  double scale_ = 0;                                ///< 0 for the frame of nothing
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Zero();  ///< in rows, where the frame is turned
+  bool is_turned_ = false;
 };
 
 /// Holds nothing, and is extended by what it is to hold.

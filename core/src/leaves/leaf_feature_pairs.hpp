@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "arithmetic/certain.hpp"
 #include "closest_features/feature_pair_key.hpp"
 #include "closest_features/piercing.hpp"
 #include "core/pair/near_list.hpp"
@@ -24,7 +25,9 @@ namespace graze {
 /// `range.found(a, b)` for each pair that is not further than these, at times twice. It calls
 /// `range.left_out(limit)` when something further than that was discarded. It asks `range.keep(lower)` about
 /// features that are too large for float, with a bound from double. It calls `range.may_touch(segment,
-/// is_of_a)` for every segment that touches a face of the other surface, and perhaps for others.
+/// is_of_a)` for every segment that touches a face of the other surface, and perhaps for others. Keys from
+/// one for which `range.is_superfluous(key)` holds on are of no interest. If `range.wants_touching()`,
+/// neither is anything that is apart.
 ///
 /// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance,
 /// and two edges have a key only if both closest points are inside.
@@ -41,11 +44,7 @@ class LeafFeaturePairs {
 
   /// The features that the scratch has taken.
   void add_selected() {
-    if (!(batches_.frame == scratch_.frame)) {
-      finish_batches();
-      batches_.frame = scratch_.frame;
-      limit_ = -1;
-    }
+    use_frame();
     const SelectedLeaf& a = scratch_.a;
     const SelectedLeaf& b = scratch_.b;
     if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
@@ -64,6 +63,21 @@ class LeafFeaturePairs {
     near_segments(a.folds, b.folds);
   }
 
+  /// Of the features that the scratch has taken, edges and folds with the faces that they may pierce, alone.
+  void add_selected_piercings() {
+    use_frame();
+    const SelectedLeaf& a = scratch_.a;
+    const SelectedLeaf& b = scratch_.b;
+    if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
+      touching(a.edges, b.triangles, faces, batches_.through_b, handle_through_b());
+      touching(a.folds, b.triangles, faces, batches_.through_b, handle_through_b());
+    }
+    if (const kernels::Block faces = boxes_of(a.triangles); faces.count > 0) {
+      touching(b.edges, a.triangles, faces, batches_.through_a, handle_through_a());
+      touching(b.folds, a.triangles, faces, batches_.through_a, handle_through_a());
+    }
+  }
+
   /// Features that an earlier search has listed.
   void add_listed(std::span<const FeaturePair> listed) {
     batches_.frame = scratch_.frame;
@@ -74,10 +88,18 @@ class LeafFeaturePairs {
 
   void finish() {
     finish_batches();
-    scratch_.naming.finish(pair_, sink_);
+    scratch_.naming.finish<Range::nearest_only>(pair_, sink_);
   }
 
  private:
+  /// Goes on in the frame of the features that the scratch has taken.
+  void use_frame() {
+    if (batches_.frame == scratch_.frame) return;
+    finish_batches();
+    batches_.frame = scratch_.frame;
+    limit_ = -1;
+  }
+
   // ---- By a list
 
   /// A surface's mesh, and where its vertices are in the frame.
@@ -97,7 +119,8 @@ class LeafFeaturePairs {
       pair.b.kind == FeatureRefKind::vertex
           ? add_with_face(batches_.vertex_b, pair.b, b, pair.a, a, handle_vertex_b())
           : add_with_face(batches_.through_a, pair.b, b, pair.a, a, handle_through_a());
-    } else if (batches_.segments.add(pair.a, corners_of<2>(pair.a, a), pair.b, corners_of<2>(pair.b, b))) {
+    } else if (batches_.segments.add(pair.a, listed_corners_of<2>(pair.a, a), pair.b,
+                                     listed_corners_of<2>(pair.b, b))) {
       bound(batches_.segments, handle_segments());
     }
   }
@@ -105,14 +128,15 @@ class LeafFeaturePairs {
   template <std::size_t Corners, typename Handler>
   void add_with_face(FloatBatch<Corners, 3>& batch, const FeatureRef& ref, const ListedSide& of_ref,
                      const FeatureRef& face, const ListedSide& of_face, const Handler& handle) {
-    const std::array<kernels::Point, Corners> corners = corners_of<Corners>(ref, of_ref);
+    const std::array<kernels::Point, Corners> corners = listed_corners_of<Corners>(ref, of_ref);
     const auto corner = of_face.mesh.face(face.index);
     const auto point = [&](std::size_t i) { return of_face.points[corner[i]]; };
     for (std::size_t last = 2; last < corner.size(); ++last)
       if (batch.add(ref, corners, face, {point(0), point(last - 1), point(last)})) bound(batch, handle);
   }
   template <std::size_t Corners>
-  static std::array<kernels::Point, Corners> corners_of(const FeatureRef& ref, const ListedSide& side) {
+  static std::array<kernels::Point, Corners> listed_corners_of(const FeatureRef& ref,
+                                                               const ListedSide& side) {
     if constexpr (Corners == 1) {
       return {side.points[ref.index]};
     } else {
@@ -277,8 +301,9 @@ class LeafFeaturePairs {
                                piece_of_edge(pair_.b.mesh(), b.index, voronoi & 3U), SquaredRange{0, 0});
       }
       if (!may_be_near(pair_.a, a, pair_.b, b, known)) return;
+      if (range_.wants_touching() && certainly_apart(ends_of(pair_.a, a), ends_of(pair_.b, b))) return;
       if (are_edges)
-        scratch_.naming.add_edges(pair_, a.index, b.index, sink_);
+        scratch_.naming.add_edges<Range::nearest_only>(pair_, a.index, b.index, sink_);
       else if (is_segment(pair_.a, a) && is_segment(pair_.b, b))
         offer_inner(piece_of(a), piece_of(b));
     };
@@ -288,8 +313,10 @@ class LeafFeaturePairs {
       if (!pair_.may(segment, face) || !may_touch(pair_.a, segment, pair_.b, face, known)) return;
       range_.may_touch(segment, true);
       pair_.check_time();
-      if (!is_segment(pair_.a, segment)) return;
       const FeaturePiece a = piece_of(segment);
+      if (range_.is_superfluous(FeaturePairKey::of(a, face_piece(face.index, Piece::fold), Meeting::pierced)))
+        return;
+      if (!is_segment(pair_.a, segment)) return;
       if (const auto b = pierced(pair_.a, a, pair_.b, face, known))
         sink_(FeaturePairKey::of(a, *b, Meeting::pierced), SquaredRange{});
     };
@@ -299,8 +326,10 @@ class LeafFeaturePairs {
       if (!pair_.may(face, segment) || !may_touch(pair_.b, segment, pair_.a, face, known)) return;
       range_.may_touch(segment, false);
       pair_.check_time();
-      if (!is_segment(pair_.b, segment)) return;
       const FeaturePiece b = piece_of(segment);
+      if (range_.is_superfluous(FeaturePairKey::of(face_piece(face.index, Piece::fold), b, Meeting::pierced)))
+        return;
+      if (!is_segment(pair_.b, segment)) return;
       if (const auto a = pierced(pair_.b, b, pair_.a, face, known))
         sink_(FeaturePairKey::of(*a, b, Meeting::pierced), SquaredRange{});
     };
@@ -371,6 +400,10 @@ class LeafFeaturePairs {
   static FeaturePiece piece_of(const FeatureRef& segment) {
     return segment.kind == FeatureRefKind::edge ? edge_piece(segment.index)
                                                 : face_piece(segment.index, Piece::fold);
+  }
+  static std::array<Eigen::Vector3d, 2> ends_of(const Surface& surface, const FeatureRef& segment) {
+    const auto [first, second, unused] = corners_of(surface.mesh(), piece_of(segment));
+    return {surface.position(first), surface.position(second)};
   }
   /// A fold gives contacts only where the closest points are inside both segments: at its ends are the quad's
   /// corners.

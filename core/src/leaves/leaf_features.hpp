@@ -17,6 +17,7 @@ namespace graze {
 struct LeafOf {
   const Region& region;
   const Box& box;
+  const OrientedBox* oriented = nullptr;  ///< its box along its faces, if it is long
 };
 
 /// Makes room for the features of a leaf, in what holds those of each kind.

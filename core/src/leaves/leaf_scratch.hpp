@@ -76,6 +76,24 @@ struct LeafScratch {
     return slabs.of(number, [&] { return slab_of(surface, leaf); });
   }
 
+  /// Chooses another frame if the present one does not serve: along the faces of a long leaf.
+  void choose_frame(const LeafOf& leaf_a, const LeafOf& leaf_b) {
+    const OrientedBox* const along = leaf_a.oriented != nullptr ? leaf_a.oriented : leaf_b.oriented;
+    if (frame.lies_along(along) && frame.serves(leaf_a.box, leaf_b.box)) return;
+    frame = along != nullptr ? FilterFrame(leaf_a.box, leaf_b.box, along->axes)
+                             : FilterFrame(leaf_a.box, leaf_b.box);
+  }
+  /// The box of all features of a leaf of a in the frame, which is turned. Selects all of them.
+  template <typename Take>
+  kernels::BoxInFrame box_of_all(const Surface& surface, const Region& leaf, const Take& select) {
+    constexpr float far = 0x1p100F;
+    constexpr kernels::BoxInFrame everything{{-far, -far, -far}, {far, far, far}};
+    all_a.begin(surface, frame, false);
+    kernels::BoxInFrame box = empty_box();
+    (a.*select)(all_a.of(surface, leaf, corners), {everything, everything, {{0, 0, 0}, 0, 0}, 0}, &box);
+    return box;
+  }
+
   template <typename Range, typename Take>
   bool select_near(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
                    double touching_within, bool vertices_only, const Take& select) {
@@ -94,10 +112,12 @@ struct LeafScratch {
       slab_b = slab_now(slabs_b, pair.b, leaf_b.region);
       if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();
     }
-    if (!frame.serves(leaf_a.box, leaf_b.box)) frame = FilterFrame(leaf_a.box, leaf_b.box);
+    choose_frame(leaf_a, leaf_b);
     // Selects from b what is near where a can be near b's leaf, and from a what is near that. Two features
     // can only touch where both sides' boxes are.
-    const kernels::BoxInFrame near_a = frame.to_local_beside(leaf_a.box, leaf_b.box, limit);
+    const kernels::BoxInFrame near_a = frame.is_turned()
+                                           ? box_of_all(pair.a, leaf_a.region, select)
+                                           : frame.to_local_beside(leaf_a.box, leaf_b.box, limit);
     if (is_empty(near_a)) return nothing_near();
     all_a.begin(pair.a, frame, vertices_only);
     all_b.begin(pair.b, frame, vertices_only);

@@ -66,6 +66,7 @@ IndexedMesh::IndexedMesh(PositionView rest, std::span<const std::uint32_t> corne
   check_rest();
   number_edges();
   regions_ = RegionTree(*this);
+  long_regions_ = LongRegions(*this);
 }
 
 void IndexedMesh::take_faces(std::span<const std::uint32_t> corners,
@@ -289,6 +290,7 @@ std::size_t IndexedMesh::byte_count() const {
   };
   return sizeof(IndexedMesh) + bytes_of(rest_) + bytes_of(corners_) + bytes_of(face_begin_) +
          bytes_of(face_edges_) + bytes_of(edges_) + bytes_of(used_) + regions_.byte_count() +
+         long_regions_.byte_count() +
          bytes_made(neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_, blocks_, rest_reach_);
 }
 

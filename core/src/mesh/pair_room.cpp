@@ -10,6 +10,7 @@ void PairRoom::include(const IndexedMesh& mesh) {
   const auto all = mesh.regions().regions();
   vertices = std::max<std::size_t>(vertices, mesh.vertex_count());
   regions = std::max(regions, all.size());
+  long_regions = std::max(long_regions, mesh.long_regions().count());
   for (const Region& region : all) {
     if (!region.is_leaf()) continue;
     leaf_vertices = std::max<std::size_t>(leaf_vertices, region.vertex_count);

@@ -10,6 +10,7 @@
 #include "core/base/box.hpp"
 #include "core/base/bytes_of.hpp"
 #include "core/mesh/indexed_mesh.hpp"
+#include "mesh/feature_owners.hpp"
 #include "mesh/middle_vertex.hpp"
 #include "mesh/validate_tree.hpp"
 
@@ -142,10 +143,11 @@ RegionTree::RegionTree(const IndexedMesh& mesh) {
 
   std::vector<std::uint32_t> position(mesh.vertex_count());
   for (std::uint32_t i = 0; i < vertices_.size(); ++i) position[vertices_[i]] = i;
+  const FeatureOwners owners(mesh);
   Owned owned_faces = sort_by_owner(mesh.face_count(), vertices_.size(),
-                                    [&](std::uint32_t face) { return position[mesh.face(face)[0]]; });
+                                    [&](std::uint32_t face) { return position[owners.of_face(face)]; });
   Owned owned_edges = sort_by_owner(mesh.edge_count(), vertices_.size(),
-                                    [&](std::uint32_t edge) { return position[mesh.edge(edge)[0]]; });
+                                    [&](std::uint32_t edge) { return position[owners.of_edge(edge)]; });
   for (Region& region : regions_) {
     const std::uint32_t end = region.first_vertex + region.vertex_count;
     region.first_face = owned_faces.begin[region.first_vertex];

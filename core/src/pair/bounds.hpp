@@ -33,6 +33,17 @@ inline double lower_distance(const Eigen::Vector3d& middle_a, double radius_a,
   return std::max(0.0, (lower_distance(middle_a, middle_b) - radii) * round_down);
 }
 
+/// At most the distance of two regions whose boxes are along their faces, where these are not null, or along
+/// the axes of space.
+inline double lower_of_long(const OrientedBox* oriented_a, const Box& box_a, const OrientedBox* oriented_b,
+                            const Box& box_b) {
+  if (oriented_a == nullptr && oriented_b == nullptr) return 0;
+  const OrientedBox a = oriented_a != nullptr ? *oriented_a : OrientedBox::of(box_a);
+  const OrientedBox b = oriented_b != nullptr ? *oriented_b : OrientedBox::of(box_b);
+  return std::max(oriented_a != nullptr ? lower_along_axes(a, b) : 0,
+                  oriented_b != nullptr ? lower_along_axes(b, a) : 0);
+}
+
 /// The certified bound of docs/method.md, section 2, for the regions of two surfaces as they are now: from
 /// the boxes of the last refit, less the motion since then.
 class RegionBounds {
@@ -41,11 +52,14 @@ class RegionBounds {
       : a_(a),
         b_(b),
         boxes_(boxes),
-        motion_((a.motion_since_refit(boxes) + b.motion_since_refit(boxes)) * round_up) {}
+        motion_((a.motion_since_refit(boxes) + b.motion_since_refit(boxes)) * round_up),
+        has_long_(boxes == RefitOf::faces &&
+                  !(a.mesh().long_regions().empty() && b.mesh().long_regions().empty())) {}
 
   /// At most the distance of the regions' vertices, or of the faces and edges that they own.
   [[nodiscard]] double lower(const RegionPair& pair) const {
-    return less_motion(lower_distance(box_a(pair), box_b(pair)), motion_);
+    const double lower = lower_distance(box_a(pair), box_b(pair));
+    return less_motion(has_long_ ? std::max(lower, lower_of_long_regions(pair)) : lower, motion_);
   }
   /// At least the distance of any point of one region and any of the other, of all that the boxes hold.
   [[nodiscard]] double upper(const RegionPair& pair) const {
@@ -74,6 +88,14 @@ class RegionBounds {
  private:
   [[nodiscard]] const Box& box_a(const RegionPair& pair) const { return a_.boxes(boxes_)[pair.a]; }
   [[nodiscard]] const Box& box_b(const RegionPair& pair) const { return b_.boxes(boxes_)[pair.b]; }
+  [[nodiscard]] double lower_of_long_regions(const RegionPair& pair) const {
+    const auto oriented = [](const Surface& surface, std::uint32_t region) -> const OrientedBox* {
+      const LongRegions& all = surface.mesh().long_regions();
+      const std::uint32_t index = all.empty() ? LongRegions::none : all.index_of(region);
+      return index == LongRegions::none ? nullptr : &surface.oriented_boxes()[index];
+    };
+    return lower_of_long(oriented(a_, pair.a), box_a(pair), oriented(b_, pair.b), box_b(pair));
+  }
   static double size(const Box& box) { return (box.max - box.min).maxCoeff(); }
   static double less_motion(double distance, double motion) {
     return motion == 0 ? distance : std::max(0.0, (distance - motion) * round_down);
@@ -83,6 +105,7 @@ class RegionBounds {
   const Surface& b_;
   RefitOf boxes_;
   double motion_;
+  bool has_long_;  ///< of either surface
 };
 
 }  // namespace graze

@@ -44,6 +44,7 @@ std::size_t sort_near_first(std::vector<LeafPair>& leaves, double distance, cons
 
 SearchProgress ClosestSearch::begin(SearchWorker& worker) {
   pair_.answer->contacts.clear();
+  has_touching_ = false;
   if (pair_.query.detail == ContactDetail::vertices) return begin_vertices(worker);
   pair_.front->walked = true;
   const bool may_touch = pair_.front->touched && ties() == Ties::lowest && !about_vertices();
@@ -62,6 +63,7 @@ void ClosestSearch::run(SearchSlice& slice, SearchWorker& worker) {
 
 void ClosestSearch::reserve_as(const ClosestSearch& other) {
   graze::reserve_as(closest_.closest, other.closest_.closest);
+  graze::reserve_as(touching_, other.touching_);
 }
 
 void ClosestSearch::reserve(const PairRoom& room) {
@@ -69,7 +71,7 @@ void ClosestSearch::reserve(const PairRoom& room) {
 }
 
 std::size_t ClosestSearch::byte_count() const {
-  return bytes_of(closest_.closest);
+  return bytes_of(closest_.closest) + bytes_of(touching_);
 }
 
 /// ContactDetail::closest needs all keys at the least distance. The distance alone needs one.
@@ -203,16 +205,28 @@ bool ClosestSearch::test_leaves(std::size_t begin, std::size_t end, ClosestFound
 }
 
 /// Tests two leaves, and updates their bounds; false when the budget ran out.
-bool ClosestSearch::test_leaves(LeafPair& leaves, ClosestRange& range, SearchWorker& worker) const {
+bool ClosestSearch::test_leaves(LeafPair& leaves, ClosestRange& range, SearchWorker& worker) {
+  if (!range.keep(worker.leaf_pairs.lower_by_corners(leaves.pair))) return true;
   if (!worker.meter.spend()) return false;
   ++worker.meter.counters().leaf_pairs_tested;
   const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
   const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);
-  if (about_vertices())
+  if (about_vertices()) {
     range.offer_vertices(a, b, worker.scratch.features);
-  else
-    leaves.feature_lower_bound = rounded_down(range.offer_features(a, b, worker.scratch.features));
+    return true;
+  }
+  has_touching_ = is_one_pair_of_leaves();
+  touching_.clear();
+  if (has_touching_) range.collect(touching_);
+  leaves.feature_lower_bound = rounded_down(range.offer_features(a, b, worker.scratch.features));
+  touching_.pierced = range.has_pierced();
   return true;
+}
+
+/// Whether a test of one pair of leaves finds all edges that touch, of a pair that has a solid.
+bool ClosestSearch::is_one_pair_of_leaves() const {
+  return pair_.query.has_solid() && pair_.query.groups == nullptr &&
+         pair_.a->mesh().regions().region_count() == 1 && pair_.b->mesh().regions().region_count() == 1;
 }
 
 /// Answers, unless the closest points may be where the search has not looked. Then it begins anew.

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/mesh/pair_room.hpp"
+#include "leaves/touching_edges.hpp"
 #include "search/search_progress.hpp"
 #include "search/search_slices.hpp"
 #include "search/search_worker.hpp"
@@ -25,6 +26,10 @@ class ClosestSearch {
   /// Puts the results of the stage together, whose slices have all been run, and begins the next.
   SearchProgress next_stage(SearchWorker& worker);
   void run(SearchSlice& slice, SearchWorker& worker);
+
+  /// The edges that touch, of a pair with a solid. It is null if the search has not found all of them: it
+  /// ends early in a pair of more than two leaves.
+  [[nodiscard]] const TouchingEdges* touching() const { return has_touching_ ? &touching_ : nullptr; }
 
   void reserve_as(const ClosestSearch& other);
   void reserve(const PairRoom& room);
@@ -51,7 +56,7 @@ class ClosestSearch {
   SearchProgress begin_closest(SearchWorker& worker);
   SearchProgress finish(SearchWorker& worker);
   bool test_leaves(std::size_t begin, std::size_t end, ClosestFound& found, SearchWorker& worker);
-  bool test_leaves(LeafPair& leaves, ClosestRange& range, SearchWorker& worker) const;
+  bool test_leaves(LeafPair& leaves, ClosestRange& range, SearchWorker& worker);
   void seed(SearchSlice& slice) const;
   void merge_slices(SearchWorker& worker);
   void raise_bounds_of_front();
@@ -68,6 +73,7 @@ class ClosestSearch {
   void sort_front();
 
   [[nodiscard]] Ties ties() const;
+  [[nodiscard]] bool is_one_pair_of_leaves() const;
   [[nodiscard]] bool about_vertices() const { return is_about_vertices(pair_.query.detail); }
   [[nodiscard]] double unlisted_lower_bound() const;
   [[nodiscard]] auto offering_middles(ClosestRange& range) const;
@@ -79,6 +85,8 @@ class ClosestSearch {
   LeafSource source_ = LeafSource::walk;
   bool is_bounded_ = false;  ///< by the last answer, so that middle vertices need not be asked
   ClosestFound closest_;
+  TouchingEdges touching_;
+  bool has_touching_ = false;
 };
 
 }  // namespace graze

@@ -205,6 +205,7 @@ void ContactSearch::test_leaves(SearchSlice& slice, SearchWorker& worker, Featur
       if (leaves.lower > threshold_of_kept && !is_listing()) continue;
       features.set_threshold(threshold_of_kept);
     }
+    if (!may_touch_now(worker.leaf_pairs.lower_by_corners(leaves.pair), 0)) continue;
     ++worker.meter.counters().leaf_pairs_tested;
     const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);
     const LeafOf b = worker.leaf_pairs.leaf_b(leaves.pair);

@@ -55,7 +55,9 @@ void PairSearch::next_stage(SearchWorker& worker) {
 
 /// Completes an answer about a pair with a solid.
 SearchProgress PairSearch::complete_solids(SearchWorker& worker) {
-  const SearchProgress progress = SolidSearch(pair_, worker, contacts_.touching()).complete();
+  const TouchingEdges* touching = contacts_.touching();
+  if (touching == nullptr && phase_ == Phase::closest) touching = closest_.touching();
+  const SearchProgress progress = SolidSearch(pair_, worker, touching).complete();
   if (progress != SearchProgress::no_contact) return progress;
   phase_ = Phase::closest;
   return closest_.begin(worker);

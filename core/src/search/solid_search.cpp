@@ -2,9 +2,8 @@
 
 #include <limits>
 #include <memory>
-#include <optional>
 
-#include "leaves/nearest_features.hpp"
+#include "leaves/touching_features.hpp"
 
 namespace graze {
 
@@ -83,11 +82,7 @@ bool SolidSearch::find_touching(double apart) {
           {&root, 1}, touches, [](const RegionPair&) {}, found))
     return false;
   worker_.begin_leaves(found);
-  scratch_.keys.clear();
-  worker_.scratch.nearest_of_vertices.clear();
-  std::optional<NearKey> no_fold;
-  NearestFeatures features(whole, 0, worker_.scratch.features, worker_.scratch.nearest_of_vertices, no_fold,
-                           scratch_.keys, {}, &scratch_.touching);
+  TouchingFeatures features(whole, worker_.scratch.features, scratch_.touching);
   for (const LeafPair& leaves : found.leaves)
     features.add(leaf_pairs.leaf_a(leaves.pair), leaf_pairs.leaf_b(leaves.pair));
   features.finish();

@@ -16,11 +16,12 @@ template <typename Value>
 class PerLeafCache {
  public:
   /// Begins a query. Values that were made from the same positions are kept.
-  void begin(const Surface& surface) {
+  void begin(const Surface& surface) { begin(surface, surface.mesh().regions().region_count()); }
+  /// With a number of its own for each of `count` leaves.
+  void begin(const Surface& surface, std::size_t count) {
     if (serial_ == surface.serial() && version_ == surface.version()) return;
     serial_ = surface.serial();
     version_ = surface.version();
-    const std::size_t count = surface.mesh().regions().region_count();
     if (values_.size() < count) {
       values_.resize(count);
       made_in_.resize(count, 0);
@@ -49,9 +50,10 @@ class PerLeafCache {
   static auto parts(Self& self) {
     return std::tie(self.values_, self.made_in_);
   }
-  void reserve(const PairRoom& room) {
-    values_.reserve(room.regions);
-    made_in_.reserve(room.regions);
+  void reserve(const PairRoom& room) { reserve(room.regions); }
+  void reserve(std::size_t count) {
+    values_.reserve(count);
+    made_in_.reserve(count);
   }
 
  private:

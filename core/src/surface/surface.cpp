@@ -479,9 +479,11 @@ void Surface::refit(RefitOf what) {
 void Surface::begin_refit(RefitOf what) {
   const std::uint32_t count = mesh_->regions().region_count();
   what == RefitOf::radii ? radii_.resize(count) : boxes_to_write(what).resize(count);
+  if (what == RefitOf::faces) oriented_boxes_.resize(mesh_->long_regions().count());
 }
 
 void Surface::refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end) {
+  if (what == RefitOf::faces) refit_long_leaves(begin, end);
   for (std::uint32_t index = begin; index < end; ++index) {
     const Region& region = mesh_->regions().region(index);
     if (what == RefitOf::radii)
@@ -493,6 +495,7 @@ void Surface::refit_regions(RefitOf what, std::uint32_t begin, std::uint32_t end
 
 void Surface::finish_refit(RefitOf what) {
   what == RefitOf::radii ? gather_level_radii() : box_inner_regions(boxes_to_write(what));
+  if (what == RefitOf::faces) box_inner_long_regions();
   refits_[static_cast<std::size_t>(what)] = {version_, travel_};
   validate(*this);
 }
@@ -546,6 +549,7 @@ void Surface::forget_bounds() noexcept {
   let_go(level_radii_);
   let_go(vertex_boxes_);
   let_go(face_boxes_);
+  let_go(oriented_boxes_);
   refits_ = {};
   blocks_ = {};
   stretches_ = {};
@@ -554,8 +558,8 @@ void Surface::forget_bounds() noexcept {
 
 std::size_t Surface::byte_count() const {
   return sizeof(Surface) + bytes_of(in_float_) + bytes_of(in_double_) + bytes_of(radii_) +
-         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) + blocks_.byte_count() +
-         stretches_.byte_count();
+         bytes_of(level_radii_) + bytes_of(vertex_boxes_) + bytes_of(face_boxes_) +
+         bytes_of(oriented_boxes_) + blocks_.byte_count() + stretches_.byte_count();
 }
 
 }  // namespace graze

@@ -25,8 +25,9 @@ void validate(const Surface& surface) {
         require(contains(surface.face_boxes()[index], surface.position(corner)),
                 "a face sticks out of its box", face);
     for (const std::uint32_t edge : tree.edges(region))
-      require(contains(surface.face_boxes()[index], surface.position(mesh.edge(edge)[1])),
-              "an edge sticks out of its box", edge);
+      for (const std::uint32_t end : mesh.edge(edge))
+        require(contains(surface.face_boxes()[index], surface.position(end)), "an edge sticks out of its box",
+                edge);
   }
 }
 

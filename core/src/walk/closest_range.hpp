@@ -7,6 +7,7 @@
 #include "core/pair/pair_query.hpp"
 #include "leaves/leaf_feature_pairs.hpp"
 #include "leaves/leaf_vertex_pairs.hpp"
+#include "leaves/touching_edges.hpp"
 #include "pair/bounds.hpp"
 #include "walk/leaf_pairs.hpp"
 
@@ -70,6 +71,8 @@ class ClosestRange {
   /// points, any of which is a witness.
   [[nodiscard]] bool is_decided() const { return set_.is_decided(query_.threshold); }
 
+  /// Whether an edge pierces a face, among what has been found.
+  [[nodiscard]] bool has_pierced() const { return found_.closest.pierced; }
   /// Nothing further than this is nearest.
   [[nodiscard]] double upper() const { return set_.upper(); }
   void offer(const FeaturePairKey& key) { set_.offer(key); }
@@ -104,8 +107,19 @@ class ClosestRange {
   }
   /// Whether an edge may pierce a face.
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }
+  /// Where one key is enough and one is known at distance 0, only lower ones may take its place.
+  [[nodiscard]] bool is_superfluous(const FeaturePairKey& lowest) const {
+    const bool is_told = touching_edges_ == nullptr || found_.closest.pierced;
+    return is_decided() && is_told && set_.front() < lowest;
+  }
+  [[nodiscard]] bool wants_touching() const { return is_decided(); }
   static constexpr bool nearest_only = false;
-  void may_touch(const FeatureRef& /*segment*/, bool /*is_of_a*/) const {}
+  void may_touch(const FeatureRef& segment, bool is_of_a) const {
+    if (touching_edges_ != nullptr) touching_edges_->add(segment, is_of_a);
+  }
+  /// Collects the edges that touch between leaves that are tested from here on. Whether one pierces a face is
+  /// found out, too.
+  void collect(TouchingEdges& touching) { touching_edges_ = &touching; }
   [[nodiscard]] static double touching() { return 0; }
   [[nodiscard]] static bool is_listing() { return false; }
   static void found(const FeatureRef& /*a*/, const FeatureRef& /*b*/) {}
@@ -138,6 +152,7 @@ class ClosestRange {
   ClosestSet set_;
   double leaf_test_slack_;
   bool may_pierce_;
+  TouchingEdges* touching_edges_ = nullptr;
   double seen_ = 0;  ///< the nearest bound that `keep` was asked about since a test of two leaves began
 };
 

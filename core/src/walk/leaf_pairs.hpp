@@ -13,6 +13,7 @@
 #include "leaves/leaf_features.hpp"
 #include "pair/bounds.hpp"
 #include "surface/leaf_boxes.hpp"
+#include "surface/long_leaf_boxes.hpp"
 #include "walk/dmv.hpp"
 
 namespace graze {
@@ -48,11 +49,13 @@ struct LeafPairScratch {
   DmvScratch dmv;
   LeafBoxes boxes_a;
   LeafBoxes boxes_b;
+  LongLeafBoxes long_a;
+  LongLeafBoxes long_b;
   ListedIndices listed;
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.listed);
+    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.long_a, self.long_b, self.listed);
   }
 };
 
@@ -79,6 +82,10 @@ class LeafPairs {
         bounds_(pair.a, pair.b, boxes_for(query.detail)) {
     scratch_.boxes_a.begin(pair.a, boxes_for(query.detail));
     scratch_.boxes_b.begin(pair.b, boxes_for(query.detail));
+    if (boxes_for(query.detail) != RefitOf::faces) return;
+    scratch_.long_a.begin(pair.a);
+    scratch_.long_b.begin(pair.b);
+    has_long_ = scratch_.long_a.any() || scratch_.long_b.any();
   }
 
   /// Appends those leaf pairs of a part of a front that are not further than a distance. Where the surfaces
@@ -142,16 +149,22 @@ class LeafPairs {
   }
   /// At most how far apart two leaves are.
   double lower_of_leaves(const RegionPair& leaves) {
-    return lower_distance(scratch_.boxes_a.of(leaves.a), scratch_.boxes_b.of(leaves.b));
+    const double lower = lower_distance(scratch_.boxes_a.of(leaves.a), scratch_.boxes_b.of(leaves.b));
+    return has_long_ ? std::max(lower, lower_of_long_leaves(leaves)) : lower;
   }
+  /// A tighter bound, which takes longer: it is worth it for leaves that are to be tested. It is 0 where it
+  /// says nothing more.
+  double lower_by_corners(const RegionPair& leaves) { return has_long_ ? lower_along_long(leaves) : 0; }
   /// The pairs at which the last walk stopped.
   [[nodiscard]] std::span<const RegionPair> front() const { return scratch_.dmv.front; }
 
   [[nodiscard]] LeafOf leaf_a(const RegionPair& leaves) {
-    return {pair_.a.mesh().regions().region(leaves.a), scratch_.boxes_a.of(leaves.a)};
+    return {pair_.a.mesh().regions().region(leaves.a), scratch_.boxes_a.of(leaves.a),
+            scratch_.long_a.of(leaves.a)};
   }
   [[nodiscard]] LeafOf leaf_b(const RegionPair& leaves) {
-    return {pair_.b.mesh().regions().region(leaves.b), scratch_.boxes_b.of(leaves.b)};
+    return {pair_.b.mesh().regions().region(leaves.b), scratch_.boxes_b.of(leaves.b),
+            scratch_.long_b.of(leaves.b)};
   }
 
  private:
@@ -165,11 +178,27 @@ class LeafPairs {
     if (size_b > very_different * size_a && !b.is_leaf()) return {false, true};
     return {true, true};
   }
+  double lower_of_long_leaves(const RegionPair& leaves) {
+    return lower_of_long(scratch_.long_a.of(leaves.a), scratch_.boxes_a.of(leaves.a),
+                         scratch_.long_b.of(leaves.b), scratch_.boxes_b.of(leaves.b));
+  }
+  /// By the corners of either leaf along the axes of the other, if that is long.
+  double lower_along_long(const RegionPair& leaves) {
+    const OrientedBox* const of_a = scratch_.long_a.of(leaves.a);
+    const OrientedBox* const of_b = scratch_.long_b.of(leaves.b);
+    double lower = 0;
+    if (of_a != nullptr) lower = lower_along_axes(*of_a, box_along(*of_a, pair_.b, leaves.b));
+    if (of_b != nullptr)
+      lower = std::max(lower, lower_along_axes(*of_b, box_along(*of_b, pair_.a, leaves.a)));
+    return lower;
+  }
+
   const SurfacePair& pair_;
   const PairQuery& query_;
   LeafPairScratch& scratch_;
   WorkMeter& meter_;
   RegionBounds bounds_;
+  bool has_long_ = false;  ///< of either surface
 };
 
 }  // namespace graze

@@ -10,6 +10,7 @@
 
 #include "core/base/bytes_of.hpp"
 #include "core/base/made_once.hpp"
+#include "core/mesh/long_regions.hpp"
 #include "core/mesh/region_tree.hpp"
 #include "core/mesh/rest_reach.hpp"
 
@@ -100,6 +101,8 @@ class GRAZE_API IndexedMesh {
 
   /// The octree of regions, built with the mesh.
   [[nodiscard]] const RegionTree& regions() const { return regions_; }
+  /// Those of its regions whose faces are long.
+  [[nodiscard]] const LongRegions& long_regions() const { return long_regions_; }
 
   /// How far the rest shape reaches in any direction; made when it is first asked for, by any thread.
   [[nodiscard]] const RestReach& rest_reach() const;
@@ -152,6 +155,7 @@ class GRAZE_API IndexedMesh {
   std::vector<std::array<std::uint32_t, 2>> edges_;
   std::vector<std::uint8_t> used_;  ///< by vertex; empty if all vertices are used
   RegionTree regions_;
+  LongRegions long_regions_;
   MadeOnce<Rows> neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_;
   MadeOnce<Blocks> blocks_;
   MadeOnce<RestReach> rest_reach_;

@@ -18,6 +18,7 @@ struct GRAZE_API PairRoom {
   // Of the largest of the meshes:
   std::size_t vertices = 0;
   std::size_t regions = 0;
+  std::size_t long_regions = 0;
   std::size_t leaf_vertices = 0;
   std::size_t leaf_edges = 0;
   std::size_t leaf_faces = 0;

@@ -12,6 +12,7 @@
 
 #include "core/base/box.hpp"
 #include "core/mesh/indexed_mesh.hpp"
+#include "core/surface/oriented_box.hpp"
 #include "core/surface/vertex_blocks.hpp"
 #include "core/surface/vertex_stretches.hpp"
 
@@ -183,6 +184,10 @@ class GRAZE_API Surface {
   [[nodiscard]] std::span<const Box> boxes(RefitOf what) const {
     return what == RefitOf::vertices ? vertex_boxes_ : face_boxes_;
   }
+  /// The boxes along the faces of long regions, in the order of LongRegions, of the last refit of faces.
+  [[nodiscard]] std::span<const OrientedBox> oriented_boxes() const { return oriented_boxes_; }
+  /// The one of a long leaf at the present positions.
+  [[nodiscard]] OrientedBox oriented_box_now(const LongRegions::LongRegion& leaf) const;
   [[nodiscard]] std::span<const double> radii() const { return radii_; }
   /// One for each level.
   [[nodiscard]] std::span<const double> level_radii() const { return level_radii_; }
@@ -215,6 +220,9 @@ class GRAZE_API Surface {
   [[nodiscard]] double radius_now(const Region& region) const;
   void gather_level_radii();
   void box_inner_regions(std::vector<Box>& boxes) const;
+  [[nodiscard]] Eigen::Matrix3d axes_of(const LongRegions::LongRegion& region) const;
+  void refit_long_leaves(std::uint32_t begin, std::uint32_t end);
+  void box_inner_long_regions();
   void count_motion(double displacement, const Box& before);
   [[nodiscard]] double motion_since(const Refit& refit) const;
 
@@ -231,6 +239,7 @@ class GRAZE_API Surface {
   std::vector<double> level_radii_;
   std::vector<Box> vertex_boxes_;
   std::vector<Box> face_boxes_;
+  std::vector<OrientedBox> oriented_boxes_;
   std::uint64_t serial_;
   std::uint64_t version_ = 0;
   Travel travel_;
