@@ -114,7 +114,8 @@ std::vector<DriftingPair> rests() {
 
 TEST_CASE("near list: what is listed spares searches, and shows in no answer") {
   const FloatingPointScope scope;
-  for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices}) {
+  for (const ContactDetail detail :
+       {ContactDetail::features, ContactDetail::vertices, ContactDetail::nearest}) {
     ListTally tally;
     for (const DriftingPair& rest : rests())
       for (const double threshold : {0.0, 0.02, 0.25})
@@ -141,7 +142,8 @@ TEST_CASE("near list: large pairs' slices list what one search does") {
   const std::array all{
       DriftingPair{"through each other", ball, turned(ball, 3), 1.97, 1e-5},
       DriftingPair{"about each other", ball, mapped(turned(ball, 4), 0.99, {0, 0, 0}), 0, 1e-5}};
-  for (const ContactDetail detail : {ContactDetail::features, ContactDetail::vertices}) {
+  for (const ContactDetail detail :
+       {ContactDetail::features, ContactDetail::vertices, ContactDetail::nearest}) {
     ListTally tally;
     for (const DriftingPair& rest : all) {
       PairQuery query = query_of(detail, 0.02);

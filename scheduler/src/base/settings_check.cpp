@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <graze/scene_enumerators.hpp>
 
 #include "core/base/number_text.hpp"
 #include "core/pair/pair_query.hpp"
@@ -30,9 +31,10 @@ std::string not_a_range(const char* what, double value) {
 }
 
 /// Says that a number was cast to an enumeration without being one of its enumerators.
-template <typename Enumeration>
-std::optional<std::string> not_an_enumerator(const char* what, Enumeration value, Enumeration last) {
-  if (value <= last) return std::nullopt;
+template <NamedEnumeration Enumeration>
+std::optional<std::string> not_an_enumerator(const char* what, Enumeration value) {
+  if (!name_of(value).empty()) return std::nullopt;
+  constexpr Enumeration last = enumerators<Enumeration>.back();
   return std::string(what) + " is " + std::to_string(static_cast<unsigned>(value)) + "; the last one is " +
          std::to_string(static_cast<unsigned>(last));
 }
@@ -40,9 +42,8 @@ std::optional<std::string> not_an_enumerator(const char* what, Enumeration value
 }  // namespace
 
 std::optional<std::string> problem_of(const SceneSettings& settings) {
-  if (auto problem = not_an_enumerator("scene: detail", settings.detail, ContactDetail::nearest))
-    return problem;
-  if (auto problem = not_an_enumerator("scene: arena", settings.arena, ArenaPolicy::callers)) return problem;
+  if (auto problem = not_an_enumerator("scene: detail", settings.detail)) return problem;
+  if (auto problem = not_an_enumerator("scene: arena", settings.arena)) return problem;
   if (!is_distance(settings.contact_distance))
     return not_a_distance("scene: contact_distance", settings.contact_distance);
   if (!is_range(settings.range)) return not_a_range("scene: range", settings.range);
@@ -57,8 +58,7 @@ std::optional<std::string> problem_of(const SceneSettings& settings) {
 
 std::optional<std::string> problem_of(const ObjectSettings& settings) {
   const std::string object = "object '" + settings.name + "': ";
-  if (auto problem = not_an_enumerator((object + "motion").c_str(), settings.motion, Motion::fixed))
-    return problem;
+  if (auto problem = not_an_enumerator((object + "motion").c_str(), settings.motion)) return problem;
   if (!is_distance(settings.margin)) return not_a_distance((object + "margin").c_str(), settings.margin);
   if (settings.kind >= kind_count)
     return object + "kind is " + std::to_string(settings.kind) + "; kinds are 0 to 255";
