@@ -32,7 +32,7 @@ class RecordCheck {
   void clear();
   /// Throws Error, which says what does not fit.
   void check(const Record& record) {
-    std::visit([this](const auto& one) { take(one); }, record);
+    std::visit([&](const auto& one) { take(one); }, record);
   }
 
  private:
