@@ -316,6 +316,27 @@ TEST_CASE("export: the time series has the surfaces, the contacts and the lines 
   CHECK_THAT(read_file(scene.path("run & all.pvd")), Catch::Matchers::Contains(expected));
 }
 
+TEST_CASE("export: surfaces far from the origin keep their shape in a glTF") {
+  const ExportScene scene;
+  io::SceneSnapshot snapshot = scene.frames().at(5);
+  const Eigen::Vector3d far(5e6, -4e5, 100);
+  for (auto& object : snapshot.objects)
+    for (Eigen::Vector3d& position : object.positions) position += far;
+  for (const std::string name : {"far.gltf", "far.glb"}) {
+    io::write_gltf(scene.path(name), snapshot);
+    const io::MeshFile file = io::MeshFile::read(scene.path(name));
+    REQUIRE(file.objects().size() == snapshot.objects.size());
+    for (std::size_t i = 0; i < file.objects().size(); ++i) {
+      const Mesh& mesh = *file.objects()[i].mesh;
+      const auto expected = snapshot.objects[i].mesh->face(0);
+      const Eigen::Vector3d edge = mesh.rest()[mesh.face(0)[1]] - mesh.rest()[mesh.face(0)[0]];
+      const auto& positions = snapshot.objects[i].positions;
+      CHECK((edge - (positions[expected[1]] - positions[expected[0]])).norm() < 1e-6);
+      CHECK((mesh.rest()[mesh.face(0)[0]] - positions[expected[0]]).norm() < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("export: graze and assimp read the surfaces of a glTF back") {
   const ExportScene scene;
   const io::SceneSnapshot& snapshot = scene.frames().at(5);

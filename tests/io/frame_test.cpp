@@ -1,5 +1,6 @@
 // Axes, units and names: one arm from every format.
 
+#include <array>
 #include <graze/io/error.hpp>
 #include <graze/io/player.hpp>
 #include <graze/io/scene_file.hpp>
@@ -338,4 +339,86 @@ TEST_CASE("a format that is not read is told apart from a damaged file") {
   CHECK_THAT(refusal_of(folder.write("mesh", "words")),
              Catch::Matchers::StartsWith("its name has no ending"));
   CHECK_THAT(refusal_of(folder.write("a.dae", "words")), Catch::Matchers::StartsWith("it cannot be read ("));
+}
+
+namespace {
+
+std::uint32_t crc_of(const std::string& bytes) {
+  std::uint32_t crc = ~0U;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+  }
+  return ~crc;
+}
+
+/// A ZIP archive of files that are stored as they are.
+std::string archive_of(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::string archive, directory;
+  for (const auto& [name, text] : files) {
+    std::string fields;
+    for (const std::uint16_t field : std::array<std::uint16_t, 5>{20, 0, 0, 0, 33}) append(fields, field);
+    append(fields, crc_of(text));
+    for (int i = 0; i < 2; ++i) append(fields, static_cast<std::uint32_t>(text.size()));
+    append(fields, static_cast<std::uint16_t>(name.size()));
+    append<std::uint16_t>(fields, 0);
+    directory += std::string("PK\x01\x02\x14\0", 6) + fields + std::string(10, '\0');
+    append(directory, static_cast<std::uint32_t>(archive.size()));
+    directory += name;
+    archive += "PK\x03\x04" + fields + name + text;
+  }
+  std::string end("PK\x05\x06\0\0\0\0", 8);
+  for (int i = 0; i < 2; ++i) append(end, static_cast<std::uint16_t>(files.size()));
+  append(end, static_cast<std::uint32_t>(directory.size()));
+  append(end, static_cast<std::uint32_t>(archive.size()));
+  return archive + directory + end + std::string(2, '\0');
+}
+
+std::string threemf(const std::string& unit) {
+  std::string vertices;
+  for (const auto& p : arm)
+    vertices += "<vertex x=\"" + std::to_string(p.x()) + "\" y=\"" + std::to_string(p.y()) + "\" z=\"" +
+                std::to_string(p.z()) + "\"/>";
+  const std::string ns = "http://schemas.openxmlformats.org/package/2006/";
+  return archive_of(
+      {{"[Content_Types].xml", "<?xml version=\"1.0\"?><Types xmlns=\"" + ns + "content-types\"></Types>"},
+       {"_rels/.rels",
+        "<?xml version=\"1.0\"?><Relationships xmlns=\"" + ns +
+            "relationships\"><Relationship Target=\"/3D/3dmodel.model\" Id=\"r0\" "
+            "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>"},
+       {"3D/3dmodel.model",
+        "<?xml version=\"1.0\"?><model" + unit +
+            " xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources><object "
+            "id=\"1\" "
+            "type=\"model\"><mesh><vertices>" +
+            vertices +
+            R"(</vertices><triangles><triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3"/>)"
+            R"(<triangle v1="0" v2="3" v3="2"/><triangle v1="1" v2="2" v3="3"/></triangles></mesh></object>)"
+            R"(</resources><build><item objectid="1"/></build></model>)"}});
+}
+
+}  // namespace
+
+TEST_CASE("a 3MF file says its unit, which is a millimetre where it names none") {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, double>> units = {
+      {"", 0.001}, {R"( unit="millimeter")", 0.001}, {" unit='inch'", 0.0254}, {R"( unit="meter")", 1}};
+  for (const auto& [unit, metres] : units) {
+    INFO(unit);
+    const auto path = folder.write("arm.3mf", threemf(unit));
+    const auto file = MeshFile::read(path);
+    CHECK(file.frame().metres_per_unit == metres);
+    CHECK(file.frame().up == "z");
+    const auto scene = folder.write(
+        "scene.json", R"({"graze": 1, "objects": [{"mesh": "arm.3mf", "up": "file", "unit": "file"}]})");
+    const Player player(graze::io::read_scene_file(scene));
+    std::vector<Eigen::Vector3d> positions;
+    player.read_positions(0, positions);
+    double highest = 0;
+    for (const auto& point : positions) highest = std::max(highest, point.z());
+    CHECK(highest == Approx(5 * metres));
+  }
+  const auto packed = assimp_model("3MF/box.3mf");
+  if (is_missing(packed)) return;
+  CHECK(MeshFile::read(packed).frame().metres_per_unit == 0.001);
 }

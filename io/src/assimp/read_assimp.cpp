@@ -12,6 +12,7 @@
 #include "assimp/assimp_files.hpp"
 #include "assimp/assimp_frame.hpp"
 #include "assimp/assimp_scene.hpp"
+#include "assimp/threemf_frame.hpp"
 #include "mesh/known_formats.hpp"
 #include "text/file_bytes.hpp"
 #include "text/opened_files.hpp"
@@ -97,6 +98,7 @@ RiggedFile read_assimp(const std::filesystem::path& path, const ReadOptions& opt
   if (is_collada(path)) frame = undo_collada_frame(*scene);
   undo_turn_to_y_up(*scene, extension);
   if (extension == ".fbx") frame = read_fbx_frame(*scene);
+  if (extension == ".3mf") frame = read_threemf_frame(path);
   RiggedFile file = convert_scene(path, *scene);
   file.frame = std::move(frame);
   for (const std::string& refused : files.refused())

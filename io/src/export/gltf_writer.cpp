@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <graze/io/gltf_writer.hpp>
 #include <limits>
 
@@ -28,57 +30,102 @@ nlohmann::json written_materials() {
   return {material("surface", {0.6, 0.7, 0.8, 1}), material("contact", {0.9, 0.1, 0.1, 1})};
 }
 
-/// The mesh of an object: the triangles of all faces.
-nlohmann::json surface_mesh(const SnapshotObject& object, GltfData& data) {
+/// A mesh's only primitive, and where the node of the mesh stands.
+struct WrittenMesh {
+  nlohmann::json primitive;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double size = 0;
+};
+
+/// The origin of points that are further from 0 than they are large. A float of their coordinates would lose
+/// their shape, so that the distance from the origin is written. The origin itself is a float without loss.
+Eigen::Vector3d origin_of(const Eigen::AlignedBox3d& box, double size) {
+  constexpr double far = 16;
+  const Eigen::Vector3d centre = box.center();
+  if (!centre.allFinite() || !(centre.cwiseAbs().maxCoeff() > far * size)) return Eigen::Vector3d::Zero();
+  return centre.cast<float>().cast<double>();
+}
+
+Eigen::AlignedBox3d box_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  return box;
+}
+
+std::vector<Eigen::Vector3f> around(const Eigen::Vector3d& origin,
+                                    const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector3f> positions;
+  for (const Eigen::Vector3d& point : points) positions.emplace_back((point - origin).cast<float>());
+  return positions;
+}
+
+/// The mesh of an object: the triangles of all faces.
+WrittenMesh surface_mesh(const SnapshotObject& object, GltfData& data) {
+  std::vector<Eigen::Vector3d> points;
   for (std::uint32_t vertex = 0; vertex < object.mesh->vertex_count(); ++vertex)
-    positions.push_back(exported_position(object, vertex).cast<float>());
+    points.push_back(exported_position(object, vertex));
+  const Eigen::AlignedBox3d box = box_of(points);
+  const double size = box.sizes().maxCoeff();
+  const Eigen::Vector3d origin = origin_of(box, size);
   std::vector<std::uint32_t> corners;
   for (std::uint32_t index = 0; index < object.mesh->face_count(); ++index) {
     const auto face = object.mesh->face(index);
     for (std::size_t last = 2; last < face.size(); ++last)
       corners.insert(corners.end(), {face[0], face[last - 1], face[last]});
   }
-  return {{"attributes", {{"POSITION", data.add_positions(positions)}}},
-          {"indices", data.add_indices(corners)},
-          {"mode", drawn_triangles},
-          {"material", surface_material}};
+  return {{{"attributes", {{"POSITION", data.add_positions(around(origin, points))}}},
+           {"indices", data.add_indices(corners)},
+           {"mode", drawn_triangles},
+           {"material", surface_material}},
+          origin,
+          size};
 }
 
-/// The mesh of the contacts: their points on object a, with normals and distances.
-nlohmann::json contact_mesh(std::span<const Contact> contacts, GltfData& data) {
-  std::vector<Eigen::Vector3f> positions;
+/// The mesh of the contacts: their points on object a, with normals and distances. `object_size` is that of
+/// the smallest object.
+WrittenMesh contact_mesh(std::span<const Contact> contacts, double object_size, GltfData& data) {
+  std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3f> normals;
   std::vector<float> distances;
   for (const Contact& contact : contacts) {
-    positions.push_back(contact.point_a.cast<float>());
+    points.push_back(contact.point_a);
     normals.push_back(contact.normal.cast<float>());
     distances.push_back(static_cast<float>(contact.distance));
   }
-  return {{"attributes",
-           {{"POSITION", data.add_positions(positions)},
-            {"NORMAL", data.add_normals(normals)},
-            {"_DISTANCE", data.add_scalars(distances)}}},
-          {"mode", drawn_points},
-          {"material", contact_material}};
+  const Eigen::AlignedBox3d box = box_of(points);
+  const Eigen::Vector3d origin = origin_of(box, std::max(box.sizes().maxCoeff(), object_size));
+  return {{{"attributes",
+            {{"POSITION", data.add_positions(around(origin, points))},
+             {"NORMAL", data.add_normals(normals)},
+             {"_DISTANCE", data.add_scalars(distances)}}},
+           {"mode", drawn_points},
+           {"material", contact_material}},
+          origin,
+          0};
 }
 
 /// All of a file but its data. Each node has a mesh of the same index.
 nlohmann::json written_scene(const SceneSnapshot& snapshot, GltfData& data) {
   nlohmann::json nodes = nlohmann::json::array();
   nlohmann::json meshes = nlohmann::json::array();
-  const auto add_node = [&](const std::string& name, nlohmann::json primitive) -> nlohmann::json& {
+  const auto add_node = [&](const std::string& name, WrittenMesh written) -> nlohmann::json& {
     nlohmann::json node = {{"mesh", meshes.size()}};
-    nlohmann::json mesh = {{"primitives", nlohmann::json::array({std::move(primitive)})}};
+    if (!written.origin.isZero(0))
+      node["translation"] = {written.origin.x(), written.origin.y(), written.origin.z()};
+    nlohmann::json mesh = {{"primitives", nlohmann::json::array({std::move(written.primitive)})}};
     if (!name.empty()) node["name"] = mesh["name"] = name;
     meshes.push_back(std::move(mesh));
     nodes.push_back(std::move(node));
     return nodes.back();
   };
-  for (const SnapshotObject& object : snapshot.objects)
-    add_node(object.name, surface_mesh(object, data))["extras"] = {{"object", object.serial}};
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const SnapshotObject& object : snapshot.objects) {
+    WrittenMesh mesh = surface_mesh(object, data);
+    smallest = std::min(smallest, mesh.size);
+    add_node(object.name, std::move(mesh))["extras"] = {{"object", object.serial}};
+  }
   const auto contacts = snapshot.report->contacts();
-  if (!contacts.empty()) add_node("contacts", contact_mesh(contacts, data));
+  if (!contacts.empty()) add_node("contacts", contact_mesh(contacts, smallest, data));
   std::vector<std::size_t> roots(nodes.size());
   for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = i;
   return {{"asset", {{"version", "2.0"}, {"generator", "graze"}}},

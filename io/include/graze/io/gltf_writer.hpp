@@ -13,8 +13,9 @@ namespace graze::io {
 /// contacts. A path that ends in `.glb` becomes a binary file, any other one a text with its data inside.
 ///
 /// A quad becomes two triangles, split from its first corner. Positions are rounded to float, and axes stay
-/// as they are. Throws InputError if the file cannot be written, if the frame has no object, or if it is too
-/// large for the format.
+/// as they are. A node whose points are more than 16 times as far from 0 as they are large has a translation,
+/// and its positions are relative to that. Throws InputError if the file cannot be written, if the frame has
+/// no object, or if it is too large for the format.
 GRAZE_API void write_gltf(const std::filesystem::path& path, const SceneSnapshot& snapshot);
 
 /// @}
