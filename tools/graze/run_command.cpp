@@ -190,14 +190,21 @@ void warn_of_threads(unsigned threads) {
                  max_threads());
 }
 
-/// A run has no frame rate to keep, so frames may wait for a slow disk for long.
-constexpr std::uint32_t waiting_frames = 64;
+/// A run has no frame rate to keep, so it waits for its recorder.
+constexpr RecorderSettings recorder_settings{.waiting_frames = 64, .when_behind = WhenBehind::wait};
 
+/// Only a recorder without memory loses frames of a run.
 void print_recording(const std::string& file, const RecorderStatistics& statistics) {
   std::printf("recording %s, %llu frames, %llu bytes", file.c_str(), number(statistics.frames),
               number(statistics.bytes));
   if (statistics.dropped > 0) std::printf(", %llu frames dropped", number(statistics.dropped));
   std::printf("\n");
+  if (statistics.dropped == 0) return;
+  std::fprintf(
+      stderr,
+      "warning: %s lacks %llu frames, since there was no memory to record them; record fewer frames, or "
+      "with more memory\n",
+      file.c_str(), number(statistics.dropped));
 }
 
 std::string page_title(const RunOptions& options) {
@@ -212,9 +219,7 @@ void open_outputs(RunOutputs& outputs, const RunOptions& options, io::Player& pl
     outputs.report.emplace(*options.report, player.objects(), settings,
                            io::ReportWriter::Options{.include_times = !options.no_times});
   if (options.picture) outputs.picture.emplace(options.picture_frame);
-  if (options.record)
-    outputs.recorder.emplace(player.scene(), *options.record,
-                             RecorderSettings{.waiting_frames = waiting_frames});
+  if (options.record) outputs.recorder.emplace(player.scene(), *options.record, recorder_settings);
   if (options.html)
     outputs.page.emplace(*options.html, player, settings,
                          PageOutput::Options{"--html", page_title(options), joined(options.files),
