@@ -240,7 +240,7 @@ TEST_CASE("pairs that filters take out are not kept, and come back when they are
   std::array<std::uint64_t, 4> counted{};
   std::size_t steps_of_few = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    // Of the last layers there are more sorts of objects than a tree has bits for.
+    // With 31 layers there are more sorts of objects than a tree has bits for.
     BoxWorld world(seed, std::array{1U, 3U, 31U, 31U}[seed % 4]);
     BroadPhaseRun run(1);
     oracle::Random random(seed + 200);

@@ -76,7 +76,7 @@ class BoxTree {
   static Limits limits_of(const Box& box);
   static Reach reach_of(const Limits& limits);
   static unsigned meeting(const Limits* eight, const Reach& reach);
-  /// Of eight nodes that meet something, by their bits, those that filters let pass.
+  /// Returns which of eight nodes filters let pass. `met` has the bits of those whose boxes meet.
   [[nodiscard]] unsigned passing(unsigned met, std::uint32_t level, std::uint32_t first,
                                  const WantedFilter& wanted) const;
   [[nodiscard]] WantedFilter wanted_by(std::uint32_t level, std::uint32_t index) const {

@@ -46,9 +46,9 @@ class BroadPhase {
   /// For each kind, half of the largest reach of any pair with an object of that kind, without margins.
   using HalfReaches = std::array<double, kind_count>;
 
-  /// Returns all pairs that pass the filters and whose boxes are within both half reaches and both margins of
-  /// each other, and some others that pass, in ascending order. `summaries` have been refreshed once since
-  /// the last call. `ignored` says what has changed since then. The result is valid until the next call.
+  /// Returns pairs that pass the filters, in ascending order. These are all whose boxes are within both half
+  /// reaches and both margins of each other, and some others. `summaries` have been refreshed once since the
+  /// last call. `ignored` says what has changed since then. The result is valid until the next call.
   std::span<const SlotPair> find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
                                  const IgnoredPairs& ignored, TaskPool& tasks);
 
@@ -85,7 +85,7 @@ class BroadPhase {
   std::span<Slice> begin_slices(std::size_t count);
   void reserve(Slice& slice) const;
   std::uint64_t sum_tests();
-  /// What is asked about each pair of objects whose loose boxes meet.
+  /// Decides about each pair of objects whose loose boxes meet.
   struct PairCheck {
     const ObjectSummaries& summaries;
     const IgnoredPairs& ignored;

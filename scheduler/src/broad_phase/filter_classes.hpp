@@ -18,7 +18,7 @@ struct FilteredPairs {
   std::uint64_t in_group = 0;
 };
 
-/// What filters know of some objects together: those in a node of a tree.
+/// The filters of some objects together, such as those in a node of a tree.
 struct NodeFilter {
   std::uint64_t classes = 0;  ///< a bit for each class of theirs
   std::uint64_t group = 0;    ///< ObjectSettings::group, where all have the same
@@ -33,7 +33,7 @@ struct NodeFilter {
   }
 };
 
-/// What some objects can touch.
+/// The objects that some objects can touch.
 struct WantedFilter {
   std::uint64_t classes = ~std::uint64_t{0};
   std::uint64_t group = 0;  ///< the group of which they can touch no object, or 0

@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// What an object is added with that decides for good which other objects it can never touch.
+/// The settings of an object that decide for good which other objects it can never touch.
 struct FilterTraits {
   std::uint64_t group = 0;
   std::uint32_t layer = 0;

@@ -80,8 +80,9 @@ void add_stress_command(CLI::App& app) {
                     "The same bits from 1 to 16 threads, again and again");
   studies->add_flag("--coinciding", options->coinciding,
                     "Surfaces that coincide exactly beside neighbours in which they do not");
-  studies->add_flag("--never-touching", options->never_touching,
-                    "Objects that lie in each other but can never touch, beside one that moves far from them");
+  studies->add_flag(
+      "--never-touching", options->never_touching,
+      "Objects that lie in each other but can never touch, beside one that moves far from them");
   studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
   command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
       ->check(thread_number())
@@ -98,7 +99,8 @@ void add_stress_command(CLI::App& app) {
   command
       ->add_option(
           "--frames", options->frames,
-          "How many frames --objects times, --determinism, --coinciding and --never-touching play and --budgets "
+          "How many frames --objects times, --determinism, --coinciding and --never-touching play and "
+          "--budgets "
           "steps each scene; by default 20, 9, 50 and 100 of the latter four, and more of smaller scenes. "
           "--soak takes as many in place of --minutes")
       ->check(whole_number(1));
