@@ -143,8 +143,10 @@ void write_page(const PlayedScene& scene, io::PageWriter& page) {
         page.set_pose(object.id, object.poses[index]);
     }
     if (frame == 10 || frame == 50) page.mark_diverged();
+    page.mark_dropped(frame == 11 || frame == 12 ? frame : 0);
     page.frame(source_number(frame), scene.reports[static_cast<std::size_t>(frame)]);
   }
+  page.mark_dropped(3);
   page.close();
 }
 

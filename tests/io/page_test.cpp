@@ -2,6 +2,7 @@
 #include <cmath>
 #include <graze/io/error.hpp>
 #include <graze/io/page.hpp>
+#include <map>
 
 #include "page_decoder.hpp"
 #include "page_play.hpp"
@@ -214,6 +215,14 @@ void compare_head(const DecodedPage& page, const PlayedScene& scene, std::uint64
   for (std::uint64_t frame = 0; frame < page.frame_count(); ++frame)
     CHECK(head.at("frame_numbers").at(frame) == source_number(frame * every));
   CHECK(head.at("diverged").at(0) == (10 + every - 1) / every);
+  // 11 frames are missing before frame 11, 12 before frame 12, and 3 at the end.
+  std::map<std::uint64_t, std::uint64_t> dropped;
+  dropped[(11 + every - 1) / every] += 11;
+  dropped[(12 + every - 1) / every] += 12;
+  dropped[page.frame_count()] += 3;
+  nlohmann::json pairs = nlohmann::json::array();
+  for (const auto& [before, count] : dropped) pairs.push_back({before, count});
+  CHECK(head.at("dropped") == pairs);
   REQUIRE(head.at("objects").size() == scene.objects.size());
   CHECK(head.at("objects").at(0).at("name") == "cloth </script><b>\"");
   CHECK(head.at("objects").at(1).at("user_data") == "9223372036854775808");

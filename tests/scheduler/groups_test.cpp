@@ -290,10 +290,11 @@ TEST_CASE("face groups: what is ignored is known by both objects until one is go
   a.serial = 3;
   b.serial = 9;
   IgnoredGroups groups;
-  groups.set(a, 1, b, 2, false);
+  ChangedPairs changed;
+  groups.set(a, 1, b, 2, false, changed);
   CHECK(groups.is_empty());
-  groups.set(b, 2, a, 1, true);
-  groups.set(a, 4, a, 6, true);
+  groups.set(b, 2, a, 1, true, changed);
+  groups.set(a, 4, a, 6, true, changed);
   std::vector<std::array<std::uint64_t, 4>> known;
   groups.visit(
       [&](std::uint64_t serial_a, std::uint8_t group_a, std::uint64_t serial_b, std::uint8_t group_b) {
@@ -302,14 +303,14 @@ TEST_CASE("face groups: what is ignored is known by both objects until one is go
   CHECK(known == std::vector<std::array<std::uint64_t, 4>>{{3, 4, 3, 6}, {3, 1, 9, 2}});
   const std::uint64_t version = groups.of(3, 9).version;
   CHECK(version > 0);
-  groups.set(a, 0, b, 0, true);  // all of their faces are in group 0
+  groups.set(a, 0, b, 0, true, changed);  // all of their faces are in group 0
   CHECK(groups.ignores_all(3, 9));
   CHECK(groups.of(3, 9).version > version);
   CHECK(groups.of(3, 8).version == 0);
   const auto mesh = split_plate();
   b.face_groups = std::make_shared<const FaceGroups>(indexed(*mesh), std::vector<std::uint8_t>{2, 0});
   const std::uint64_t before = groups.of(3, 9).version;
-  groups.regroup(b.serial, b.face_groups);  // another mesh, with a face of which nothing is ignored
+  groups.regroup(b.serial, b.face_groups, changed);  // another mesh, with a face of which nothing is ignored
   CHECK_FALSE(groups.ignores_all(3, 9));
   CHECK(groups.of(3, 9).version > before);
   CHECK_FALSE(groups.of(3, 9).filter->may_vertices(0, 3));

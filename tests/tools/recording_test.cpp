@@ -2,12 +2,15 @@
 
 #include <filesystem>
 #include <fstream>
+#include <graze/recorder.hpp>
+#include <graze/recording.hpp>
 #include <string>
 #include <vector>
 
 #include "support/catch.hpp"
 #include "tools/program.hpp"
 #include "tools/shapes.hpp"
+#include "tools/slow_pipe.hpp"
 #include "tools/temporary_folder.hpp"
 
 namespace {
@@ -56,6 +59,45 @@ TEST_CASE("recording: a run is recorded, replayed and described") {
              Contains("40 frames") &&
                  Contains("frames     0 to 39, steps 1 to 40 of the scene, 1 keyframes, 0 dropped"));
   CHECK_THAT(info.out, Contains("1 \"spike\", ") && Contains("objects    3 in the last frame"));
+}
+
+TEST_CASE("recording: a run waits for a disk that is slow, and loses no frame") {
+  const TemporaryFolder folder;
+  folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::filesystem::path scene = folder.write("scene.json", R"({"graze": 1, "contact_distance": 0.05,
+      "range": 1, "frames": 1000, "objects": [{"mesh": "t.obj", "name": "a", "motion": "fixed"}, {"mesh": "t.obj",
+      "name": "b", "poses": [{"frame": 0, "translate": [0, 0, 1]}, {"frame": 999, "translate": [0, 0, 0.01]}]}]})");
+  SlowPipe pipe(folder / "pipe");
+  const ProgramResult run = run_graze({"run", scene.string(), "--record", (folder / "pipe").string()});
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "");
+  CHECK_THAT(run.out, Contains("pipe, 1000 frames, ") && !Contains("dropped"));
+  const std::string file = folder.write("run.graze", pipe.bytes()).string();
+  CHECK_THAT(run_graze({"info", file}).out, Contains("frames     0 to 999, ") && Contains(", 0 dropped"));
+}
+
+TEST_CASE("recording: info says which frames are missing, and a page of them is written") {
+  const TemporaryFolder folder;
+  SlowPipe pipe(folder / "pipe");
+  graze::Scene scene;
+  graze::Recorder recorder(scene, folder / "pipe", {.waiting_frames = 1});
+  for (int frame = 0; frame < 400; ++frame) (void)scene.step();
+  recorder.close();
+  const graze::RecorderStatistics counted = recorder.statistics();
+  REQUIRE(counted.dropped > 0);
+  const std::filesystem::path file = folder.write("run.graze", pipe.bytes());
+  std::string first_gap = "after the last";
+  const graze::Recording recording(file);
+  std::uint64_t missing = recording.dropped_at_end();
+  for (std::size_t index = recording.frame_count(); index-- > 0;) {
+    if (recording.frame(index).dropped_before == 0) continue;
+    missing = recording.frame(index).dropped_before;
+    first_gap = "before frame " + std::to_string(index);
+  }
+  const ProgramResult info = run_graze({"info", file.string()});
+  CHECK_THAT(info.out, Contains(", " + std::to_string(counted.dropped) + " dropped\n") &&
+                           Contains("  dropped    " + std::to_string(missing) + " " + first_gap));
+  CHECK(run_graze({"view", file.string(), "-o", (folder / "page.grazeview").string()}).exit_code == 0);
 }
 
 TEST_CASE("recording: a part is cut out, and answers as the whole does") {

@@ -201,14 +201,19 @@ void warn_of_threads(unsigned threads) {
               format("%u threads are more than 8 for each processor; %u are used", threads, max_threads()));
 }
 
-/// A run has no frame rate to keep, so frames may wait for a slow disk for long.
-constexpr std::uint32_t waiting_frames = 64;
+/// A run has no frame rate to keep, so it waits for its recorder.
+constexpr RecorderSettings recorder_settings{.waiting_frames = 64, .when_behind = WhenBehind::wait};
 
+/// Only a recorder without memory loses frames of a run.
 void print_recording(const std::string& file, const RecorderStatistics& statistics) {
   say("recording %s, %llu frames, %llu bytes", file.c_str(), number(statistics.frames),
       number(statistics.bytes));
   if (statistics.dropped > 0) say(", %llu frames dropped", number(statistics.dropped));
   say("\n");
+  if (statistics.dropped == 0) return;
+  say_aside("warning", format("%s lacks %llu frames, since there was no memory to record them; record fewer "
+                              "frames, or with more memory",
+                              file.c_str(), number(statistics.dropped)));
 }
 
 std::string page_title(const RunOptions& options) {
@@ -225,9 +230,7 @@ void open_outputs(RunOutputs& outputs, const RunOptions& options, io::Player& pl
                                                      .include_contacts = !options.report_pairs,
                                                      .every = options.report_every.value_or(1)});
   if (options.picture) outputs.picture.emplace(options.picture_frame);
-  if (options.record)
-    outputs.recorder.emplace(player.scene(), *options.record,
-                             RecorderSettings{.waiting_frames = waiting_frames});
+  if (options.record) outputs.recorder.emplace(player.scene(), *options.record, recorder_settings);
   if (options.html)
     outputs.page.emplace(*options.html, player, settings,
                          PageOutput::Options{"--html", page_title(options), joined(options.files),

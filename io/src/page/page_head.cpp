@@ -18,6 +18,12 @@ void write_whole_numbers(JsonText& json, std::string_view key, const std::vector
   json.close(']');
 }
 
+void write_dropped(JsonText& json, const std::vector<DroppedFrames>& dropped) {
+  json.key("dropped").open('[');
+  for (const auto& [before, count] : dropped) json.open('[').whole(before).whole(count).close(']');
+  json.close(']');
+}
+
 /// Frames of objects that never appear may be -1.
 void write_page_frame(JsonText& json, std::string_view key, std::int64_t frame) {
   json.key(key);
@@ -100,6 +106,7 @@ std::string PageHead::json() const {
   json.close(']').key("series");
   series.write(json);
   if (!diverged.empty()) write_whole_numbers(json, "diverged", diverged);
+  if (!dropped.empty()) write_dropped(json, dropped);
   json.close('}');
   return json.line();
 }

@@ -40,6 +40,13 @@ struct PageHeadObject {
   double position_error = 0;
 };
 
+/// Frames of the source that are missing before a frame of the page.
+struct DroppedFrames {
+  std::uint64_t before =
+      0;  ///< the page's frame, or the number of its frames where they are missing at the end
+  std::uint64_t count = 0;
+};
+
 /// All that stands in the chunk `head`.
 struct PageHead {
   PageOptions options;  ///< `every` as it is in the end
@@ -50,6 +57,7 @@ struct PageHead {
   std::vector<MeshCounts> meshes;
   PageSeries series;
   std::vector<std::uint64_t> diverged;
+  std::vector<DroppedFrames> dropped;
 
   [[nodiscard]] std::string json() const;
 };

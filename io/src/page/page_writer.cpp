@@ -36,6 +36,7 @@ struct PageWriter::State {
   void forget_block();
   [[nodiscard]] PageHead head();
   [[nodiscard]] std::vector<std::uint64_t> diverged_frames() const;
+  [[nodiscard]] std::vector<DroppedFrames> dropped_frames() const;
 
   PageOptions options;  ///< `every` may grow until the first block is written
   PageFile file;
@@ -48,6 +49,7 @@ struct PageWriter::State {
   std::vector<std::uint64_t> frame_numbers;  ///< of the frames that were written
   PageSeries series;                         ///< of these
   std::vector<std::uint64_t> diverged;       ///< calls of frame()
+  std::vector<DroppedFrames> dropped;        ///< before calls of frame()
 };
 
 void PageWriter::State::require_known_objects(const FrameReport& report) const {
@@ -128,6 +130,19 @@ std::vector<std::uint64_t> PageWriter::State::diverged_frames() const {
   return frames;
 }
 
+std::vector<DroppedFrames> PageWriter::State::dropped_frames() const {
+  std::vector<DroppedFrames> frames;
+  for (const auto& [call, count] : dropped) {
+    const std::uint64_t frame =
+        std::min<std::uint64_t>(page_frames_before(call, options.every), frame_numbers.size());
+    if (!frames.empty() && frames.back().before == frame)
+      frames.back().count += count;
+    else
+      frames.push_back({frame, count});
+  }
+  return frames;
+}
+
 PageHead PageWriter::State::head() {
   PageHead head;
   head.options = options;
@@ -137,6 +152,7 @@ PageHead PageWriter::State::head() {
   head.meshes = meshes.counts();
   head.series = series;
   head.diverged = diverged_frames();
+  head.dropped = dropped_frames();
   for (const WrittenObject& object : objects.all()) {
     const std::uint64_t end =
         object.removed ? page_frames_before(*object.removed, options.every) : frame_numbers.size();
@@ -176,6 +192,10 @@ void PageWriter::set_pose(ObjectId id, const std::array<double, 12>& rows) {
 
 void PageWriter::mark_diverged() {
   state_->diverged.push_back(state_->calls);
+}
+
+void PageWriter::mark_dropped(std::uint64_t frames) {
+  if (frames > 0) state_->dropped.push_back({state_->calls, frames});
 }
 
 bool PageWriter::takes_next_frame() const {

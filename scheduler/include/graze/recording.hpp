@@ -38,7 +38,8 @@ struct RecordedFrame {
   std::uint64_t contacts = 0;
   /// The number of diagnostics.
   std::uint64_t diagnostics = 0;
-  /// How many frames before this one were dropped, since the recorder could not follow.
+  /// How many frames were dropped between the recorded one before and this one, since the recorder could not
+  /// follow or had no memory.
   std::uint64_t dropped_before = 0;
   /// Whether this frame, and those after it, can be reached without the frames before it.
   bool has_keyframe = false;
@@ -78,6 +79,9 @@ class GRAZE_API Recording {
   [[nodiscard]] std::size_t frame_count() const;
   /// Returns what is known of a frame, by its index below frame_count().
   [[nodiscard]] RecordedFrame frame(std::size_t index) const;
+  /// Returns how many frames were dropped after the last one. RecordedFrame::dropped_before counts the
+  /// others. It is 0 for a file that was not finished.
+  [[nodiscard]] std::uint64_t dropped_at_end() const;
   /// Returns the number of meshes.
   [[nodiscard]] std::size_t mesh_count() const;
   /// Returns the size of the file in bytes.

@@ -131,10 +131,10 @@ struct StepStatistics {
   std::uint64_t objects_in_slack = 0;
   /// Boxes that the broad phase compared with another box.
   std::uint64_t boxes_tested = 0;
-  /// Pairs whose loose boxes meet. The counters from #pairs_filtered to #pairs_tested divide these pairs.
-  /// None of them has the pairs of an object that is frozen because its input was bad.
+  /// Pairs that no filter takes out, and whose loose boxes meet. The counters #pairs_apart to #pairs_tested
+  /// divide these pairs, but none has the pairs of an object that is frozen because its input was bad.
   std::uint64_t pairs_close = 0;
-  /// Pairs that a filter took out: the sum of the next four counters.
+  /// Pairs of all objects, near or not, that a filter takes out: the sum of the next four counters.
   std::uint64_t pairs_filtered = 0;
   /// Pairs of two fixed objects.
   std::uint64_t pairs_fixed = 0;

@@ -66,6 +66,7 @@ void BoxTree::make_levels() {
 
 void BoxTree::build(std::span<const Box> boxes, TaskPool& tasks) {
   order_.make(boxes, slot_of_, tasks);
+  filters_are_current_ = false;
   ordered_ = slot_of_.size();
   leaf_of_.resize(boxes.size());
   for (std::uint32_t leaf = 0; leaf < slot_of_.size(); ++leaf)
@@ -139,6 +140,7 @@ void BoxTree::move(std::uint32_t slot, const Box& box) {
 }
 
 void BoxTree::add(const Box& box) {
+  filters_are_current_ = false;
   const auto slot = static_cast<std::uint32_t>(leaf_of_.size());
   const std::uint32_t leaf = end_++;
   if (leaf == slot_of_.size()) {
@@ -155,6 +157,7 @@ void BoxTree::add(const Box& box) {
 }
 
 void BoxTree::rename(std::span<const std::uint32_t> new_slots) {
+  filters_are_current_ = false;
   std::uint32_t count = 0;
   for (std::uint32_t slot = 0; slot < new_slots.size(); ++slot) {
     const std::uint32_t leaf = leaf_of_[slot];
@@ -173,9 +176,35 @@ void BoxTree::find_end() {
   while (end_ > 0 && slot_of_[end_ - 1] == no_slot) --end_;
 }
 
-std::uint64_t BoxTree::find(const Box& box, std::vector<std::uint32_t>& found) const {
+void BoxTree::prepare_filters(const FilterClasses& classes) {
+  classes_ = classes.filters_some() ? &classes : nullptr;
+  if (classes_ == nullptr || filters_are_current_) return;
+  filters_.resize(std::max(filters_.size(), level_count_));
+  filters_[0].resize(levels_[0].size());
+  for (std::size_t leaf = 0; leaf < slot_of_.size(); ++leaf)
+    filters_[0][leaf] = slot_of_[leaf] == no_slot ? NodeFilter() : classes.filter_of(slot_of_[leaf]);
+  for (std::size_t level = 1; level < level_count_; ++level) {
+    filters_[level].assign(levels_[level].size(), {});
+    for (std::size_t child = 0; child < filters_[level - 1].size(); ++child)
+      filters_[level][child / width].add(filters_[level - 1][child]);
+  }
+  filters_are_current_ = true;
+}
+
+unsigned BoxTree::passing(unsigned met, std::uint32_t level, std::uint32_t first,
+                          const WantedFilter& wanted) const {
+  if (classes_ == nullptr) return met;
+  unsigned passing = 0;
+  for (unsigned left = met; left != 0; left &= left - 1)
+    if (wanted.may_touch(filters_[level][first + static_cast<std::uint32_t>(std::countr_zero(left))]))
+      passing |= left & -left;
+  return passing;
+}
+
+std::uint64_t BoxTree::find(std::uint32_t slot, const Box& box, std::vector<std::uint32_t>& found) const {
   if (slot_of_.empty()) return 0;
   const Reach reach = reach_of(limits_of(box));
+  const WantedFilter wanted = wanted_by(0, leaf_of_[slot]);
   std::uint64_t tested = 0;
   Stack stack;
   std::size_t height = 0;
@@ -184,7 +213,8 @@ std::uint64_t BoxTree::find(const Box& box, std::vector<std::uint32_t>& found) c
     const Node node = stack[--height];
     const std::uint32_t first = node.index * width;
     tested += width;
-    for (unsigned left = meeting(&levels_[node.level - 1][first], reach); left != 0; left &= left - 1) {
+    unsigned left = passing(meeting(&levels_[node.level - 1][first], reach), node.level - 1, first, wanted);
+    for (; left != 0; left &= left - 1) {
       const std::uint32_t child = first + static_cast<std::uint32_t>(std::countr_zero(left));
       if (node.level == 1)
         found.push_back(slot_of_[child]);
@@ -205,7 +235,10 @@ std::uint64_t BoxTree::find_pairs(std::uint32_t first_block, std::uint32_t last_
 /// Finds the blocks from this one on that meet it, and the pairs of slots in them.
 std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<SlotPair>& found) const {
   const Reach reach = reach_of(levels_[1][block]);
-  std::uint64_t tested = find_pairs_of(block, block, found);
+  const WantedFilter wanted = wanted_by(1, block);
+  std::uint64_t tested = 0;
+  if (classes_ == nullptr || wanted.may_touch(filters_[1][block]))
+    tested = find_pairs_of(block, block, found);
   Stack stack;
   std::size_t height = 0;
   const auto top = static_cast<std::uint32_t>(level_count_ - 1);
@@ -218,6 +251,7 @@ std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::vector<SlotPair>&
     const unsigned earlier = own <= first ? 0 : std::min(own - first, width);
     tested += width;
     unsigned left = meeting(&levels_[node.level - 1][first], reach) >> earlier << earlier;
+    left = passing(left, node.level - 1, first, wanted);
     for (; left != 0; left &= left - 1) {
       const std::uint32_t child = first + static_cast<std::uint32_t>(std::countr_zero(left));
       if (node.level > 2)
@@ -239,6 +273,7 @@ std::uint64_t BoxTree::find_pairs_of(std::uint32_t block, std::uint32_t other,
     const std::uint32_t slot = slot_of_[block * width + one];
     unsigned meets = meeting(others, reach_of(ones[one]));
     if (block == other) meets &= ~1U << one;  // only those behind it
+    if (meets != 0) meets = passing(meets, 0, other * width, wanted_by(0, block * width + one));
     tested += width;
     for (; meets != 0; meets &= meets - 1)
       found.push_back(
@@ -256,6 +291,8 @@ void BoxTree::reserve(std::size_t boxes, std::size_t leaves) {
   for (std::size_t level = 0;; ++level, nodes = (nodes + width - 1) / width) {
     if (levels_.size() <= level) levels_.emplace_back();
     levels_[level].reserve((nodes + width - 1) / width * width);
+    filters_.resize(std::max(filters_.size(), level + 1));
+    filters_[level].reserve((nodes + width - 1) / width * width);
     if (nodes <= 1) return;
   }
 }
@@ -264,6 +301,7 @@ std::size_t BoxTree::byte_count() const {
   std::size_t bytes = order_.byte_count() + bytes_of(slot_of_) + bytes_of(leaf_of_) +
                       bytes_of(ordered_sides_) + bytes_of(levels_);
   for (const auto& level : levels_) bytes += bytes_of(level);
+  for (const auto& level : filters_) bytes += bytes_of(level);
   return bytes;
 }
 

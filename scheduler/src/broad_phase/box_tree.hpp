@@ -8,6 +8,7 @@
 #include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "broad_phase/box_order.hpp"
+#include "broad_phase/filter_classes.hpp"
 #include "core/base/box.hpp"
 
 namespace graze {
@@ -32,10 +33,15 @@ class BoxTree {
   /// slots are numbered from 0 and keep their order.
   void rename(std::span<const std::uint32_t> new_slots);
 
-  /// Appends every slot whose box overlaps or touches `box`. Returns the number of boxes tested.
-  std::uint64_t find(const Box& box, std::vector<std::uint32_t>& found) const;
+  /// Prepares for queries that leave out the pairs that filters take out for good. `classes` has the tree's
+  /// slots. Without such pairs it costs nothing, here and in queries.
+  void prepare_filters(const FilterClasses& classes);
+
+  /// Appends every slot whose box overlaps or touches that of a slot, itself included, except those that it
+  /// can never touch. Returns the number of boxes tested.
+  std::uint64_t find(std::uint32_t slot, const Box& box, std::vector<std::uint32_t>& found) const;
   /// Appends every pair of slots whose boxes overlap or touch and whose lower leaf is in a block of [first,
-  /// last). Returns the number of boxes tested.
+  /// last), except those that can never touch. Returns the number of boxes tested.
   std::uint64_t find_pairs(std::uint32_t first_block, std::uint32_t last_block,
                            std::vector<SlotPair>& found) const;
 
@@ -70,6 +76,12 @@ class BoxTree {
   static Limits limits_of(const Box& box);
   static Reach reach_of(const Limits& limits);
   static unsigned meeting(const Limits* eight, const Reach& reach);
+  /// Returns which of eight nodes filters let pass. `met` has the bits of those whose boxes meet.
+  [[nodiscard]] unsigned passing(unsigned met, std::uint32_t level, std::uint32_t first,
+                                 const WantedFilter& wanted) const;
+  [[nodiscard]] WantedFilter wanted_by(std::uint32_t level, std::uint32_t index) const {
+    return classes_ == nullptr ? WantedFilter() : classes_->wanted_by(filters_[level][index]);
+  }
 
   struct Node {
     std::uint32_t level;
@@ -89,11 +101,14 @@ class BoxTree {
   BoxOrder order_;
   std::vector<std::vector<Limits>> levels_;  ///< of the leaves, of the blocks, …, of one root
   std::size_t level_count_ = 0;
-  std::vector<std::uint32_t> slot_of_;  ///< by leaf
-  std::vector<std::uint32_t> leaf_of_;  ///< by slot
-  std::uint32_t end_ = 0;               ///< all leaves from this one on are empty
-  std::size_t ordered_ = 0;             ///< the number of leaves at the last build
-  std::vector<double> ordered_sides_;   ///< the longest side of each block at the last build
+  std::vector<std::uint32_t> slot_of_;            ///< by leaf
+  std::vector<std::uint32_t> leaf_of_;            ///< by slot
+  std::uint32_t end_ = 0;                         ///< all leaves from this one on are empty
+  std::size_t ordered_ = 0;                       ///< the number of leaves at the last build
+  const FilterClasses* classes_ = nullptr;        ///< null where filters take out no pair for good
+  std::vector<std::vector<NodeFilter>> filters_;  ///< as `levels_`, if they are of the present leaves
+  bool filters_are_current_ = false;
+  std::vector<double> ordered_sides_;  ///< the longest side of each block at the last build
 };
 
 }  // namespace graze

@@ -38,6 +38,10 @@ bool contains(const Box& box, const Box& other) {
   return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
 }
 
+bool meet(const Box& box, const Box& other) {
+  return (box.min.array() <= other.max.array()).all() && (other.min.array() <= box.max.array()).all();
+}
+
 double longest_side(const Box& box) {
   return (box.max - box.min).maxCoeff();
 }
@@ -61,20 +65,30 @@ bool is_too_loose(const Box& loose, const Box& needed) {
 
 }  // namespace
 
+bool BroadPhase::PairCheck::passes(SlotPair pair) const {
+  const ObjectSummary& a = summaries[first_of(pair)];
+  const ObjectSummary& b = summaries[second_of(pair)];
+  if (needs_traits && lasting_verdict(a, b) != PairVerdict::tested) return false;
+  return ignored.is_empty() || !ignored.contains({a.serial, b.serial});
+}
+
 std::span<const SlotPair> BroadPhase::find(const ObjectSummaries& summaries, const HalfReaches& half_reaches,
-                                           TaskPool& tasks) {
+                                           const IgnoredPairs& ignored, TaskPool& tasks) {
   counters_ = {};
   reaches_changed_ = half_reaches != half_reaches_;
   half_reaches_ = half_reaches;
   update_slots(summaries);
   loosen(summaries, tasks);
-  if (!left_.empty()) {
-    if (left_.size() > loose_.size() / few || wants_new_order())
-      find_all(tasks);
-    else
-      find_left(tasks);
+  const bool needs_traits = classes_.needs_check();
+  const PairCheck check{summaries, ignored, needs_traits || !ignored.is_empty(), needs_traits};
+  const auto changed = ignored.changed();
+  if (!changed || (!left_.empty() && (left_.size() > loose_.size() / few || wants_new_order()))) {
+    find_all(check, tasks);
+  } else {
+    if (!changed->empty()) change_ignored(check, *changed);
+    if (!left_.empty()) find_left(check, tasks);
   }
-  validate(summaries, half_reaches_, loose_, pairs_);
+  validate(summaries, half_reaches_, ignored, loose_, pairs_);
   tree_.validate(loose_);
   return pairs_;
 }
@@ -84,6 +98,7 @@ void BroadPhase::update_slots(const ObjectSummaries& summaries) {
   const auto new_slots = summaries.new_slots();
   if (!new_slots.empty()) {
     tree_.rename(new_slots);
+    classes_.rename(new_slots);
     std::size_t count = 0;
     for (std::size_t slot = 0; slot < new_slots.size(); ++slot)
       if (new_slots[slot] != no_slot) loose_[count++] = loose_[slot];
@@ -96,6 +111,7 @@ void BroadPhase::update_slots(const ObjectSummaries& summaries) {
   for (std::size_t slot = loose_.size(); slot < summaries.all().size(); ++slot) {
     loose_.emplace_back();
     tree_.add({});
+    classes_.add(summaries.all()[slot]);
   }
 }
 
@@ -157,7 +173,27 @@ std::span<BroadPhase::Slice> BroadPhase::begin_slices(std::size_t count) {
   return std::span(slices_).first(count);
 }
 
-void BroadPhase::find_all(TaskPool& tasks) {
+/// Takes out and puts back pairs whose objects both stay in their loose boxes.
+void BroadPhase::change_ignored(const PairCheck& check, std::span<const IgnoredPairs::Serials> changed) {
+  changed_.clear();
+  new_pairs_.clear();
+  for (const auto& [serial_a, serial_b] : changed) {
+    const std::uint32_t a = check.summaries.find_slot(serial_a);
+    const std::uint32_t b = check.summaries.find_slot(serial_b);
+    if (a == b || a == no_slot || b == no_slot || has_left_[a] != 0 || has_left_[b] != 0) continue;
+    if (lasting_verdict(check.summaries[a], check.summaries[b]) == PairVerdict::tested)
+      changed_.push_back(pair_of(a, b));
+  }
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  for (const SlotPair pair : changed_)
+    if (check.passes(pair) && meet(loose_[first_of(pair)], loose_[second_of(pair)]))
+      new_pairs_.push_back(pair);
+  if (!changed_.empty())
+    merge([&](SlotPair pair) { return std::binary_search(changed_.begin(), changed_.end(), pair); });
+}
+
+void BroadPhase::find_all(const PairCheck& check, TaskPool& tasks) {
   const auto count = static_cast<double>(loose_.size());
   bool is_ordered = wants_new_order();
   if (!is_ordered) {
@@ -165,11 +201,14 @@ void BroadPhase::find_all(TaskPool& tasks) {
     is_ordered = tree_.widened_blocks() > tree_.block_count() / 4;
   }
   if (is_ordered) tree_.build(loose_, tasks);
+  tree_.prepare_filters(classes_);
   const auto slices = begin_slices(slices_of(tree_.block_count(), blocks_of_slice));
   const auto find_slice = [&](unsigned, std::size_t index) {
     const auto first = static_cast<std::uint32_t>(index) * blocks_of_slice;
     const std::uint32_t last = std::min(first + blocks_of_slice, tree_.block_count());
     slices[index].boxes_tested = tree_.find_pairs(first, last, slices[index].pairs);
+    if (check.is_needed)
+      std::erase_if(slices[index].pairs, [&](SlotPair pair) { return !check.passes(pair); });
   };
   tasks.run(slices.size(), std::ref(find_slice));
   sort_rows(tasks);
@@ -212,41 +251,44 @@ void BroadPhase::sort_rows(TaskPool& tasks) {
 }
 
 /// Finds the pairs of the few objects that have left their loose boxes. No other pair can have come or gone.
-void BroadPhase::find_left(TaskPool& tasks) {
+void BroadPhase::find_left(const PairCheck& check, TaskPool& tasks) {
   for (const std::uint32_t slot : left_) tree_.move(slot, loose_[slot]);
+  tree_.prepare_filters(classes_);
   const auto slices = begin_slices(slices_of(left_.size(), queries_of_slice));
   const auto find_slice = [&](unsigned, std::size_t index) {
     Slice& slice = slices[index];
     const std::size_t end = std::min((index + 1) * queries_of_slice, left_.size());
-    for (std::size_t i = index * queries_of_slice; i < end; ++i) find_one(left_[i], slice);
+    for (std::size_t i = index * queries_of_slice; i < end; ++i) find_one(left_[i], check, slice);
   };
   tasks.run(slices.size(), std::ref(find_slice));
-  merge();
+  new_pairs_.clear();
+  for (const Slice& slice : std::span(slices_).first(slice_count_))
+    new_pairs_.insert(new_pairs_.end(), slice.pairs.begin(), slice.pairs.end());
+  std::sort(new_pairs_.begin(), new_pairs_.end());
+  merge([&](SlotPair pair) { return has_left_[first_of(pair)] != 0 || has_left_[second_of(pair)] != 0; });
   const double expected = 4 * tests_when_ordered_ + 64;
   excess_tests_ +=
       std::max(0.0, static_cast<double>(sum_tests()) - expected * static_cast<double>(left_.size()));
 }
 
-void BroadPhase::find_one(std::uint32_t slot, Slice& slice) const {
+void BroadPhase::find_one(std::uint32_t slot, const PairCheck& check, Slice& slice) const {
   slice.found.clear();
-  slice.boxes_tested += tree_.find(loose_[slot], slice.found);
+  slice.boxes_tested += tree_.find(slot, loose_[slot], slice.found);
   for (const std::uint32_t other : slice.found) {
     // If both objects have left their loose boxes, the one in the lower slot finds the pair.
     if (other == slot || (has_left_[other] != 0 && other < slot)) continue;
-    slice.pairs.push_back(pair_of(slot, other));
+    const SlotPair pair = pair_of(slot, other);
+    if (!check.is_needed || check.passes(pair)) slice.pairs.push_back(pair);
   }
 }
 
-/// Replaces the pairs of the objects that have left their loose boxes.
-void BroadPhase::merge() {
-  new_pairs_.clear();
-  for (const Slice& slice : std::span(slices_).first(slice_count_))
-    new_pairs_.insert(new_pairs_.end(), slice.pairs.begin(), slice.pairs.end());
-  std::sort(new_pairs_.begin(), new_pairs_.end());
+/// Puts `new_pairs_`, which ascend, in the place of some pairs.
+template <typename IsReplaced>
+void BroadPhase::merge(const IsReplaced& is_replaced) {
   merged_.clear();
   auto next = new_pairs_.begin();
   for (const SlotPair pair : pairs_) {
-    if (has_left_[first_of(pair)] != 0 || has_left_[second_of(pair)] != 0) continue;
+    if (is_replaced(pair)) continue;
     for (; next != new_pairs_.end() && *next < pair; ++next) merged_.push_back(*next);
     merged_.push_back(pair);
   }
@@ -259,6 +301,7 @@ void BroadPhase::reserve(std::size_t objects, std::size_t pairs) {
   const std::size_t leaves = most_leaves(objects);
   loose_.reserve(objects);
   tree_.reserve(objects, leaves);
+  classes_.reserve(objects);
   left_.reserve(objects);
   has_left_.reserve(objects);
   slice_objects_.reserve(slices_of(objects, objects_of_slice));
@@ -278,9 +321,9 @@ void BroadPhase::reserve(Slice& slice) const {
 }
 
 std::size_t BroadPhase::byte_count() const {
-  std::size_t bytes = bytes_of(loose_) + tree_.byte_count() + bytes_of(pairs_) + bytes_of(merged_) +
-                      bytes_of(new_pairs_) + bytes_of(left_) + bytes_of(has_left_) + bytes_of(rows_) +
-                      bytes_of(slices_) + bytes_of(slice_objects_);
+  std::size_t bytes = bytes_of(loose_) + tree_.byte_count() + classes_.byte_count() + bytes_of(pairs_) +
+                      bytes_of(merged_) + bytes_of(changed_) + bytes_of(new_pairs_) + bytes_of(left_) +
+                      bytes_of(has_left_) + bytes_of(rows_) + bytes_of(slices_) + bytes_of(slice_objects_);
   for (const Slice& slice : slices_) bytes += bytes_of(slice.pairs) + bytes_of(slice.found);
   return bytes;
 }

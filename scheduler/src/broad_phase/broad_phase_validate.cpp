@@ -13,14 +13,14 @@ bool encloses(const Box& box, const Box& other) {
   return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
 }
 
-bool meet(const Box& a, const Box& b) {
+bool overlap_or_touch(const Box& a, const Box& b) {
   return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
 }  // namespace
 
 void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& half_reaches,
-              std::span<const Box> loose, std::span<const SlotPair> pairs) {
+              const IgnoredPairs& ignored, std::span<const Box> loose, std::span<const SlotPair> pairs) {
   require(summaries.all().size() == loose.size(), "not every object has a loose box", loose.size());
   for (std::size_t slot = 0; slot < loose.size(); ++slot) {
     const ObjectSummary& summary = summaries.all()[slot];
@@ -32,16 +32,20 @@ void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& h
   auto pair = pairs.begin();
   for (std::uint32_t first = 0; first < loose.size(); ++first)
     for (std::uint32_t second = first + 1; second < loose.size(); ++second) {
-      if (!meet(loose[first], loose[second])) continue;
+      const ObjectSummary& a = summaries[first];
+      const ObjectSummary& b = summaries[second];
+      if (!overlap_or_touch(loose[first], loose[second])) continue;
+      if (lasting_verdict(a, b) != PairVerdict::tested || ignored.contains({a.serial, b.serial})) continue;
       require(pair != pairs.end() && *pair == pair_of(first, second), "a pair of loose boxes is missing",
               first);
       ++pair;
     }
-  require(pair == pairs.end(), "a pair is listed whose loose boxes do not meet", pairs.size());
+  require(pair == pairs.end(), "a pair is listed that a filter takes out, or whose loose boxes do not meet",
+          pairs.size());
 }
 #else
-void validate(const ObjectSummaries&, const BroadPhase::HalfReaches&, std::span<const Box>,
-              std::span<const SlotPair>) {}
+void validate(const ObjectSummaries&, const BroadPhase::HalfReaches&, const IgnoredPairs&,
+              std::span<const Box>, std::span<const SlotPair>) {}
 #endif
 
 }  // namespace graze

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <graze/object_id.hpp>
@@ -136,6 +137,14 @@ struct ReplacedMesh {
   std::vector<std::uint32_t> new_of_old;    ///< the vertex now of each vertex of it, or Mesh::no_vertex
 };
 
+/// Another object, the pair with which was ignored as a whole. It may be watched again, or be gone.
+struct IgnoredPartner {
+  std::uint64_t serial = 0;
+  bool counts = false;  ///< no lasting filter takes that pair out
+
+  friend auto operator<=>(const IgnoredPartner&, const IgnoredPartner&) = default;
+};
+
 /// One object of a scene, as steps see it. `validate` says which states cannot be.
 struct Object {
   ObjectId id;
@@ -180,6 +189,8 @@ struct Object {
     bool walked = false;   ///< one of these jobs walked its regions in the last step
     double shares = 0;     ///< the shares of its box near the jobs' other objects; of large objects only
   } asked;
+
+  std::vector<IgnoredPartner> ignored_partners;  ///< the notes of IgnoredObjects
 
   // The store's own notes.
   bool may_have_input = false;    ///< the store lists it for the next read

@@ -13,14 +13,11 @@ constexpr std::size_t objects_at_once = 1024;
 
 ObjectSummary summary_of(const Object& object) {
   ObjectSummary summary;
+  static_cast<FilterTraits&>(summary) = filter_traits_of(object.settings);
   summary.box = object.box;
   summary.margin = object.settings.margin;
   summary.serial = object.serial;
-  summary.group = object.settings.group;
-  summary.layer = object.settings.layer;
-  summary.collides_with = object.settings.collides_with;
   summary.kind = static_cast<std::uint16_t>(object.settings.kind);
-  summary.is_fixed = object.settings.motion == Motion::fixed;
   return summary;
 }
 
@@ -90,9 +87,14 @@ void ObjectSummaries::refresh(std::span<Object* const> read_late) {
 }
 
 std::uint32_t ObjectSummaries::slot_of(const Object& object) const {
+  return find_slot(object.serial);
+}
+
+std::uint32_t ObjectSummaries::find_slot(std::uint64_t serial) const {
   const auto found = std::lower_bound(
-      summaries_.begin(), summaries_.end(), object.serial,
-      [](const ObjectSummary& summary, std::uint64_t serial) { return summary.serial < serial; });
+      summaries_.begin(), summaries_.end(), serial,
+      [](const ObjectSummary& summary, std::uint64_t value) { return summary.serial < value; });
+  if (found == summaries_.end() || found->serial != serial) return no_slot;
   return static_cast<std::uint32_t>(found - summaries_.begin());
 }
 

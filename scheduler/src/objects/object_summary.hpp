@@ -8,23 +8,20 @@
 #include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
 #include "core/base/bytes_of.hpp"
+#include "objects/filter_traits.hpp"
 #include "objects/object.hpp"
 
 namespace graze {
 
 /// The data of an object that the pair table needs for each of its pairs.
-struct ObjectSummary {
+struct ObjectSummary : FilterTraits {
   Box box;  ///< Object::box
   double margin = 0;
   /// The largest distance by which a side of the box has moved since the step before.
   double motion = 0;
   std::uint64_t serial = 0;
   std::uint64_t version = 0;  ///< of its surface
-  std::uint64_t group = 0;
-  std::uint32_t layer = 0;
-  std::uint32_t collides_with = 0;
   std::uint16_t kind = 0;
-  bool is_fixed = false;
   bool frozen = false;
   bool unread = false;
   bool moved = false;      ///< the box is not that of the step before
@@ -43,6 +40,8 @@ class ObjectSummaries {
   [[nodiscard]] const ObjectSummary& operator[](std::uint32_t slot) const { return summaries_[slot]; }
   /// The slot of an object.
   [[nodiscard]] std::uint32_t slot_of(const Object& object) const;
+  /// The slot of the object of a serial, or no_slot.
+  [[nodiscard]] std::uint32_t find_slot(std::uint64_t serial) const;
   /// The new slot of each object that existed before the last refresh, or no_slot for a removed one. It is
   /// empty if no slot has changed. New objects get the last slots.
   [[nodiscard]] std::span<const std::uint32_t> new_slots() const { return new_slots_; }

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/pair/group_filter.hpp"
+#include "objects/filter_traits.hpp"
 #include "objects/object.hpp"
+#include "pairs/ignored_objects.hpp"
 
 namespace graze {
 
@@ -22,10 +24,12 @@ struct PairGroups {
 /// for the const members.
 class IgnoredGroups {
  public:
-  /// Takes two groups out or puts them back. `a` and `b` may be one object.
-  void set(const Object& a, std::uint8_t group_a, const Object& b, std::uint8_t group_b, bool ignored);
+  /// Takes two groups out or puts them back. `a` and `b` may be one object. Names the pair in `changed`, if
+  /// it may make a difference to `ignores_all`.
+  void set(const Object& a, std::uint8_t group_a, const Object& b, std::uint8_t group_b, bool ignored,
+           ChangedPairs& changed);
   /// Takes up other groups for the faces of an object, as those of another mesh. What is ignored stays.
-  void regroup(std::uint64_t serial, const std::shared_ptr<const FaceGroups>& groups);
+  void regroup(std::uint64_t serial, const std::shared_ptr<const FaceGroups>& groups, ChangedPairs& changed);
   /// Forgets the pairs of a removed object.
   void forget(std::uint64_t serial);
 
@@ -34,6 +38,9 @@ class IgnoredGroups {
   /// and below.
   [[nodiscard]] bool ignores_all(std::uint64_t serial_a, std::uint64_t serial_b) const;
   [[nodiscard]] PairGroups of(std::uint64_t serial_a, std::uint64_t serial_b) const;
+  /// The number of pairs of which all is ignored, which no lasting filter takes out, and which are not in
+  /// `whole`.
+  [[nodiscard]] std::uint64_t counted_besides(const IgnoredObjects& whole) const;
   /// Calls `visit(serial_a, group_a, serial_b, group_b)` with all groups that are ignored, ascending. A pair
   /// of groups of one object comes once.
   template <typename Visit>
@@ -52,6 +59,7 @@ class IgnoredGroups {
   using Serials = std::pair<std::uint64_t, std::uint64_t>;
   struct Known {
     GroupFilter filter;
+    bool counts = false;  ///< no lasting filter takes the pair out, and it is of two objects
     std::uint64_t version = 0;
   };
 

@@ -11,10 +11,6 @@ double base_distance(double contact_distance, std::span<const double> epsilon) {
   return epsilon.empty() ? contact_distance : epsilon.back();
 }
 
-PairSet::Pair serials_of(const Object& a, const Object& b) {
-  return std::minmax(a.serial, b.serial);
-}
-
 }  // namespace
 
 PairFilter::PairFilter(const SceneSettings& settings) : settings_(settings) {
@@ -60,43 +56,15 @@ void PairFilter::find_half_reach(std::uint32_t kind) {
   half_reaches_[kind] = reach / 2;
 }
 
-void PairFilter::set_ignored(const Object& a, const Object& b, bool ignored) {
-  ++ignored_version_;
-  if (!ignored) return ignored_.erase(serials_of(a, b));
-  if (ignored_.is_full() && !forgotten_.empty()) {
-    drop_forgotten();
-    if (4 * ignored_.size() > ignored_.capacity()) ignored_.grow();
-  }
-  ignored_.insert(serials_of(a, b));
-}
-
-/// Defers the removal, since it visits every ignored pair. It happens once enough removed objects have
-/// gathered.
-void PairFilter::forget(const Object& object) {
+void PairFilter::forget(Object& object) {
   if (!groups_.is_empty()) groups_.forget(object.serial);
-  if (ignored_.size() == 0) return;
-  forgotten_.push_back(object.serial);
-  if (forgotten_.size() > ignored_.capacity()) drop_forgotten();
-}
-
-void PairFilter::drop_forgotten() {
-  std::sort(forgotten_.begin(), forgotten_.end());
-  const auto is_forgotten = [&](std::uint64_t serial) {
-    return std::binary_search(forgotten_.begin(), forgotten_.end(), serial);
-  };
-  ignored_.erase_if(
-      [&](const PairSet::Pair& pair) { return is_forgotten(pair.first) || is_forgotten(pair.second); });
-  forgotten_.clear();
+  ignored_.forget(object);
 }
 
 PairVerdict PairFilter::verdict(const ObjectSummary& a, const ObjectSummary& b) const {
-  if (a.is_fixed && b.is_fixed) return PairVerdict::fixed;
-  if ((a.layer & b.collides_with) == 0 || (b.layer & a.collides_with) == 0) return PairVerdict::layer;
-  if (a.group != 0 && a.group == b.group) return PairVerdict::group;
-  if (ignored_.size() > 0 && ignored_.contains(std::minmax(a.serial, b.serial))) return PairVerdict::ignored;
-  if (!groups_.is_empty() && groups_.ignores_all(std::min(a.serial, b.serial), std::max(a.serial, b.serial)))
-    return PairVerdict::ignored;
-  return PairVerdict::tested;
+  const PairVerdict lasting = lasting_verdict(a, b);
+  if (lasting != PairVerdict::tested || is_empty()) return lasting;
+  return contains(std::minmax(a.serial, b.serial)) ? PairVerdict::ignored : PairVerdict::tested;
 }
 
 PairThresholds PairFilter::thresholds(const ObjectSummary& a, const ObjectSummary& b) const {
@@ -105,7 +73,7 @@ PairThresholds PairFilter::thresholds(const ObjectSummary& a, const ObjectSummar
 }
 
 std::size_t PairFilter::byte_count() const {
-  return ignored_.byte_count() + groups_.byte_count() + forgotten_.capacity() * sizeof(std::uint64_t) +
+  return ignored_.byte_count() + groups_.byte_count() + changed_.byte_count() +
          rules_.capacity() * sizeof(PairRule) + distances_.capacity() * sizeof(Distances) +
          rule_of_.capacity() * sizeof(std::uint16_t);
 }

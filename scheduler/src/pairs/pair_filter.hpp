@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cstdint>
 #include <graze/settings.hpp>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "broad_phase/broad_phase.hpp"
+#include "objects/filter_traits.hpp"
 #include "objects/object.hpp"
 #include "objects/object_summary.hpp"
 #include "pairs/ignored_groups.hpp"
-#include "pairs/pair_set.hpp"
+#include "pairs/ignored_objects.hpp"
 
 namespace graze {
 
@@ -21,36 +24,43 @@ struct PairThresholds {
   std::span<const double> epsilon;
 };
 
-/// The filter that leaves a pair out. If several do, it is the first in this order.
-enum class PairVerdict : std::uint8_t {
-  tested,
-  fixed,    ///< both are fixed
-  layer,    ///< one's layer is not in the other's mask
-  group,    ///< both are in one group
-  ignored,  ///< by Scene::ignore, as a whole or all groups of its faces
-};
-
 /// Decides which pairs are tested and up to which distance. Stepping thread only, except for the const
 /// members.
-class PairFilter {
+class PairFilter final : public IgnoredPairs {
  public:
   explicit PairFilter(const SceneSettings& settings);
 
   void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule);
-  void set_ignored(const Object& a, const Object& b, bool ignored);
+  void set_ignored(Object& a, Object& b, bool ignored) {
+    ++ignored_version_;
+    ignored_.set(a, b, ignored, changed_);
+  }
   /// Takes out or puts back faces of `group_a` of a against those of `group_b` of b.
   void set_ignored(const Object& a, std::uint8_t group_a, const Object& b, std::uint8_t group_b,
                    bool ignored) {
     ++ignored_version_;
-    groups_.set(a, group_a, b, group_b, ignored);
+    groups_.set(a, group_a, b, group_b, ignored, changed_);
   }
   /// Takes up other groups for the faces of an object, as those of another mesh.
   void regroup(const Object& object, const std::shared_ptr<const FaceGroups>& groups) {
     ++ignored_version_;
-    groups_.regroup(object.serial, groups);
+    groups_.regroup(object.serial, groups, changed_);
   }
   /// Forgets the ignored pairs and groups of a removed object.
-  void forget(const Object& object);
+  void forget(Object& object);
+
+  // Of IgnoredPairs: as a whole, or all groups of their faces.
+  [[nodiscard]] bool is_empty() const override { return ignored_.is_empty() && groups_.is_empty(); }
+  [[nodiscard]] bool contains(const Serials& pair) const override {
+    return ignored_.contains(pair) || (!groups_.is_empty() && groups_.ignores_all(pair.first, pair.second));
+  }
+  [[nodiscard]] std::optional<std::span<const Serials>> changed() const override { return changed_.all(); }
+  /// Forgets what `changed` names.
+  void forget_changed() { changed_.clear(); }
+  /// The number of pairs of all objects that are ignored, and that no lasting filter takes out.
+  [[nodiscard]] std::uint64_t ignored_count() const {
+    return ignored_.counted() + (groups_.is_empty() ? 0 : groups_.counted_besides(ignored_));
+  }
 
   /// Calls `visit(kind_a, kind_b, rule)` with every rule, and the lower kind first.
   template <typename Visit>
@@ -61,7 +71,7 @@ class PairFilter {
         if (const std::size_t rule = rule_of_[index_of(kind_a, kind_b)]; rule > 0)
           visit(kind_a, kind_b, rules_[rule - 1]);
   }
-  /// Calls `visit(serial_a, serial_b)` with every pair that is ignored, in no order. Objects may be gone.
+  /// Calls `visit(serial_a, serial_b)` with every pair that is ignored, in no order.
   template <typename Visit>
   void visit_ignored(const Visit& visit) const {
     ignored_.visit([&](const PairSet::Pair& pair) { visit(pair.first, pair.second); });
@@ -103,7 +113,6 @@ class PairFilter {
   }
   static std::size_t index_of(std::uint32_t kind_a, std::uint32_t kind_b);
   void find_half_reach(std::uint32_t kind);
-  void drop_forgotten();
 
   const SceneSettings& settings_;
   std::vector<PairRule> rules_;
@@ -112,9 +121,9 @@ class PairFilter {
   std::uint64_t rules_version_ = 0;
   std::uint64_t ignored_version_ = 0;
   BroadPhase::HalfReaches half_reaches_{};
-  PairSet ignored_;  ///< by serials, the lower first
+  IgnoredObjects ignored_;
   IgnoredGroups groups_;
-  std::vector<std::uint64_t> forgotten_;  ///< serials that `ignored_` may still name
+  ChangedPairs changed_;
 };
 
 }  // namespace graze

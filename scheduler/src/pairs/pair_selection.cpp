@@ -187,18 +187,6 @@ void PairSelection::cut(std::span<const SlotPair> pairs, std::span<const ListedP
 
 PairSelection::Fate PairSelection::fate_of(const ObjectSummary& a, const ObjectSummary& b,
                                            const PairFilter& filter) {
-  switch (filter.verdict(a, b)) {
-    case PairVerdict::fixed:
-      return Fate::fixed;
-    case PairVerdict::layer:
-      return Fate::layer;
-    case PairVerdict::group:
-      return Fate::group;
-    case PairVerdict::ignored:
-      return Fate::ignored;
-    case PairVerdict::tested:
-      break;
-  }
   if (!may_be_near(lower_distance(a.box, b.box), filter.reach(a, b))) return Fate::apart;
   return a.frozen || b.frozen ? Fate::frozen : Fate::tested;
 }
@@ -216,18 +204,9 @@ std::size_t PairSelection::gather() {
 }
 
 void PairSelection::count(StepStatistics& statistics) const {
-  const auto sum = [&](Fate fate) {
-    std::uint64_t pairs = 0;
-    for (const Slice& slice : slices_) pairs += slice.fates[static_cast<std::size_t>(fate)];
-    return pairs;
-  };
-  statistics.pairs_fixed = sum(Fate::fixed);
-  statistics.pairs_by_layer = sum(Fate::layer);
-  statistics.pairs_in_group = sum(Fate::group);
-  statistics.pairs_ignored = sum(Fate::ignored);
-  statistics.pairs_filtered = statistics.pairs_fixed + statistics.pairs_by_layer + statistics.pairs_in_group +
-                              statistics.pairs_ignored;
-  statistics.pairs_apart = sum(Fate::apart);
+  statistics.pairs_apart = 0;
+  for (const Slice& slice : slices_)
+    statistics.pairs_apart += slice.fates[static_cast<std::size_t>(Fate::apart)];
   for (const Slice& slice : slices_) statistics.pairs_unchanged += slice.resting;
 }
 
@@ -238,7 +217,8 @@ void PairSelection::validate(const Given& given) {
     if (!known.rests) continue;
     const ObjectSummary& a = given.summaries[first_of(known.pair)];
     const ObjectSummary& b = given.summaries[second_of(known.pair)];
-    bool holds = known.fate == fate_of(a, b, given.filter);
+    bool holds =
+        given.filter.verdict(a, b) == PairVerdict::tested && known.fate == fate_of(a, b, given.filter);
     if (known.fate == Fate::tested) {
       const PairMemory& memory = memories_[known.memory];
       holds = holds && memory.version_a == a.version && memory.version_b == b.version &&

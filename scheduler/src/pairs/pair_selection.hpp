@@ -43,9 +43,10 @@ struct SelectedPair {
 /// known of the pair, not its objects. Stepping thread only.
 class PairSelection {
  public:
-  /// Goes through the pairs of the broad phase and those of the last report. Both ascend by their objects'
-  /// current slots. The result ascends too and is valid until the next call. Counts the omitted pairs by
-  /// reason, and the pairs at rest, in `statistics`. A pair that the next call does not ask for is forgotten.
+  /// Goes through the pairs of the broad phase, which the filters let pass, and those of the last report.
+  /// Both ascend by their objects' current slots. The result ascends too and is valid until the next call.
+  /// Counts the omitted pairs by reason, and the pairs at rest, in `statistics`. A pair that the next call
+  /// does not ask for is forgotten.
   std::span<const SelectedPair> select(std::span<const SlotPair> pairs, std::span<const ListedPair> listed,
                                        const ObjectSummaries& summaries, const PairFilter& filter,
                                        TaskPool& tasks, StepStatistics& statistics);
@@ -68,8 +69,8 @@ class PairSelection {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  enum class Fate : std::uint8_t { tested, fixed, layer, group, ignored, apart, frozen };
-  static constexpr std::size_t fate_count = 7;
+  enum class Fate : std::uint8_t { tested, apart, frozen };
+  static constexpr std::size_t fate_count = 3;
 
   struct Known {
     SlotPair pair = 0;

@@ -22,8 +22,8 @@ void PairSet::insert(const Pair& pair) {
 }
 
 /// Erases a pair. Moves later pairs up, so that no gap is left between a pair and its home slot.
-void PairSet::erase(const Pair& pair) {
-  if (!contains(pair)) return;
+bool PairSet::erase(const Pair& pair) {
+  if (!contains(pair)) return false;
   std::size_t gap = find(pair);
   for (std::size_t slot = after(gap); slots_[slot] != nothing; slot = after(slot)) {
     const std::size_t mask = slots_.size() - 1;
@@ -34,6 +34,7 @@ void PairSet::erase(const Pair& pair) {
   }
   slots_[gap] = nothing;
   --size_;
+  return true;
 }
 
 void PairSet::grow() {

@@ -16,7 +16,8 @@ class PairSet {
 
   [[nodiscard]] bool contains(const Pair& pair) const { return size_ > 0 && slots_[find(pair)] == pair; }
   void insert(const Pair& pair);
-  void erase(const Pair& pair);
+  /// Returns whether it was there.
+  bool erase(const Pair& pair);
   /// Erases every pair for which `is_gone` holds.
   template <typename IsGone>
   void erase_if(const IsGone& is_gone) {

@@ -22,7 +22,9 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   summaries_.refresh(objects, tasks);
   find_listed(previous);
   find_ended(previous);
-  const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), tasks);
+  const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), filter_, tasks);
+  filter_.forget_changed();
+  count_filtered(statistics);
   statistics.boxes_tested = broad_phase_.counters().boxes_tested;
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
   if (summaries_.some_unread()) read_near_objects(close, tasks, diagnostics);
@@ -31,6 +33,16 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
   count_jobs(statistics);
   return {jobs_, last_rows_, pair_count};
+}
+
+void PairTable::count_filtered(StepStatistics& statistics) const {
+  const FilteredPairs& filtered = broad_phase_.filtered();
+  statistics.pairs_fixed = filtered.fixed;
+  statistics.pairs_by_layer = filtered.by_layer;
+  statistics.pairs_in_group = filtered.in_group;
+  statistics.pairs_ignored = filter_.ignored_count();
+  statistics.pairs_filtered = statistics.pairs_fixed + statistics.pairs_by_layer + statistics.pairs_in_group +
+                              statistics.pairs_ignored;
 }
 
 /// Finds the pairs of the last report by the current slots of their objects.
@@ -116,8 +128,7 @@ void PairTable::read_near_objects(std::span<const SlotPair> pairs, TaskPool& tas
     if (same_filter && !summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair))) continue;
     const ObjectSummary& a = summaries_[first_of(pair)];
     const ObjectSummary& b = summaries_[second_of(pair)];
-    if ((a.unread || b.unread) && filter_.verdict(a, b) == PairVerdict::tested &&
-        lower_distance(a.box, b.box) <= filter_.reach(a, b)) {
+    if ((a.unread || b.unread) && lower_distance(a.box, b.box) <= filter_.reach(a, b)) {
       want(first_of(pair));
       want(second_of(pair));
     }

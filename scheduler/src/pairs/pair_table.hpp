@@ -51,6 +51,7 @@ class PairTable {
     std::uint32_t row;  ///< in the last report
   };
 
+  void count_filtered(StepStatistics& statistics) const;
   void find_listed(const FrameReport& previous);
   void look_up_listed(const FrameReport& previous);
   void find_ended(const FrameReport& previous);

@@ -1,8 +1,10 @@
 #include "recording/chunk_output.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <graze/error.hpp>
+#include <limits>
 #include <utility>
 
 namespace graze {
@@ -21,22 +23,32 @@ FileOutput::FileOutput(const std::filesystem::path& path)
 
 void FileOutput::put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) {
   index_.push_back({kind, number, offset_});
+  try {
+    if (kind == ChunkKind::mesh) meshes_.insert(static_cast<std::uint32_t>(number));
+  } catch (...) {
+    index_.pop_back();
+    throw;
+  }
   write(chunk.bytes());
 }
 
-void FileOutput::finish() {
+void FileOutput::finish(std::uint64_t dropped) {
   const std::uint64_t index_offset = offset_;
   ByteBuffer chunk;
   begin_chunk(chunk);
   write_fields(chunk, index_);
   seal_chunk(chunk, ChunkKind::index, 0);
-  write_checked(chunk, FileEnd{index_offset});
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  write_checked(chunk, FileEnd{.index_offset = index_offset,
+                               .dropped = static_cast<std::uint32_t>(std::min(dropped, most))});
   write(chunk.bytes());
   if (std::fclose(file_.release()) != 0) fail("cannot be closed");
 }
 
+/// After a chunk of which only a part was written there can be no other.
 void FileOutput::write(std::span<const std::byte> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail("cannot be written");
+  has_failed_ = has_failed_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size();
+  if (has_failed_) fail("cannot be written");
   offset_ += bytes.size();
 }
 
@@ -50,26 +62,42 @@ void RingOutput::put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chu
   auto kept = std::make_shared<Chunk>(Chunk{kind, number, {}});
   kept->bytes.append(chunk.bytes());
   const std::lock_guard lock(mutex_);
-  byte_count_ += chunk.size();
-  if (kind == ChunkKind::settings) {
+  if (kind == ChunkKind::settings)
     settings_ = std::move(kept);
-    return;
-  }
-  if (kind == ChunkKind::mesh) {
-    meshes_[static_cast<std::uint32_t>(number)] = std::move(kept);
-    return;
-  }
-  if (kind == ChunkKind::keyframe) segments_.emplace_back();
-  Segment& segment = segments_.back();
-  segment.chunks.push_back(std::move(kept));
-  segment.byte_count += chunk.size();
+  else if (kind == ChunkKind::mesh)
+    meshes_.insert_or_assign(static_cast<std::uint32_t>(number), std::move(kept));
+  else
+    put_in_segment(kind, std::move(kept));
+  byte_count_ += chunk.size();  // only now: what is above may throw
   if (kind != ChunkKind::step) return;
-  ++segment.frames;
-  ++frames_;
   // The first segment goes when the others alone are as many frames as are wanted, or when all are too large.
   while (segments_.size() > 1 &&
          (byte_count_ > byte_budget_ || (frame_limit_ > 0 && frames_ - segments_[0].frames >= frame_limit_)))
     drop_oldest();
+}
+
+/// A keyframe begins a segment.
+void RingOutput::put_in_segment(ChunkKind kind, std::shared_ptr<const Chunk> kept) {
+  const std::size_t size = kept->bytes.size();
+  if (kind == ChunkKind::keyframe) {
+    Segment begun;
+    begun.chunks.push_back(std::move(kept));
+    begun.byte_count = size;
+    segments_.push_back(std::move(begun));
+    return;
+  }
+  Segment& segment = segments_.back();
+  segment.chunks.push_back(std::move(kept));
+  segment.byte_count += size;
+  if (kind != ChunkKind::step) return;
+  (segment.frames == 0 ? segment.dropped_before : segment.dropped_within) += dropped_before_next_;
+  ++segment.frames;
+  ++frames_;
+}
+
+bool RingOutput::has_mesh(std::uint32_t number) const {
+  const std::lock_guard lock(mutex_);
+  return meshes_.contains(number);
 }
 
 void RingOutput::use_mesh(std::uint32_t number) {
@@ -92,18 +120,25 @@ void RingOutput::drop_oldest() {
   }
 }
 
-void RingOutput::write(const std::filesystem::path& path) const {
+RecorderStatistics RingOutput::write(const std::filesystem::path& path, std::uint64_t dropped_at_end) const {
   std::vector<std::shared_ptr<const Chunk>> chunks;
+  RecorderStatistics written{.dropped = dropped_at_end};
   {
     const std::lock_guard lock(mutex_);
     if (settings_ != nullptr) chunks.push_back(settings_);
     for (const auto& [number, mesh] : meshes_) chunks.push_back(mesh);
-    for (const Segment& segment : segments_)
+    for (const Segment& segment : segments_) {
       chunks.insert(chunks.end(), segment.chunks.begin(), segment.chunks.end());
+      // What is missing before the first frame of all is not missing in the file.
+      written.dropped += segment.dropped_within + (written.frames > 0 ? segment.dropped_before : 0);
+      written.frames += segment.frames;
+    }
   }
   FileOutput file(path);
   for (const auto& chunk : chunks) file.put(chunk->kind, chunk->number, chunk->bytes);
-  file.finish();
+  file.finish(dropped_at_end);
+  written.bytes = file.byte_count();
+  return written;
 }
 
 std::uint64_t RingOutput::byte_count() const {

@@ -52,7 +52,7 @@ struct ChunkHead {
 struct FileEnd {
   std::uint64_t index_offset = 0;
   std::array<char, 8> magic = end_magic;
-  std::uint32_t reserved = 0;
+  std::uint32_t dropped = 0;   ///< frames that were dropped after the last step
   std::uint32_t checksum = 0;  ///< of the fields before
 
   static constexpr std::size_t size = 24;
@@ -97,7 +97,7 @@ auto fields(T& r) {
 }
 template <Is<FileEnd> T>
 auto fields(T& r) {
-  return std::tie(r.index_offset, r.magic, r.reserved, r.checksum);
+  return std::tie(r.index_offset, r.magic, r.dropped, r.checksum);
 }
 template <Is<IndexEntry> T>
 auto fields(T& r) {

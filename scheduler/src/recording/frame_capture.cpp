@@ -7,7 +7,7 @@ void CapturedFrame::clear() {
   records.clear();
   is_fresh = is_snapshot = false;
   dropped_before = 0;
-  new_meshes.clear();
+  meshes.clear();
   report = ReportHandle();
 }
 
@@ -17,6 +17,14 @@ CapturedFrame* FrameQueue::free_frame() {
   const std::uint64_t pushed = pushed_.load(std::memory_order_relaxed);
   const bool is_full = pushed - popped_.load(std::memory_order_acquire) == frames_.size();
   return is_full ? nullptr : &frames_[pushed % frames_.size()];
+}
+
+CapturedFrame* FrameQueue::wait_for_free_frame() {
+  while (true) {
+    const std::uint64_t popped = popped_.load(std::memory_order_acquire);
+    if (CapturedFrame* const frame = free_frame()) return frame;
+    popped_.wait(popped, std::memory_order_acquire);
+  }
 }
 
 void FrameQueue::push() {
@@ -73,8 +81,10 @@ std::size_t content_size(const ObjectStore& store) {
 void FrameCapture::begin_step(const ObjectStore& store, const PairFilter& filter) noexcept {
   store_ = &store;
   if (frame_ != nullptr) return;
-  frame_ = queue_.free_frame();
+  if (has_given_up()) return drop();
+  frame_ = waits_ ? queue_.wait_for_free_frame() : queue_.free_frame();
   if (frame_ == nullptr) return drop();
+  if (wants_whole_scene_.exchange(false, std::memory_order_acquire)) is_complete_ = false;
   frame_->clear();
   frame_->is_fresh = !is_complete_;
   frame_->is_snapshot = frame_->is_fresh && (store.next_serial() > 0 || filter.rules_version() > 0);
@@ -129,10 +139,13 @@ void FrameCapture::drop() noexcept {
 
 std::uint32_t FrameCapture::number_of(const std::shared_ptr<const IndexedMesh>& mesh) {
   const auto known = meshes_.find(mesh.get());
-  if (known != meshes_.end() && !known->second.mesh.expired()) return known->second.number;
-  frame_->new_meshes.emplace_back(mesh_count_, mesh);
-  meshes_.insert_or_assign(mesh.get(), KnownMesh{mesh_count_, mesh});
-  return mesh_count_++;
+  const bool is_known = known != meshes_.end() && !known->second.mesh.expired();
+  const std::uint32_t number = is_known ? known->second.number : mesh_count_;
+  frame_->meshes.emplace_back(number, mesh);
+  if (is_known) return number;
+  meshes_.insert_or_assign(mesh.get(), KnownMesh{number, mesh});
+  ++mesh_count_;
+  return number;
 }
 
 void FrameCapture::add_object(const Object& object) {

@@ -19,6 +19,9 @@
 
 namespace graze {
 
+/// Meshes by their numbers in a recording.
+using NumberedMeshes = std::vector<std::pair<std::uint32_t, std::shared_ptr<const IndexedMesh>>>;
+
 /// The calls and the report of one step, on their way to the thread that writes them.
 struct CapturedFrame {
   std::uint64_t record_count = 0;
@@ -26,7 +29,7 @@ struct CapturedFrame {
   bool is_fresh = false;     ///< the records make the scene from an empty one
   bool is_snapshot = false;  ///< they say where its objects are, and not which calls the step took up
   std::uint64_t dropped_before = 0;
-  std::vector<std::pair<std::uint32_t, std::shared_ptr<const IndexedMesh>>> new_meshes;
+  NumberedMeshes meshes;  ///< all that its records name
   ReportHandle report;
 
   void clear();
@@ -42,7 +45,9 @@ class FrameQueue {
   // Stepping thread.
   /// The next frame to fill, or null while all frames are full.
   [[nodiscard]] CapturedFrame* free_frame();
-  /// Hands the frame that `free_frame` returned to the writing thread.
+  /// The next frame to fill. Waits while all frames are full.
+  [[nodiscard]] CapturedFrame* wait_for_free_frame();
+  /// Hands the frame that one of these returned to the writing thread.
   void push();
   /// No frame comes any more.
   void close();
@@ -66,12 +71,12 @@ class FrameQueue {
   std::atomic<std::uint64_t> popped_{0};
 };
 
-/// Writes down what a scene's steps take up, for a recorder. It only copies, and never waits: where no frame
-/// is free, the step is not captured, and the next one that is begins with the whole scene. Stepping thread
-/// only, and it never throws: a step without memory for its capture counts as dropped.
+/// Writes down what a scene's steps take up, for a recorder. It only copies. Where no frame is free, the step
+/// waits for one or is not captured, and the next one that is captured begins with the whole scene. Stepping
+/// thread only, and it never throws: a step without memory for its capture counts as dropped.
 class FrameCapture final : public MemoryObserver {
  public:
-  explicit FrameCapture(FrameQueue& queue) : queue_(queue) {}
+  FrameCapture(FrameQueue& queue, bool waits) : queue_(queue), waits_(waits) {}
 
   /// Begins a step, or goes on with the frame of a step that failed.
   void begin_step(const ObjectStore& store, const PairFilter& filter) noexcept;
@@ -100,6 +105,11 @@ class FrameCapture final : public MemoryObserver {
   /// Says that nobody writes frames any more. Any thread.
   void close() noexcept { is_closed_.store(true, std::memory_order_release); }
   [[nodiscard]] bool is_closed() const noexcept { return is_closed_.load(std::memory_order_acquire); }
+  /// Says that no frame can be written any more. All frames from now on count as dropped. Any thread.
+  void give_up() noexcept { has_given_up_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool has_given_up() const noexcept { return has_given_up_.load(std::memory_order_acquire); }
+  /// Lets the next frame that begins have the whole scene. Any thread.
+  void ask_for_whole_scene() noexcept { wants_whole_scene_.store(true, std::memory_order_release); }
   /// How many frames were dropped. Any thread.
   [[nodiscard]] std::uint64_t dropped_count() const { return dropped_.load(std::memory_order_relaxed); }
 
@@ -153,12 +163,15 @@ class FrameCapture final : public MemoryObserver {
   };
 
   FrameQueue& queue_;
+  const bool waits_;  ///< for a free frame
   const ObjectStore* store_ = nullptr;
   CapturedFrame* frame_ = nullptr;  ///< null between steps, unless one failed, and while one is not captured
   bool is_complete_ = false;        ///< the recording has all that the scene's steps have taken up so far
   std::uint64_t dropped_before_ = 0;
   std::atomic<std::uint64_t> dropped_{0};
   std::atomic<bool> is_closed_{false};
+  std::atomic<bool> has_given_up_{false};
+  std::atomic<bool> wants_whole_scene_{false};
   std::uint32_t mesh_count_ = 0;
   std::unordered_map<const IndexedMesh*, KnownMesh> meshes_;
 };

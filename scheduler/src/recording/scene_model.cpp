@@ -31,6 +31,7 @@ bool KeptPositions::is_same(const PositionView& packed) const {
 }
 
 void KeptPositions::take(const PositionView& packed) {
+  count_ = 0;  // until they are there: it may throw
   bytes_.clear();
   bytes_.append(bytes_of(packed));
   count_ = packed.size();

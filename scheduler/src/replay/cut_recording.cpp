@@ -31,7 +31,7 @@ class RecordingCut {
     const bool is_whole = part_.first_frame == 0 && serials_.empty();
     encoder_.write_settings(reader_.settings().settings, reader_.settings().is_cut || !is_whole);
     for (; index <= last; ++index) read_step(index);
-    output_.finish();
+    output_.finish(last + 1 == count ? reader_.dropped_at_end() : 0);
   }
 
  private:

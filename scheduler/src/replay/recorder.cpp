@@ -4,6 +4,7 @@
 #include <graze/error.hpp>
 #include <graze/recorder.hpp>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -46,12 +47,13 @@ class Recorder::State {
     if (writer_.joinable()) writer_.join();
   }
   void finish();
-  void write_ring(const std::filesystem::path& path);
+  RecorderStatistics write_ring(const std::filesystem::path& path);
   [[nodiscard]] RecorderStatistics statistics() const;
 
  private:
   struct Link {
-    explicit Link(std::size_t waiting) : queue(waiting), capture(queue) {}
+    explicit Link(const RecorderSettings& settings)
+        : queue(settings.waiting_frames), capture(queue, settings.when_behind == WhenBehind::wait) {}
     FrameQueue queue;
     FrameCapture capture;
   };
@@ -62,7 +64,7 @@ class Recorder::State {
         ring_(std::move(ring)),
         on_diagnostic_(std::move(on_diagnostic)),
         encoder_(output(), settings.keyframe_interval),
-        link_(std::make_shared<Link>(settings.waiting_frames)) {
+        link_(std::make_shared<Link>(settings)) {
     encoder_.write_settings(scene, false);
   }
   [[nodiscard]] ChunkOutput& output() {
@@ -71,15 +73,21 @@ class Recorder::State {
   }
   void write_frames() noexcept;
   void write_frame(const CapturedFrame& frame) noexcept;
-  void tell_of_diagnostic(const CapturedFrame& frame) noexcept;
+  void skip_frame(const CapturedFrame& frame) noexcept;
+  void tell_of_diagnostic() noexcept;
+  [[nodiscard]] std::uint64_t dropped_count() const;
+  [[nodiscard]] std::uint64_t dropped_at_end() const;
 
   std::unique_ptr<FileOutput> file_;  ///< either this or `ring_`
   std::unique_ptr<RingOutput> ring_;
-  std::filesystem::path on_diagnostic_;  ///< empty once it is written
+  std::filesystem::path on_diagnostic_;
+  bool must_write_on_diagnostic_ = false;  ///< a diagnostic has come, and that file is not written yet
   FrameEncoder encoder_;
-  bool is_broken_ = false;      ///< a frame could not be written
+  bool is_broken_ = false;      ///< the file takes no more frames
   std::exception_ptr problem_;  ///< of the writing thread; read after it has ended
   std::atomic<std::uint64_t> frames_{0};
+  std::atomic<std::uint64_t> skipped_{0};  ///< frames that were captured, and not written
+  std::atomic<std::uint64_t> told_{0};     ///< dropped frames of which the written ones tell
   std::shared_ptr<Link> link_;
   std::thread writer_;
   std::mutex finishing_;
@@ -94,29 +102,45 @@ void Recorder::State::write_frames() noexcept {
   }
 }
 
-/// After a frame that could not be written nothing more is: frames would be missing.
+/// A frame for which there is no memory is skipped. After one that a file does not take nothing more is
+/// written: the file may end amid a frame.
 void Recorder::State::write_frame(const CapturedFrame& frame) noexcept {
-  if (is_broken_) return;
+  if (!on_diagnostic_.empty() && !frame.report->diagnostics().empty()) must_write_on_diagnostic_ = true;
+  if (is_broken_ || (encoder_.needs_whole_scene() && !frame.is_fresh)) return skip_frame(frame);
   try {
-    encoder_.write_frame(frame);
+    told_.fetch_add(encoder_.write_frame(frame), std::memory_order_release);
     frames_.fetch_add(1, std::memory_order_relaxed);
+  } catch (const std::bad_alloc&) {
+    skip_frame(frame);
   } catch (...) {
     problem_ = std::current_exception();
     is_broken_ = true;
-    link_->capture.close();
-    return;
+    link_->capture.give_up();
+    skip_frame(frame);
   }
-  tell_of_diagnostic(frame);
+  tell_of_diagnostic();
 }
 
-/// Writes the ring once, with the first frame that has a diagnostic.
-void Recorder::State::tell_of_diagnostic(const CapturedFrame& frame) noexcept {
-  if (on_diagnostic_.empty() || frame.report->diagnostics().empty()) return;
+void Recorder::State::skip_frame(const CapturedFrame& frame) noexcept {
+  skipped_.fetch_add(1, std::memory_order_relaxed);
+  if (is_broken_) return;
+  encoder_.skip_frame(frame);
+  if (encoder_.needs_whole_scene()) link_->capture.ask_for_whole_scene();
+}
+
+/// Writes the ring once, with the first frame that has a diagnostic, or later where there is no memory for
+/// it.
+void Recorder::State::tell_of_diagnostic() noexcept {
+  if (!must_write_on_diagnostic_) return;
   try {
-    ring_->write(std::exchange(on_diagnostic_, {}));
+    (void)ring_->write(on_diagnostic_, dropped_at_end());
+  } catch (const std::bad_alloc&) {
+    return;
   } catch (...) {
     problem_ = std::current_exception();
   }
+  must_write_on_diagnostic_ = false;
+  on_diagnostic_.clear();
 }
 
 void Recorder::State::finish() {
@@ -124,17 +148,34 @@ void Recorder::State::finish() {
   stop();
   if (std::exchange(is_finished_, true)) return;
   if (problem_ != nullptr) std::rethrow_exception(problem_);
-  if (file_ != nullptr) file_->finish();
+  try {
+    if (file_ != nullptr) file_->finish(dropped_at_end());
+    if (std::exchange(must_write_on_diagnostic_, false)) (void)ring_->write(on_diagnostic_, dropped_at_end());
+  } catch (const std::bad_alloc&) {
+    is_finished_ = false;
+    throw;
+  }
 }
 
-void Recorder::State::write_ring(const std::filesystem::path& path) {
+RecorderStatistics Recorder::State::write_ring(const std::filesystem::path& path) {
   if (ring_ == nullptr) throw Error("recorder: it records into a file, and has no ring to write");
   link_->queue.wait_until_empty();
-  ring_->write(path);
+  return ring_->write(path, dropped_at_end());
+}
+
+std::uint64_t Recorder::State::dropped_count() const {
+  return link_->capture.dropped_count() + skipped_.load(std::memory_order_relaxed);
+}
+
+/// How many frames were dropped of which no frame tells that was written. What is told is read first, since a
+/// frame is dropped before it is told.
+std::uint64_t Recorder::State::dropped_at_end() const {
+  const std::uint64_t told = told_.load(std::memory_order_acquire);
+  return dropped_count() - told;
 }
 
 RecorderStatistics Recorder::State::statistics() const {
-  return {frames_.load(std::memory_order_relaxed), link_->capture.dropped_count(),
+  return {frames_.load(std::memory_order_relaxed), dropped_count(),
           file_ != nullptr ? file_->byte_count() : ring_->byte_count()};
 }
 
@@ -165,8 +206,8 @@ void Recorder::close() {
   state_->finish();
 }
 
-void Recorder::write(const std::filesystem::path& file) {
-  state_->write_ring(file);
+RecorderStatistics Recorder::write(const std::filesystem::path& file) {
+  return state_->write_ring(file);
 }
 
 RecorderStatistics Recorder::statistics() const {

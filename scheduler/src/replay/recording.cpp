@@ -22,6 +22,9 @@ bool Recording::is_cut() const {
 std::size_t Recording::frame_count() const {
   return reader_->steps().size();
 }
+std::uint64_t Recording::dropped_at_end() const {
+  return reader_->dropped_at_end();
+}
 std::size_t Recording::mesh_count() const {
   return reader_->mesh_count();
 }

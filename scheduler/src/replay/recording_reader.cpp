@@ -49,6 +49,7 @@ bool RecordingReader::read_index() {
   FileEnd end;
   const bool is_whole = read_checked(bytes, end);
   if (!is_whole || end.magic != end_magic) return false;
+  dropped_at_end_ = end.dropped;
   ByteBuffer payload;
   std::vector<IndexEntry> index;
   with_chunk(ChunkKind::index, end.index_offset, payload, [&](ByteSource& source) { source(index); });

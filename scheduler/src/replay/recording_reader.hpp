@@ -36,6 +36,8 @@ class RecordingReader {
 
   [[nodiscard]] const SettingsChunk& settings() const { return settings_; }
   [[nodiscard]] bool is_finished() const { return is_finished_; }
+  /// FileEnd::dropped, or 0 where there is no end.
+  [[nodiscard]] std::uint64_t dropped_at_end() const { return dropped_at_end_; }
   [[nodiscard]] std::uint64_t byte_count() const { return size_; }
   [[nodiscard]] std::span<const Step> steps() const { return steps_; }
   [[nodiscard]] std::size_t mesh_count() const { return meshes_.size(); }
@@ -142,6 +144,7 @@ class RecordingReader {
   std::unique_ptr<std::FILE, Close> file_;
   std::uint64_t size_ = 0;
   bool is_finished_ = false;
+  std::uint64_t dropped_at_end_ = 0;
   SettingsChunk settings_;
   std::vector<IndexEntry> entries_;
   std::vector<Step> steps_;

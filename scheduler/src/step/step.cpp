@@ -105,14 +105,14 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* captu
                          },
                          [&](IgnorePair& pair) {
                            can_repeat_report_ = false;
-                           const Object* const a = store_.find(pair.a);
-                           const Object* const b = store_.find(pair.b);
+                           Object* const a = store_.find(pair.a);
+                           Object* const b = store_.find(pair.b);
                            if (a != nullptr && b != nullptr)
                              pairs_.filter().set_ignored(*a, *b, pair.ignored);
                          },
                          [&](IgnoreGroups& groups) { set_ignored(groups); },
                          [&](RemoveObject& removed) {
-                           if (const Object* const object = store_.find(removed.object))
+                           if (Object* const object = store_.find(removed.object))
                              pairs_.filter().forget(*object);
                            store_.apply(removed);
                          },

@@ -25,8 +25,10 @@ class Stepper {
  public:
   Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports);
 
-  /// Whether no recorder sees the steps.
-  [[nodiscard]] bool can_attach() const { return capture_ == nullptr || capture_->is_closed(); }
+  /// Whether no recorder sees the steps, or only one that can write no more.
+  [[nodiscard]] bool can_attach() const {
+    return capture_ == nullptr || capture_->is_closed() || capture_->has_given_up();
+  }
   /// Lets a recorder see the steps from the next one on, until it is closed.
   void attach(std::shared_ptr<FrameCapture> capture) { capture_ = std::move(capture); }
 

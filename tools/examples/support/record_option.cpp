@@ -17,7 +17,8 @@ std::string take_option(std::string_view name, int& argc, char** argv) {
 
 std::unique_ptr<graze::Recorder> make_recorder(const std::string& file, graze::Scene& scene) {
   if (file.empty()) return nullptr;
-  return std::make_unique<graze::Recorder>(scene, file);
+  return std::make_unique<graze::Recorder>(scene, file,
+                                           graze::RecorderSettings{.when_behind = graze::WhenBehind::wait});
 }
 
 std::unique_ptr<graze::Recorder> recorder_by_options(int argc, char** argv, graze::Scene& scene) {

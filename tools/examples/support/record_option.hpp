@@ -13,7 +13,8 @@ namespace examples {
 std::string take_option(std::string_view name, int& argc, char** argv);
 
 /// Returns a recorder that writes a scene into a file, or null if the name is empty. The recording begins
-/// with the next step, and ends with the recorder. `graze view FILE -o PAGE` makes a page of it.
+/// with the next step, and ends with the recorder. Steps wait for it, so no frame is lost. `graze view FILE
+/// -o PAGE` makes a page of it.
 std::unique_ptr<graze::Recorder> make_recorder(const std::string& file, graze::Scene& scene);
 
 /// Returns a recorder of a scene if the program was started with `--record FILE`, else null. Ends the program

@@ -24,10 +24,11 @@ struct FrameSums {
   std::uint64_t most_contacts = 0;
   std::size_t frame_of_most_contacts = 0;
   std::vector<double> step_ms;
+  std::vector<std::string> gaps;  ///< where frames were dropped
 
   void add(const RecordedFrame& frame, std::size_t index) {
     if (frame.has_keyframe) ++keyframes;
-    dropped += frame.dropped_before;
+    add_gap(frame.dropped_before, "before frame " + std::to_string(index));
     if (!frame.complete) ++incomplete;
     diagnostics += frame.diagnostics;
     step_ms.push_back(frame.step_ms);
@@ -35,7 +36,19 @@ struct FrameSums {
     most_contacts = frame.contacts;
     frame_of_most_contacts = index;
   }
+  void add_gap(std::uint64_t frames, const std::string& place) {
+    dropped += frames;
+    if (frames > 0) gaps.push_back(std::to_string(frames) + " " + place);
+  }
 };
+
+void print_gaps(const std::vector<std::string>& gaps) {
+  constexpr std::size_t most_listed = 8;
+  const std::size_t listed = std::min(most_listed, gaps.size());
+  say("  dropped    %s", joined({gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(listed)}).c_str());
+  if (listed < gaps.size()) say(", and at %zu more places", gaps.size() - listed);
+  say("\n");
+}
 
 void print_settings(const SceneSettings& settings) {
   say("  settings   contact distance %.9g, range %.9g, detail %s, %u threads\n", settings.contact_distance,
@@ -46,11 +59,13 @@ void print_frames(const Recording& recording) {
   FrameSums sums;
   for (std::size_t index = 0; index < recording.frame_count(); ++index)
     sums.add(recording.frame(index), index);
+  sums.add_gap(recording.dropped_at_end(), "after the last");
   if (sums.step_ms.empty()) return;
   std::sort(sums.step_ms.begin(), sums.step_ms.end());
   say("  frames     0 to %zu, steps %llu to %llu of the scene, %zu keyframes, %llu dropped\n",
       recording.frame_count() - 1, number(recording.frame(0).frame),
       number(recording.frame(recording.frame_count() - 1).frame), sums.keyframes, number(sums.dropped));
+  if (!sums.gaps.empty()) print_gaps(sums.gaps);
   say("  contacts   at most %llu, in frame %zu\n", number(sums.most_contacts), sums.frame_of_most_contacts);
   say("  steps      median %.3f ms, worst %.3f ms, %zu incomplete\n", sums.step_ms[sums.step_ms.size() / 2],
       sums.step_ms.back(), sums.incomplete);

@@ -37,8 +37,12 @@ class ReplayedPage {
     change_objects(replay);
     if (page_.writer().takes_next_frame()) place_objects(replay);
     if (replay.difference()) page_.writer().mark_diverged();
-    page_.frame(recording.frame(replay.frame_index()).frame, *replay.report());
+    const RecordedFrame frame = recording.frame(replay.frame_index());
+    page_.writer().mark_dropped(frame.dropped_before);
+    page_.frame(frame.frame, *replay.report());
   }
+  /// Marks frames that are missing after the last one.
+  void mark_dropped(std::uint64_t frames) { page_.writer().mark_dropped(frames); }
   std::string close() { return page_.close(); }
 
  private:
@@ -92,6 +96,7 @@ void view(const ViewOptions& options) {
     page.add(recording, replay);
     if (replay.difference()) ++differing;
   }
+  page.mark_dropped(recording.dropped_at_end());
   say("page      %s\n", page.close().c_str());
   note_unfinished(recording, options.file);
   if (differing > 0)

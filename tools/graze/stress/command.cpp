@@ -14,6 +14,7 @@
 #include "stress/coinciding.hpp"
 #include "stress/costly.hpp"
 #include "stress/determinism.hpp"
+#include "stress/never_touching.hpp"
 #include "stress/objects.hpp"
 #include "stress/reader.hpp"
 #include "stress/soak.hpp"
@@ -23,6 +24,7 @@ namespace {
 
 struct StressOptions {
   bool reader = false, soak = false, determinism = false, budgets = false, coinciding = false, costly = false;
+  bool never_touching = false;
   double seconds = 60;
   ObjectsOptions objects;
   SoakOptions soaking;
@@ -47,6 +49,8 @@ void run(StressOptions options) {
     result = run_coinciding_study(options.frames > 0 ? options.frames : 9);
   } else if (options.costly) {
     result = run_costly_study(options.frames > 0 ? options.frames : 9);
+  } else if (options.never_touching) {
+    result = run_never_touching_study(options.frames > 0 ? options.frames : 50);
   } else if (options.budgets) {
     if (options.frames > 0) options.budgeted.frames = options.frames;
     result = run_budgets_study(options.budgeted);
@@ -64,7 +68,8 @@ void run(StressOptions options) {
 void add_stress_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("stress",
                                          "Puts graze under load: one of --reader, --objects, --soak, "
-                                         "--determinism, --budgets, --coinciding and --costly.");
+                                         "--determinism, --budgets, --coinciding, --costly and "
+                                         "--never-touching.");
   const auto options = std::make_shared<StressOptions>();
   auto* const studies = command->add_option_group("studies")->require_option(1);
   studies->add_flag("--reader", options->reader,
@@ -81,6 +86,9 @@ void add_stress_command(CLI::App& app) {
                     "Surfaces that coincide exactly beside neighbours in which they do not");
   studies->add_flag("--costly", options->costly,
                     "Long faces across the axes, and small bodies nearly in one place, beside neighbours");
+  studies->add_flag(
+      "--never-touching", options->never_touching,
+      "Objects that lie in each other but can never touch, beside one that moves far from them");
   studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
   command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
       ->check(thread_number())
@@ -96,11 +104,9 @@ void add_stress_command(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--frames", options->frames,
-                   "How many frames --objects times, --determinism, --coinciding and --costly play and "
-                   "--budgets steps "
-                   "each scene; by default 20, 9, 9 and 100 of the latter four, and more of smaller scenes. "
-                   "--soak takes "
-                   "as many in place of --minutes")
+                   "How many frames --objects times, --determinism, --coinciding, --costly and "
+                   "--never-touching play and --budgets steps each scene; by default 20, 9, 9, 50 and 100 of "
+                   "the latter five, and more of smaller scenes. --soak takes as many in place of --minutes")
       ->check(whole_number(1));
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
       ->check(whole_number(1))

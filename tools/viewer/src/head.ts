@@ -45,6 +45,14 @@ export interface Head {
   meshes: MeshHead[];
   series: Partial<Record<Stage | Count | 'step_ms', number[]>>;
   diverged?: number[];
+  /** Page frames, and how many frames of the source are missing before each. */
+  dropped?: [number, number][];
+}
+
+/** How many frames of the source are missing right before a page frame, or after it where it is the last. */
+export function droppedAt(head: Head, frame: number): { before: number; after: number } {
+  const missing = (at: number) => head.dropped?.find(([before]) => before === at)?.[1] ?? 0;
+  return { before: missing(frame), after: frame === head.frames - 1 ? missing(head.frames) : 0 };
 }
 
 export function checkHead(value: unknown): Head {

@@ -2,6 +2,7 @@
 
 import { PageChunks } from './chunks';
 import { button, byId, copy, h, note } from './dom';
+import { droppedAt } from './head';
 import { fillHelp } from './help';
 import { makeHooks, type Hooks } from './hooks';
 import { solidsText } from './inside';
@@ -58,6 +59,9 @@ function showBar(): void {
   for (const row of report.pairs()) flags |= block.flags[row]!;
   const badges: HTMLElement[] = [];
   if (page.head.diverged?.includes(viewer.frame)) badges.push(badge('DIVERGED', 'bad', 'A replay gave another report for this frame'));
+  const dropped = droppedAt(page.head, viewer.frame);
+  if (dropped.before) badges.push(badge(`${dropped.before} dropped before`, 'odd', 'The recorder could not record these frames'));
+  if (dropped.after) badges.push(badge(`${dropped.after} dropped after`, 'odd', 'The recorder could not record these frames'));
   if (flags & 1) badges.push(badge('incomplete', 'odd', 'A budget or a limit left something out'));
   if (flags & 2) badges.push(badge('stale', 'odd', 'Some pairs have old values, because an object could not be read'));
   if (flags & 4) badges.push(badge('contacts cut', 'odd', 'A limit left contacts out'));

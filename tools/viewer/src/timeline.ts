@@ -1,6 +1,7 @@
 // Which frame is shown, what happened when, and how does one get there?
 
 import { button, h } from './dom';
+import { droppedAt } from './head';
 import { palette, PHASE_COLOURS } from './palette';
 import { SPEEDS, type Player } from './player';
 import type { Viewer } from './viewer';
@@ -84,6 +85,7 @@ export class Timeline {
       { name: 'incomplete', colour: () => '#cc79a7', test: (f) => has('incomplete')(f) || has('contacts_cut')(f) },
       { name: 'stale', colour: () => palette().neutral, test: has('stale') },
       { name: 'diagnostics', colour: () => '#b8a800', test: has('diagnostics') },
+      { name: 'dropped', colour: () => '#d55e00', test: (f) => droppedAt(head, f).before + droppedAt(head, f).after > 0 },
       { name: 'DIVERGED', colour: () => palette().warning, test: (f) => diverged.has(f) },
     ];
   }

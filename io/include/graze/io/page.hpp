@@ -120,6 +120,9 @@ class GRAZE_API PageWriter {
   }
   /// Marks the next frame as one in which a replay gave another answer than the recording has.
   void mark_diverged();
+  /// Says that so many frames of the source are missing before the next frame, since a recorder dropped them.
+  /// Before close() it says that they are missing at the end. 0 says nothing.
+  void mark_dropped(std::uint64_t frames);
   /// Returns whether the next call of frame() will be a frame of the page. If not, there is no need to move
   /// objects before it that will be moved later.
   [[nodiscard]] bool takes_next_frame() const;
