@@ -71,8 +71,7 @@ Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double thre
     if (const auto closest = oracle::closest(a, b, threshold, pairs)) expected.contacts = {*closest};
   if (detail == ContactDetail::nearest) expected.contacts = oracle::nearest(a, b, threshold);
   expected.in_contact = !expected.contacts.empty();
-  // A pair that is near at the fold of a quad only is in contact, but `nearest` lists no folds.
-  if (detail == ContactDetail::none || detail == ContactDetail::nearest)
+  if (detail == ContactDetail::none)
     expected.in_contact = expected.distance.pierced || is_within(expected.distance, threshold);
   return expected;
 }
