@@ -64,12 +64,20 @@ bool is_better(const ClosestPoints& found, const ClosestPoints& best) {
   return found.gap.squaredNorm() < best.gap.squaredNorm();
 }
 
-/// The triangle of a face that a segment passes through, or -1, decided exactly as in reports. Coordinates
-/// that no report has are not decided.
+/// The triangle of a face that a segment passes through, or -1, decided exactly as in reports. It asks plain
+/// double first. Coordinates that no report has are not decided.
 std::int8_t pierced_triangle_of(const Segment& segment, const PlacedFeature& face) {
   std::array<Simplex, 2> triangles{Simplex{3, {}, face.triangle(0)}};
   if (face.is_quad()) triangles[1] = {3, {}, face.triangle(1)};
   const auto some = std::span(triangles).first(face.is_quad() ? 2 : 1);
+  std::int8_t passed = -1;
+  bool is_sure = true;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const Passing passing = certain_passing(segment, some[i].point);
+    is_sure = is_sure && passing != Passing::unsure && (passing == Passing::no || passed < 0);
+    if (passing == Passing::yes) passed = static_cast<std::int8_t>(i);
+  }
+  if (is_sure) return passed;
   const auto is_good = [](const Eigen::Vector3d& point) { return Surface::is_within_limits(point); };
   if (!std::all_of(segment.begin(), segment.end(), is_good)) return -1;
   for (const Simplex& triangle : some)
