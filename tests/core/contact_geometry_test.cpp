@@ -1,6 +1,7 @@
 // This test compares evaluate() and weights() with the exact oracles, and with the contacts that a query
 // finds. It also checks the sign of Contact::separation() and the direction of Contact::push().
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <graze/contact_geometry.hpp>
@@ -114,10 +115,10 @@ void check_pair(const Placed& a, const Feature& feature_a, const Placed& b, cons
 }
 
 /// Every contact's geometry at its own positions is the contact.
-/// `is_exact` says that surfaces touch exactly, as they do on a grid. Whether an edge pierces a face is left
-/// to rounding then.
+/// `is_exact` says that surfaces touch exactly, as they do on a grid. Which points of faces are closest is
+/// left to rounding then.
 void check_contact(const Placed& a, const Placed& b, const Contact& contact, bool is_exact) {
-  if (is_exact && contact.kind >= ContactKind::EF) return;
+  if (is_exact && contact.kind == ContactKind::FF) return;
   const ContactGeometry found = evaluate(a, contact.feature_a, b, contact.feature_b);
   CAPTURE(static_cast<int>(contact.kind), contact.feature_a.index, contact.feature_b.index, contact.distance,
           static_cast<int>(contact.side_a), static_cast<int>(contact.side_b));
@@ -195,6 +196,69 @@ TEST_CASE("evaluate: at its own positions a contact is itself, and weights give 
   for (const std::size_t count : seen) CHECK(count > 50);
 }
 
+TEST_CASE("evaluate: an edge pierces a face where it does so exactly, and not at the border") {
+  std::size_t pierced = 0;
+  std::size_t at_border = 0;
+  for (std::uint64_t seed = 1; seed < 2 * seed_count; seed += 2) {  // on a grid, with quads that are not flat
+    const oracle::RandomScene scene = oracle::random_scene(seed);
+    const Placed a(scene.a);
+    const Placed b(scene.b);
+    const oracle::ExactShape exact_a(scene.a);
+    const oracle::ExactShape exact_b(scene.b);
+    for (std::uint32_t edge = 0; edge < a.mesh->edge_count(); ++edge)
+      for (std::uint32_t face = 0; face < b.mesh->face_count(); ++face) {
+        const auto crossing = oracle::crossing(exact_a, exact_a.segments[edge], exact_b, face);
+        const ContactGeometry found = evaluate(a, {FeatureKind::edge, edge}, b, {FeatureKind::face, face});
+        const bool is_pierced = found.is_interior && found.distance == 0 && found.point_a == found.point_b;
+        CAPTURE(seed, edge, face, found.distance);
+        if (crossing) {
+          CHECK(is_pierced);
+          const Vector3d point = oracle::round(oracle::point_at(exact_a, exact_a.segments[edge], *crossing));
+          CHECK((found.point_a - point).norm() < 1e-9);
+          ++pierced;
+        } else if (found.distance < 1e-12) {
+          // It touches the border, or has an end on the face. Only the inner diagonal is inside.
+          CHECK((!found.is_interior || b.shape.faces[face].size() == 4));
+          at_border += found.is_interior ? 0U : 1U;
+        }
+      }
+  }
+  CHECK(pierced > 150);
+  CHECK(at_border > 100);
+}
+
+TEST_CASE("evaluate: beside the border of a quad that is not flat, its fold is closest") {
+  // The edge meets the side from corner 3 to corner 0, where rounding would let it pass inside.
+  const Placed upright(triangle({3, 0, 1}, {3, 0, 2}, {0, 0, 1.5}));
+  const Placed warped(quad({3, -0.125, 1.875}, {3.125, 0, 1}, {3.125, 1, 1}, {3, 1, 2.125}));
+  const ContactGeometry found = evaluate(upright, {FeatureKind::edge, 0}, warped, {FeatureKind::face, 0});
+  CHECK(found.distance > 0.0138);
+  CHECK(found.distance < 0.0139);
+  CHECK(found.is_interior);  // of the contact of the edge and the fold
+  CHECK(evaluate(upright, {FeatureKind::edge, 0}, warped, {FeatureKind::edge, 3}).distance < 1e-15);
+}
+
+TEST_CASE("evaluate: an edge through a quad that is not flat has the normal of the triangle it pierces") {
+  const Placed warped(quad({0, 0, 0}, {2, 0, 0}, {2, 2, 1}, {0, 2, 0}));
+  const Feature face{FeatureKind::face, 0};
+  for (const Vector3d& at : {Vector3d(1.5, 0.5, 0), Vector3d(0.5, 1.5, 0), Vector3d(1, 1, 0)}) {
+    const Placed bar(triangle(at - 4 * Vector3d::UnitZ(), at + 4 * Vector3d::UnitZ(), {9, 9, 9}));
+    const auto contacts = contacts_of(warped, bar, ContactDetail::features).contacts;
+    const auto through = std::find_if(contacts.begin(), contacts.end(), [](const Contact& contact) {
+      return contact.kind == ContactKind::EF && contact.feature_a.kind == FeatureKind::face &&
+             contact.feature_b.index == 0;
+    });
+    REQUIRE(through != contacts.end());
+    const ContactGeometry found = evaluate(warped, face, bar, through->feature_b);
+    CHECK(found.distance == 0);
+    CHECK((found.normal - through->normal).norm() < 1e-12);
+    // Through the fold itself it is the first triangle's.
+    const auto& corner = warped.shape.positions;
+    const Vector3d first = (corner[1] - corner[0]).cross(Vector3d(corner[2] - corner[0])).normalized();
+    CHECK(((found.normal - first).norm() < 1e-12) == (at.x() >= at.y()));
+  }
+}
+
 TEST_CASE("evaluate: a push makes the separation grow by as much as it moves") {
   constexpr double step = 1e-6;
   std::size_t pushed = 0;
@@ -270,8 +334,26 @@ TEST_CASE("separation: which side counts, by kind") {
   CHECK(contact_of(edge, edge, back, back) == -0.5);
   CHECK(contact_of(edge, edge, back, front) == 0.5);
   Contact touching;
+  touching.normal = Vector3d(0, 0, 1);
   touching.side_a = touching.side_b = back;
   CHECK_FALSE(std::signbit(touching.separation()));
+  CHECK(touching.push() == Vector3d(0, 0, 1));
+  // Where an edge pierces, the side of the pierced object turns the push, and nothing else does.
+  const auto push_of = [&](FeatureKind a, FeatureKind b, Side side_a, Side side_b) {
+    touching.kind = ContactKind::EF;
+    touching.feature_a.kind = a;
+    touching.feature_b.kind = b;
+    touching.side_a = side_a;
+    touching.side_b = side_b;
+    CHECK(touching.separation() == 0);
+    CHECK_FALSE(std::signbit(touching.separation()));
+    return touching.push().z();
+  };
+  CHECK(push_of(face, edge, Side::none, Side::none) == 1);
+  CHECK(push_of(face, edge, back, Side::none) == -1);
+  CHECK(push_of(face, edge, Side::none, back) == 1);
+  CHECK(push_of(edge, face, Side::none, back) == -1);
+  CHECK(push_of(edge, face, back, Side::none) == 1);
 }
 
 TEST_CASE("evaluate and weights refuse features that a mesh has not, and positions of another mesh") {
@@ -300,6 +382,9 @@ TEST_CASE("evaluate: a distance that is not a number is neither at 0 nor inside"
   CHECK(std::isnan(found.distance));
   CHECK(std::isnan(found.separation));
   CHECK_FALSE(found.is_interior);
+  CHECK_FALSE(evaluate(still, {FeatureKind::face, 0}, lost, {FeatureKind::edge, 0}).is_interior);
+  lost.shape.positions[0].setConstant(1e300);
+  CHECK_FALSE(evaluate(still, {FeatureKind::face, 0}, lost, {FeatureKind::edge, 0}).is_interior);
 }
 
 }  // namespace graze::tests

@@ -109,7 +109,7 @@ TEMPLATE_TEST_CASE_SIG("nearest: 10,000 random scenes are those of brute force, 
     check_nearest(2 * (nearest_part * nearest_generic_scenes + i));
 }
 
-TEST_CASE("nearest: the distance is that of the surfaces where they are nearest at the fold of a quad") {
+TEST_CASE("nearest: surfaces in contact at the fold of a quad alone have one contact") {
   // The edge of a is nearest to the fold, from vertex 0 to vertex 3. Vertices and edges are further apart.
   const oracle::Shape a{{{0, 0, 0}, {-1, 1, 0}}, {{0, 1, 1}}};
   const oracle::Shape b{{{0, 0, 0.5}, {0, 0, 1}, {0, 0, 1}, {-1, 0, 0}}, {{0, 1, 3, 2}}};
@@ -118,6 +118,16 @@ TEST_CASE("nearest: the distance is that of the surfaces where they are nearest 
   CHECK(closest->kind == ContactKind::EF);
   CHECK(oracle::nearest(a, b, 1)[0].distance > closest->distance);
   for (const double threshold : {0.41, 0.5, 1.0}) CHECK(nearest_fault({a, b, threshold}) == "");
+  const auto at = [&](double threshold) {
+    return detect(surface_of(a), surface_of(b), query_of(ContactDetail::nearest, threshold)).contacts;
+  };
+  REQUIRE(at(0.41).size() == 1);
+  CHECK(at(0.41)[0].kind == ContactKind::EF);
+  CHECK(at(0.41)[0].distance == closest->distance);
+  CHECK(at(oracle::surface_distance(a, b).distance_down).empty());
+  // Where something else is below the threshold, the fold is none.
+  REQUIRE(at(1).size() > 1);
+  for (const Contact& contact : at(1)) CHECK(contact.kind < ContactKind::EF);
 }
 
 TEST_CASE("nearest: generated surfaces of a few hundred faces") {

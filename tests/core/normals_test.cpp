@@ -184,6 +184,53 @@ TEST_CASE("normals: of crossing edges their cross product, along a's averaged no
   CHECK(is(closest(roof, turned_edge), ContactKind::EE, z));
 }
 
+TEST_CASE("normals: of crossing edges, each end of a's edge counts by the angles of its corners") {
+  // At the first end a wide corner looks to -x and a little down, at the second a narrow one looks up. The
+  // sum of the angle-weighted normals leads down. That of both as unit vectors would lead up.
+  const Vector3d in_plane = Vector3d(-0.2, 0, 0.98) * std::cos(1.4);
+  const Vector3d aside = y * std::sin(1.4);
+  const Shape ends{{{-1, 0, 0},
+                    {1, 0, 0},
+                    {0, 0, -0.05},
+                    -x + in_plane - aside,
+                    -x + in_plane + aside,
+                    {2, 0, 0},
+                    {2, 0.3, 0}},
+                   {{0, 1, 2}, {0, 3, 4}, {1, 5, 6}}};
+  const Vector3d first = *averaged(ends, {FeatureKind::vertex, 0});
+  const Vector3d second = *averaged(ends, {FeatureKind::vertex, 1});
+  REQUIRE((first + second).z() < -0.1);
+  REQUIRE((first.normalized() + second.normalized()).z() > 0.1);
+  const Shape across{{{0, -1, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}}};
+  CHECK(is(closest(ends, across), ContactKind::EE, -z));
+}
+
+TEST_CASE("normals: a quad that is not flat has those of its triangles, and at its fold their average") {
+  const Shape warped = quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 1});
+  const Vector3d first = normal_of(warped, {0, 1, 2});
+  const Vector3d second = normal_of(warped, {0, 2, 3});
+  REQUIRE((first - second).norm() > 0.1);
+  const auto normal_at = [&](const Vector3d& tip) {
+    const Contact contact = closest(warped, triangle(tip, tip + Vector3d(-1, 0, 4), tip + Vector3d(0, 1, 4)));
+    CHECK(contact.kind == ContactKind::VF);
+    CHECK(contact.distance == 0);
+    return contact.normal;
+  };
+  CHECK((normal_at({1.5, 0.5, 0}) - first).norm() < 1e-14);
+  CHECK((normal_at({0.5, 1.5, 0.5}) - second).norm() < 1e-14);
+  CHECK((normal_at({1, 1, 0}) - (first + second).normalized()).norm() < 1e-14);
+}
+
+TEST_CASE("normals: where the gap is square to the averaged normal, the push is along the gap") {
+  // Two sheets side by side in one plane: nothing says that one lies behind the other.
+  const Shape sheet = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  const Contact contact = closest(sheet, mapped(sheet, 1, {1.25, 0.5, 0}));
+  CHECK(contact.side_a == Side::none);
+  CHECK(contact.side_b == Side::none);
+  CHECK(contact.separation() == 0.25);
+  CHECK(contact.push() == x);
+}
+
 TEST_CASE("normals: at distance 0 else a's averaged, else minus b's, else up") {
   const Shape cube = box({-1, -1, -1}, {1, 1, 1});  // corner 7 at the origin
   const Vector3d diagonal = Vector3d(1, 1, 1).normalized();

@@ -33,7 +33,6 @@ struct ModelBody {
   bool is_bound = false;
   BindPolicy policy = BindPolicy::every_step;
   bool is_told = false;
-  bool is_newly_bound = false;         ///< since the last step
   bool is_promised = false;            ///< bound memory that is written now needs a new promise
   std::unique_ptr<Positions> doubles;  ///< bound memory, one of the two; freed as soon as the contract allows
   std::unique_ptr<std::vector<Eigen::Vector3f>> floats;

@@ -157,7 +157,6 @@ void SceneModel::bind(std::size_t index, const Positions& positions, bool as_flo
   body.is_bound = true;
   body.policy = policy;
   body.is_told = true;
-  body.is_newly_bound = true;
   body.is_promised = false;
 }
 
@@ -178,7 +177,7 @@ void SceneModel::unbind(std::size_t index) {
   ModelBody& body = bodies_[index];
   scene_.unbind_positions(body.id);
   if (deformable(index) == nullptr) return;
-  if (body.is_bound && (body.policy == BindPolicy::every_step || body.is_newly_bound)) {
+  if (body.is_bound && (body.policy == BindPolicy::every_step || body.is_told)) {
     const Positions last = body.memory();
     if (body.can_take(last))
       body.copied = last;
@@ -263,7 +262,7 @@ void SceneModel::replace_mesh(std::size_t index, const std::shared_ptr<const Mes
   body.copied.reset();
   body.doubles.reset();
   body.floats.reset();
-  body.is_bound = body.is_told = body.is_newly_bound = body.is_promised = body.is_frozen = false;
+  body.is_bound = body.is_told = body.is_promised = body.is_frozen = false;
 }
 
 void SceneModel::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
@@ -311,7 +310,6 @@ void SceneModel::read(ModelBody& body) {
     body.staged_pose.reset();
   }
   body.is_promised = false;
-  body.is_newly_bound = false;
 }
 
 }  // namespace graze::fuzz

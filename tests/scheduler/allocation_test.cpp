@@ -203,6 +203,74 @@ class Falling {
   std::vector<Positions> positions_;
 };
 
+/// Solid bodies in each other that tremble at random, and rest in some stretches of frames. Reports are held
+/// at random, beside the latest one. The same seed gives the same frames.
+class Trembling {
+ public:
+  static constexpr std::size_t held_count = 3;
+  /// From here on every deformable body has its copies.
+  static constexpr std::size_t first_frames = 8;
+
+  Trembling(const SceneSettings& settings, std::uint64_t seed) : scene_(settings), random_(seed) {
+    const std::array meshes{mesh_of(models::sphere(10, 7)), mesh_of(models::box({0.7, 0.5, 0.9})),
+                            mesh_of(models::torus(9, 6, 0.6, 0.25)),
+                            mesh_of(models::sphere(8, 5, models::Faces::quads))};
+    for (std::size_t i = 0; i < 9; ++i) {
+      ObjectSettings object = motion_of(i % 3 == 2 ? Motion::deformable : Motion::rigid);
+      object.solid = true;
+      Body body{meshes[i % meshes.size()], {}, object.motion, random_.vector(-1, 1), {}};
+      body.id = scene_.add(body.mesh, object);
+      bodies_.push_back(body);
+    }
+  }
+  [[nodiscard]] Scene& scene() { return scene_; }
+
+  void play(std::size_t begin, std::size_t end) {
+    for (std::size_t frame = begin; frame < end; ++frame) {
+      if (frame < first_frames || frame / 5 % 2 == 0)
+        for (Body& body : bodies_) move(body, frame < first_frames ? 0 : 0.02);
+      ReportHandle report = scene_.step();
+      const StepStatistics& statistics = report->statistics();
+      near_pairs =
+          std::max({near_pairs, static_cast<std::size_t>(statistics.pairs_close), report->pairs().size()});
+      contacts = std::max(contacts, report->contacts().size());
+      rests += statistics.pairs_tested == 0 ? 1U : 0U;
+      std::swap(latest_, report);
+      if (random_.chance(0.3)) held_[random_.below(held_count)] = std::move(report);
+    }
+  }
+
+  // What the scene is to have room for:
+  std::size_t near_pairs = 0;
+  std::size_t contacts = 0;
+  std::size_t rests = 0;
+
+ private:
+  struct Body {
+    std::shared_ptr<const Mesh> mesh;
+    ObjectId id;
+    Motion motion;
+    Eigen::Vector3d at;
+    Positions positions;
+  };
+  void move(Body& body, double size) {
+    body.at += random_.vector(-size, size);
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = body.at;
+    if (body.motion == Motion::rigid) return scene_.set_pose(body.id, pose);
+    body.positions.resize(body.mesh->vertex_count());
+    for (std::size_t i = 0; i < body.positions.size(); ++i)
+      body.positions[i] = body.mesh->rest()[i] + body.at;
+    scene_.set_positions(body.id, body.positions);
+  }
+
+  Scene scene_;
+  oracle::Random random_;
+  std::vector<Body> bodies_;
+  ReportHandle latest_;
+  std::array<ReportHandle, held_count> held_;
+};
+
 }  // namespace
 
 TEST_CASE("allocations of every kind and thread are counted") {
@@ -449,6 +517,39 @@ TEST_CASE("first contacts take no memory where room was reserved") {
     check_none_thrown();
   else
     CHECK(AllocationCount::by_others() > 50);
+}
+
+TEST_CASE("no allocation: bodies that tremble within the bounds that were reserved") {
+  if (is_skipped()) return;
+  const auto detail =
+      GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::features, ContactDetail::nearest);
+  const auto limit = GENERATE(0, 1, 2);
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(static_cast<int>(detail), limit, threads);
+  constexpr std::size_t frames = 150;
+  SceneSettings settings = settings_of(0.06, 0.2, detail);
+  settings.threads = threads;
+  if (limit == 1) settings.max_contacts = 60;
+  if (limit == 2) settings.max_contacts_per_pair = 9;
+  const auto seed = static_cast<std::uint64_t>(limit);
+  Trembling first(settings, seed);
+  first.play(0, frames);
+  if (limit != 1) REQUIRE(first.rests > frames / 3);  // pairs that are cut by it are tested in every step
+  SceneSettings unlimited = settings;
+  unlimited.max_contacts = unlimited.max_contacts_per_pair = std::nullopt;
+  Trembling all(unlimited, seed);  // what a limit leaves out needs room, too
+  all.play(0, frames);
+  Trembling again(settings, seed);
+  again.scene().reserve({.objects = 9,
+                         .calls_per_step = 9,
+                         .near_pairs = first.near_pairs,
+                         .contacts = all.contacts,
+                         .reports = Trembling::held_count});
+  again.play(0, Trembling::first_frames);
+  AllocationCount::begin();
+  again.play(Trembling::first_frames, frames);
+  AllocationCount::end();
+  check_none_thrown();
 }
 
 TEST_CASE("no allocation: a step that is recorded, while the writer follows") {

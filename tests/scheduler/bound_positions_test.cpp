@@ -189,6 +189,29 @@ TEST_CASE("memory is given back by unbinding, rebinding and removing") {
     unbind_at(8);
     CHECK(distance_after_step(pair) == 2);
   }
+  SECTION("memory that is read when told keeps what it was told of last, also before a step") {
+    pair.scene.bind_positions(pair.needle, memory->points, BindPolicy::when_told);
+    CHECK(distance_after_step(pair) == 2);
+    memory->lift(8);
+    pair.scene.positions_changed(pair.needle);
+    CHECK(distance_after_step(pair) == 8);
+    memory->lift(5);
+    pair.scene.positions_changed(pair.needle, 3);
+    unbind_at(6);
+    CHECK(distance_after_step(pair) == 6);
+    CHECK(distance_after_step(pair) == 6);
+  }
+  SECTION("memory that is read when told, and bad when it is told of, freezes by the call") {
+    pair.scene.bind_positions(pair.needle, memory->points, BindPolicy::when_told);
+    CHECK(distance_after_step(pair) == 2);
+    memory->points[0].setConstant(std::numeric_limits<double>::quiet_NaN());
+    pair.scene.positions_changed(pair.needle);
+    pair.scene.unbind_positions(pair.needle);
+    memory.reset();
+    CHECK(kinds_of(*pair.scene.step()) == std::vector{DiagnosticKind::not_finite});
+    CHECK(only_pair(*pair.scene.latest_report()).stale);
+    CHECK(pair.step_at(4)->pairs()[0].distance.upper == 4);
+  }
   SECTION("memory that would be read when told is read by the call where no step has begun") {
     pair.scene.bind_positions(pair.needle, memory->points, BindPolicy::when_told);
     unbind_at(8);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <thread>
 
 #include "scheduler/report_text.hpp"
@@ -187,6 +188,39 @@ TEST_CASE("flush-to-zero and each rounding mode: denormal distances are right") 
     }
     CHECK(distance == 0x1p-1070);
     CHECK(after == mode);
+  }
+}
+
+TEST_CASE("flush-to-zero and each rounding mode: denormal settings are taken as they are") {
+  for (const Mode& mode : modes()) {
+    INFO("rounding " << mode.rounding << (mode.flush ? ", flushing" : ""));
+    const auto in_mode = [&](const auto& call) {
+      const ModeScope scope(mode);
+      call();
+      return current_mode();
+    };
+    std::unique_ptr<Scene> scene;
+    std::shared_ptr<const Mesh> plate;
+    std::shared_ptr<const Mesh> needle;
+    ObjectSettings rigid = motion_of(Motion::rigid);
+    rigid.margin = 0x1p-1062;
+    CHECK(in_mode([&] { plate = plate_mesh(); }) == mode);
+    CHECK(in_mode([&] { needle = needle_mesh(); }) == mode);
+    CHECK(in_mode([&] { scene = std::make_unique<Scene>(settings_of(0x1p-1062, 0x1p-1061)); }) == mode);
+    CHECK(in_mode([&] { scene->add(plate, rigid); }) == mode);
+    ObjectId other;
+    CHECK(in_mode([&] { other = scene->add(needle, rigid); }) == mode);
+    CHECK(in_mode([&] { scene->set_pose(other, lift_pose(0x1p-1062)); }) == mode);
+    const ReportHandle near = scene->step();
+    REQUIRE(near->pairs().size() == 1);
+    CHECK(near->pairs()[0].phase == PairPhase::began);
+    // A rule in place of the settings: in range, and not in contact, since margins count.
+    CHECK(in_mode([&] { scene->set_rule(0, 0, {0, 0x1p-1060, {}}); }) == mode);
+    CHECK(in_mode([&] { scene->set_pose(other, lift_pose(0x1.8p-1061)); }) == mode);
+    const ReportHandle apart = scene->step();
+    REQUIRE(apart->pairs().size() == 1);
+    CHECK(apart->pairs()[0].phase == PairPhase::ended);
+    CHECK(scene->step()->pairs()[0].phase == PairPhase::near);
   }
 }
 

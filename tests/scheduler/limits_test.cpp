@@ -1,7 +1,10 @@
-// Limits of contacts: what is kept are the nearest of all, whoever finds them in whichever order; all else is
-// said of all contacts.
+// Limits of contacts: what is kept are the nearest of all, or with `nearest` the deepest, whoever finds them
+// in whichever order; all else is said of all contacts.
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -22,23 +25,37 @@ auto features_of(const Contact& contact) {
   return std::tuple(contact.kind, contact.feature_a, contact.feature_b);
 }
 
+/// The limits of a report, and the detail that says by what it keeps contacts.
+struct Limits {
+  ContactDetail detail;
+  Limit of_all;
+  Limit of_pair;
+
+  /// What is lower is kept before.
+  [[nodiscard]] std::tuple<bool, double> rank(const Contact& contact) const {
+    if (detail != ContactDetail::nearest) return {false, contact.distance};
+    return {contact.kind == ContactKind::EF && contact.distance == 0, contact.separation()};
+  }
+};
+
 /// The contacts that a report is to keep, by the number of their pair, from one without limits.
-std::map<std::size_t, std::vector<Contact>> kept_of(const FrameReport& whole, Limit of_all, Limit of_pair) {
+std::map<std::size_t, std::vector<Contact>> kept_of(const FrameReport& whole, const Limits& limits) {
   std::vector<std::pair<std::size_t, Contact>> all;
   for (std::size_t pair = 0; pair < whole.pairs().size(); ++pair) {
     const auto given = whole.contacts(whole.pairs()[pair]);
     std::vector<Contact> contacts(given.begin(), given.end());
-    std::sort(contacts.begin(), contacts.end(), [](const Contact& left, const Contact& right) {
-      return std::tuple(left.distance, features_of(left)) < std::tuple(right.distance, features_of(right));
+    std::sort(contacts.begin(), contacts.end(), [&](const Contact& left, const Contact& right) {
+      return std::tuple(limits.rank(left), features_of(left)) <
+             std::tuple(limits.rank(right), features_of(right));
     });
-    contacts.resize(std::min(contacts.size(), of_pair.value_or(contacts.size())));
+    contacts.resize(std::min(contacts.size(), limits.of_pair.value_or(contacts.size())));
     for (const Contact& contact : contacts) all.emplace_back(pair, contact);
   }
-  std::sort(all.begin(), all.end(), [](const auto& left, const auto& right) {
-    return std::tuple(left.second.distance, left.first, features_of(left.second)) <
-           std::tuple(right.second.distance, right.first, features_of(right.second));
+  std::sort(all.begin(), all.end(), [&](const auto& left, const auto& right) {
+    return std::tuple(limits.rank(left.second), left.first, features_of(left.second)) <
+           std::tuple(limits.rank(right.second), right.first, features_of(right.second));
   });
-  all.resize(std::min(all.size(), of_all.value_or(all.size())));
+  all.resize(std::min(all.size(), limits.of_all.value_or(all.size())));
   std::map<std::size_t, std::vector<Contact>> kept;
   for (const auto& [pair, contact] : all) kept[pair].push_back(contact);
   for (auto& [pair, contacts] : kept)
@@ -55,8 +72,8 @@ bool are_same(const Contact& left, const Contact& right) {
 }
 
 /// Compares a report with what it would be without limits; returns how many pairs are cut.
-std::size_t compare(const FrameReport& report, const FrameReport& whole, Limit of_all, Limit of_pair) {
-  const auto kept = kept_of(whole, of_all, of_pair);
+std::size_t compare(const FrameReport& report, const FrameReport& whole, const Limits& limits) {
+  const auto kept = kept_of(whole, limits);
   REQUIRE(report.pairs().size() == whole.pairs().size());
   CHECK(inconsistency_of(report) == "");
   std::size_t cut = 0;
@@ -85,7 +102,7 @@ std::size_t compare(const FrameReport& report, const FrameReport& whole, Limit o
   CHECK(statistics.pairs_cut == cut);
   CHECK(statistics.contacts_left_out >= cut);
   CHECK(statistics.contacts_left_out <= whole.contacts().size() - report.contacts().size());
-  if (!of_pair && !of_all) CHECK(statistics.contacts_left_out == 0);
+  if (!limits.of_pair && !limits.of_all) CHECK(statistics.contacts_left_out == 0);
   CHECK(report.complete() == (cut == 0));
   return cut;
 }
@@ -111,7 +128,7 @@ TEST_CASE("limits: the nearest contacts of each pair and of all are kept, step b
         settings.threads = threads;
         const auto limited = moving.play(settings, frames);
         for (std::size_t frame = 0; frame < frames; ++frame)
-          cut += compare(*limited[frame], *whole[frame], of_all, of_pair);
+          cut += compare(*limited[frame], *whole[frame], {detail, of_all, of_pair});
       }
     }
     CHECK(cut > 50);
@@ -135,9 +152,9 @@ TEST_CASE("limits: of contacts that are as near, names say which are kept") {
       REQUIRE(whole->contacts().size() > 50);
       for (const std::size_t limit : {std::size_t{1}, std::size_t{50}, std::size_t{3000}}) {
         settings.max_contacts_per_pair = limit;
-        compare(*step(), *whole, {}, limit);
+        compare(*step(), *whole, {detail, {}, limit});
         std::swap(settings.max_contacts, settings.max_contacts_per_pair);
-        compare(*step(), *whole, limit, {});
+        compare(*step(), *whole, {detail, limit, {}});
         std::swap(settings.max_contacts, settings.max_contacts_per_pair);
       }
     }
@@ -145,12 +162,14 @@ TEST_CASE("limits: of contacts that are as near, names say which are kept") {
 
 TEST_CASE("limits: of large pairs, that are cut into slices") {
   const auto ball = mesh_of(models::sphere(80, 56));
+  ObjectSettings object;
   for (const ContactDetail detail : listed_details) {
     SceneSettings settings = settings_of(0.1, 0.2, detail);
+    object.solid = detail == ContactDetail::nearest;
     const auto step = [&] {
       Scene scene(settings);
-      scene.add(ball);
-      const ObjectId other = scene.add(ball);
+      scene.add(ball, object);
+      const ObjectId other = scene.add(ball, object);
       std::vector<ReportHandle> reports;
       for (int frame = 0; frame < 3; ++frame) {
         scene.set_positions(other, moved(ball->rest(), {1.9 + 0.01 * frame, 0.01, 0.02}));
@@ -165,7 +184,7 @@ TEST_CASE("limits: of large pairs, that are cut into slices") {
       settings.threads = threads;
       const auto limited = step();
       for (std::size_t frame = 0; frame < limited.size(); ++frame)
-        CHECK(compare(*limited[frame], *whole[frame], {}, 200) ==
+        CHECK(compare(*limited[frame], *whole[frame], {detail, {}, 200}) ==
               (detail == ContactDetail::regions ? 0U : 1U));
     }
   }
@@ -198,10 +217,83 @@ TEST_CASE("limits: pairs that do not move get what others leave") {
   std::size_t cut = 0;
   for (std::size_t frame = 0; frame < whole.size(); ++frame) {
     INFO("frame " << frame);
-    cut += compare(*limited[frame], *whole[frame], limit, {});
+    cut += compare(*limited[frame], *whole[frame], {settings.detail, limit, {}});
     CHECK(limited[frame]->contacts().size() == std::min(limit, whole[frame]->contacts().size()));
   }
   CHECK(cut > 9);
+}
+
+TEST_CASE("limits: of solids in each other the deepest are kept, and edges that pierce last") {
+  const std::array meshes{mesh_of(models::sphere(12, 8)), mesh_of(models::box({1.4, 1.1, 0.9})),
+                          mesh_of(models::sphere(9, 6, models::Faces::quads)),
+                          mesh_of(models::sheet(7, 7, 3, 3))};
+  constexpr std::size_t frames = 6;
+  SceneSettings settings = settings_of(0.05, 0.1, ContactDetail::nearest);
+  const auto play = [&] {
+    Scene scene(settings);
+    std::vector<ObjectId> ids;
+    for (std::size_t i = 0; i < 6; ++i) {
+      ObjectSettings object = motion_of(Motion::rigid);
+      object.solid = i % 4 != 3;
+      ids.push_back(scene.add(meshes[i % meshes.size()], object));
+    }
+    std::vector<ReportHandle> reports;
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        const double time = 0.8 * static_cast<double>(i) + 0.3 * static_cast<double>(frame);
+        Eigen::Isometry3d pose(Eigen::AngleAxisd(time, Eigen::Vector3d(1, std::sin(time), 2).normalized()));
+        pose.translation() =
+            0.7 * Eigen::Vector3d(std::sin(time), std::cos(1.7 * time), std::sin(0.6 * time));
+        scene.set_pose(ids[i], pose);
+      }
+      reports.push_back(scene.step());
+    }
+    return reports;
+  };
+  const auto whole = play();
+  std::size_t deep = 0;
+  for (const ReportHandle& report : whole)
+    for (const Contact& contact : report->contacts()) deep += contact.separation() < -0.3 ? 1U : 0U;
+  CHECK(deep > 20);
+  std::size_t cut = 0;
+  for (const auto& [of_all, of_pair] : {std::pair<Limit, Limit>(std::nullopt, 1),
+                                        {std::nullopt, 2},
+                                        {std::nullopt, 30},
+                                        {1, std::nullopt},
+                                        {50, std::nullopt},
+                                        {60, 20}})
+    for (const unsigned threads : {1U, 3U}) {
+      settings.max_contacts = of_all;
+      settings.max_contacts_per_pair = of_pair;
+      settings.threads = threads;
+      const auto limited = play();
+      for (std::size_t frame = 0; frame < frames; ++frame)
+        cut += compare(*limited[frame], *whole[frame], {settings.detail, of_all, of_pair});
+    }
+  CHECK(cut > 100);
+}
+
+TEST_CASE("limits: a corner in the ground is listed before the edges that pierce it") {
+  SceneSettings settings = settings_of(0.02, 0.02, ContactDetail::nearest);
+  ObjectSettings solid;
+  solid.solid = true;
+  for (const std::size_t limit : {std::size_t{1}, std::size_t{2}, std::size_t{3}})
+    for (const bool of_all : {false, true}) {
+      settings.max_contacts = of_all ? Limit(limit) : Limit();
+      settings.max_contacts_per_pair = of_all ? Limit() : Limit(limit);
+      Scene scene(settings);
+      scene.add(mesh_of(models::box({4, 4, 1})), solid);
+      solid.motion = Motion::rigid;
+      const ObjectId crate = scene.add(mesh_of(models::box({1, 1, 1})), solid);
+      Eigen::Isometry3d pose(Eigen::Translation3d(0.1, 0.2, 1.25) *
+                             Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 0.8, 0).normalized()));
+      scene.set_pose(crate, pose);
+      const ReportHandle report = scene.step();
+      REQUIRE(report->contacts().size() == limit);
+      CHECK(report->contacts()[0].kind == ContactKind::VF);
+      CHECK(report->contacts()[0].separation() < -0.1);
+      CHECK(report->pairs()[0].contacts_cut);
+    }
 }
 
 TEST_CASE("limits: of no contacts are refused") {

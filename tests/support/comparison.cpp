@@ -82,8 +82,7 @@ Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double thre
     expected.contacts = are_all_faces_looked_at(a, b, pairs) ? oracle::nearest(a, b, threshold)
                                                              : oracle::nearest(a, b, threshold, pairs);
   expected.in_contact = !expected.contacts.empty();
-  // A pair that is near at the fold of a quad only is in contact, but `nearest` lists no folds.
-  if (detail == ContactDetail::none || detail == ContactDetail::nearest)
+  if (detail == ContactDetail::none)
     expected.in_contact = expected.distance.pierced || is_within(expected.distance, threshold);
   return expected;
 }

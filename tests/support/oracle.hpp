@@ -68,6 +68,9 @@ std::vector<Named> features(const Shape& a, const Shape& b, double threshold, co
 /// - Each pair of edges whose closest points are inside both, strictly nearer than `threshold`, unless a face
 ///   at one of them leads nearer to the other. The diagonal of a quad is no edge.
 /// - Each face that an edge pierces, at any threshold.
+/// - If there is none of these, the nearest EF or FF of `features`, which is at the fold of a quad. Exact
+/// ties
+///   go to the lowest (kind, a, b).
 std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold);
 
 /// Every pair of used vertices closer than `threshold`, sorted.
@@ -134,6 +137,10 @@ struct SolidPair {
   std::vector<SolidSides> sides;  ///< of each contact
 };
 SolidPair solid_pair(const Shape& a, const Shape& b, Solids solids, double threshold);
+
+/// Which lies in which where only some faces are looked at against each other. These decide what pierces. All
+/// faces of a solid decide what is inside of it.
+Containment containment(const Shape& a, const Shape& b, Solids solids, const FacePairs& pairs);
 
 /// One region of the octree of a rest shape.
 struct OracleRegion {

@@ -88,6 +88,22 @@ class NearestCollector {
           add({FeatureKind::face, face}, edge.owner, {0, *point, *point, true});
   }
 
+  /// Adds the nearest contact at the fold of a quad, if nothing is within the limit or pierces.
+  void add_fold_if_alone() {
+    const auto counts = [this](const auto& entry) {
+      return entry.second.pierced || limit_.admits(entry.second.distance_squared);
+    };
+    if (std::any_of(contacts_.begin(), contacts_.end(), counts)) return;
+    const ExactContacts all = collect_features(a_, b_, limit_);
+    auto best = all.end();
+    for (auto contact = all.begin(); contact != all.end(); ++contact) {
+      if (contact->first.kind < ContactKind::EF) continue;
+      if (best == all.end() || contact->second.distance_squared < best->second.distance_squared)
+        best = contact;
+    }
+    if (best != all.end()) contacts_.insert(*best);
+  }
+
   ExactContacts take() { return std::move(contacts_); }
 
  private:
@@ -156,6 +172,7 @@ ExactContacts collect_nearest(const ExactShape& a, const ExactShape& b, const Li
   collector.add_vertices_of_b(listed_of_b);
   collector.add_edges();
   collector.add_piercings();
+  collector.add_fold_if_alone();
   return collector.take();
 }
 

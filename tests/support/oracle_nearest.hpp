@@ -15,7 +15,7 @@ std::optional<Foot> foot_on_surface(const Point& point, const Extent& extent, co
 using ListedAnyway = std::function<bool(std::uint32_t vertex)>;
 
 /// The contacts of `nearest` within the limit, all piercings, and the contacts of the vertices of each shape
-/// that are listed anyway.
+/// that are listed anyway. A fold makes a contact only where nothing else is within the limit or pierces.
 ExactContacts collect_nearest(const ExactShape& a, const ExactShape& b, const Limit& limit,
                               const ListedAnyway& listed_of_a, const ListedAnyway& listed_of_b);
 

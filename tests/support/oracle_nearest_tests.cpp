@@ -112,12 +112,16 @@ TEST_CASE("oracle of nearest: ridges and edges in flat surfaces are locally clos
   CHECK(in_valley.find("EE") == std::string::npos);
 }
 
-TEST_CASE("oracle of nearest: the fold of a quad is no edge") {
+TEST_CASE("oracle of nearest: the fold of a quad is no edge, and a contact only where it is alone") {
   const Shape bar = bar_along({-1, 1, 0.5}, {1, -1, 0.5}, {0, 0, 20});
   const auto listed = oracle::features(folded_quad(0.25), bar, 0.3);
   REQUIRE(listed.size() == 1);
   CHECK(listed[0].kind == ContactKind::EF);
-  CHECK(nearest_text(folded_quad(0.25), bar, 0.3).empty());
+  CHECK(nearest_text(folded_quad(0.25), bar, 0.3) == "  EF f0 e0 at 0.25\n");
+  CHECK(nearest_text(folded_quad(0.25), bar, 0.25).empty());
+  const std::string with_vertices = nearest_text(folded_quad(0.25), bar, 1);
+  CHECK(with_vertices.find("VF") != std::string::npos);
+  CHECK(with_vertices.find("EF") == std::string::npos);
 }
 
 TEST_CASE("oracle of nearest: both edges have to be locally closest") {

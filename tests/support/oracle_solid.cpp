@@ -74,4 +74,15 @@ SolidPair solid_pair(const Shape& shape_a, const Shape& shape_b, Solids solids, 
   return pair;
 }
 
+Containment containment(const Shape& shape_a, const Shape& shape_b, Solids solids, const FacePairs& pairs) {
+  if (!solids.a && !solids.b) return Containment::none;
+  const ExactShape a(shape_a);
+  const ExactShape b(shape_b);
+  const auto contacts = features(shape_a, shape_b, 0, pairs);
+  const bool is_pierced =
+      std::any_of(contacts.begin(), contacts.end(), [](const Named& contact) { return contact.pierced; });
+  return containment_of(VertexSides(a, shape_a, shape_b, solids.b),
+                        VertexSides(b, shape_b, shape_a, solids.a), is_pierced);
+}
+
 }  // namespace graze::oracle

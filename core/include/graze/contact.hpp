@@ -51,7 +51,9 @@ enum class Side : std::uint8_t {
 };
 
 /// Says of a pair with a solid whether one object is inside the other. A vertex is inside a solid where the
-/// solid's winding number about it is not 0, which is decided exactly. On the surface it is not inside.
+/// solid's winding number about it is not 0, which is decided exactly. On the surface it is not inside. Only
+/// what pierces depends on groups of faces that are ignored: an edge and a face that are not looked at
+/// against each other do not count.
 enum class Inside : std::uint8_t {
   none,      ///< No vertex of one is inside the other's solid, and nothing pierces. Or neither is a solid.
   a_in_b,    ///< All vertices of a are inside b, and nothing pierces.
@@ -77,8 +79,9 @@ enum class ContactDetail : std::uint8_t {
   features,
   /// The closest point on the other surface of each vertex that is nearer to it than the threshold. Exact
   /// ties go to the smallest kind, then feature. Every pair of edges of `features` that is locally closest is
-  /// listed too, and every edge that pierces a face. There are fewer contacts than in `features`, and enough
-  /// to push objects apart. Distances are between surfaces.
+  /// listed too, and every edge that pierces a face. Where none of these is below the threshold or pierces,
+  /// but the fold of a quad is, the nearest such contact of `features` is listed. There are fewer contacts
+  /// than in `features`, and enough to push objects apart. Distances are between surfaces.
   ///
   /// Two edges are locally closest if, on no face beside either of them, the way from the closest point,
   /// square to the edge, leads nearer to the other point. Edges that cross are.
@@ -103,7 +106,8 @@ template <typename IsBehindA, typename IsBehindB>
 struct Contact {
   /// In whose relative interiors the two points lie.
   ContactKind kind = ContactKind::VV;
-  /// The side of the surface of object a on which #point_b lies.
+  /// The side of the surface of object a on which #point_b lies. It is `none` at distance 0, but for an edge
+  /// that pierces a face of a; see push().
   Side side_a = Side::none;
   /// The side of the surface of object b on which #point_a lies.
   Side side_b = Side::none;
@@ -119,7 +123,8 @@ struct Contact {
   ///
   /// At distance 0 it is the first of these that exists: the face normal of a by its winding, or minus the
   /// face normal of b. For EE it is the cross product of the edges, with the sign that agrees with the
-  /// averaged vertex normal of a. Otherwise it is the averaged normal of a, or minus that of b, or +z.
+  /// averaged normals of the two vertices of a. Otherwise it is the averaged normal of a, or minus that of b,
+  /// or +z. A quad that is not flat has the normal of the triangle that holds the point.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   /// The distance of the two points, as in real arithmetic and then rounded. It may equal the threshold by
   /// rounding. Its absolute error is at most 2^-48 times the size of the two features plus their gap.
@@ -130,12 +135,18 @@ struct Contact {
 
   /// Returns the #distance with a sign: negative if the contact's vertex lies behind the surface of the other
   /// object, that is, if its side there is Side::back. Without a vertex it is negative if both sides are
-  /// `back`, and of two vertices if either side is. An edge that pierces a face has separation 0.
+  /// `back`, and of two vertices if either side is. An edge that pierces a face has separation 0. Where a
+  /// side is `none` at a distance above 0, nothing says that the point lies behind.
   [[nodiscard]] double separation() const { return is_behind() ? -distance : distance; }
   /// Returns the direction, of length 1, along which b is moved relative to a to make separation() grow. It
-  /// is #normal, or its opposite if the separation is negative. Where an edge pierces a face it is the normal
-  /// of the face by its winding if the face is a's, and its opposite if the face is b's.
-  [[nodiscard]] Eigen::Vector3d push() const { return is_behind() ? Eigen::Vector3d(-normal) : normal; }
+  /// is #normal, or its opposite if the separation is negative.
+  ///
+  /// Where an edge pierces a face it is the normal of the face by its winding if the face is a's, and its
+  /// opposite if the face is b's. With ContactDetail::nearest it leads out of a solid, also if that is wound
+  /// inside out: the side of the pierced object is `back` then, and turns it.
+  [[nodiscard]] Eigen::Vector3d push() const {
+    return is_behind() || leads_in() ? Eigen::Vector3d(-normal) : normal;
+  }
 
  private:
   /// At distance 0 nothing is behind, so that no separation is -0.
@@ -143,6 +154,11 @@ struct Contact {
     return distance != 0 && has_negative_separation(
                                 feature_a.kind, feature_b.kind, [&] { return side_a == Side::back; },
                                 [&] { return side_b == Side::back; });
+  }
+  /// Whether the normal of a face that an edge pierces leads into its solid.
+  [[nodiscard]] bool leads_in() const {
+    if (distance != 0 || kind != ContactKind::EF) return false;
+    return (feature_a.kind == FeatureKind::face ? side_a : side_b) == Side::back;
   }
 };
 

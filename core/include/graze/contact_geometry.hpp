@@ -59,12 +59,12 @@ struct ContactGeometry {
 /// so between two steps, or in a line search.
 ///
 /// The positions are those of the vertices of each mesh. The features may be any two features of the meshes.
-/// The points are the closest ones of the two features. An edge that pierces a face has distance 0. Where an
-/// edge or a face is closest to the inner diagonal of a quad, as in a contact of kind EF or FF, these are the
-/// points, although others may be nearer.
+/// The points are the closest ones of the two features. An edge that pierces a face has distance 0. Whether
+/// it does is decided exactly, as for a report: not at the border of the face. Where an edge or a face is
+/// closest to the inner diagonal of a quad, these are the points, although others may be nearer.
 ///
-/// The call computes in double, so the sign of a separation near 0 is that of rounded numbers. It takes no
-/// memory, but for the first call for edges or vertices of a mesh for which no step has needed their
+/// The rest is computed in double, so the sign of a separation near 0 is that of rounded numbers. The call
+/// takes no memory, but for the first call for edges or vertices of a mesh for which no step has needed their
 /// neighbours. Any thread may make it. The positions of the features have to be finite: with others the
 /// answer means nothing. Throws Error if a mesh has no such feature, if the number of positions is not its
 /// number of vertices, or if they are null memory.

@@ -1,5 +1,7 @@
 #include "closest_features/piercing.hpp"
 
+#include <array>
+
 #include "arithmetic/certain.hpp"
 
 namespace graze {
@@ -59,40 +61,45 @@ Passing passing_of(const Surface& surface, const FeaturePiece& segment, const Su
 
 }  // namespace
 
+std::optional<Piece> pierced_triangle(const Simplex& segment, std::span<const Simplex> triangles,
+                                      bool has_fold, DecisionCount& count) {
+  const auto crosses = [&](const Simplex& triangle, std::size_t fold_side) {
+    if (share_a_corner(segment, triangle)) return false;
+    const Passing passing = certain_passing({segment.point[0], segment.point[1]}, triangle.point);
+    if (passing != Passing::unsure) {
+      ++count.in_double;
+      return passing == Passing::yes;
+    }
+    return crossing(segment, triangle, has_fold ? fold_side : 3, count) != Crossing::none;
+  };
+  // The fold is side 2-0 of the first triangle and side 0-1 of the second.
+  const bool first = crosses(triangles[0], 2);
+  const bool second = triangles.size() == 2 && crosses(triangles[1], 0);
+  if (!first && !second) return std::nullopt;
+  if (!second) return Piece::first;
+  if (!first) return Piece::second;
+  const int order = decide(count, [&]<typename Number>(bool& unsure) {
+    return compare(crossing_parameter<Number>(segment, triangles[0], unsure),
+                   crossing_parameter<Number>(segment, triangles[1], unsure), unsure);
+  });
+  return order <= 0 ? Piece::first : Piece::second;
+}
+
 std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeaturePiece& segment,
                                           const Surface& other, std::uint32_t face, DecisionCount& count) {
   if (const Passing passing = passing_of(surface, segment, other, face); passing != Passing::unsure) {
     ++count.in_double;
     return passing == Passing::yes ? std::optional(face_piece(face, Piece::first)) : std::nullopt;
   }
-  const Simplex ends = simplex_of(surface, segment);
   const bool is_quad = triangle_count(other.mesh(), face) == 2;
+  std::array<Simplex, 2> triangles;
+  triangles[0] = simplex_of(other, face_piece(face, Piece::first));
+  if (is_quad) triangles[1] = simplex_of(other, face_piece(face, Piece::second));
   const bool has_fold = is_quad && diagonal_of(other.mesh(), face).feature.kind == FeatureKind::face;
-  const auto cross_triangle = [&](Piece piece, std::size_t open_side) {
-    const Simplex triangle = simplex_of(other, face_piece(face, piece));
-    if (share_a_corner(ends, triangle)) return Crossing::none;
-    const bool was_asked = !is_quad && segment.feature.kind == FeatureKind::edge;
-    const Passing passing =
-        was_asked ? Passing::unsure : certain_passing({ends.point[0], ends.point[1]}, triangle.point);
-    if (passing != Passing::unsure) {
-      ++count.in_double;
-      return passing == Passing::yes ? Crossing::inside : Crossing::none;
-    }
-    return crossing(ends, triangle, open_side, count);
-  };
-  // The fold is side 2-0 of the first triangle and side 0-1 of the second.
-  const bool first = cross_triangle(Piece::first, has_fold ? 2 : 3) != Crossing::none;
-  const bool second = is_quad && cross_triangle(Piece::second, has_fold ? 0 : 3) != Crossing::none;
-  if (!first && !second) return std::nullopt;
-  if (!second) return face_piece(face, Piece::first);
-  if (!first) return face_piece(face, Piece::second);
-  const Simplex first_triangle = simplex_of(other, face_piece(face, Piece::first));
-  const Simplex second_triangle = simplex_of(other, face_piece(face, Piece::second));
-  const int order = decide(count, [&]<typename Number>(bool& unsure) {
-    return compare(crossing_parameter<Number>(ends, first_triangle, unsure),
-                   crossing_parameter<Number>(ends, second_triangle, unsure), unsure);
-  });
-  return face_piece(face, order <= 0 ? Piece::first : Piece::second);
+  const auto piece = pierced_triangle(simplex_of(surface, segment),
+                                      std::span(triangles).first(is_quad ? 2 : 1), has_fold, count);
+  if (!piece) return std::nullopt;
+  return face_piece(face, *piece);
 }
 
 }  // namespace graze

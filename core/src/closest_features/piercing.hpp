@@ -1,16 +1,21 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "closest_features/closest_features.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {
 
-/// The piece of a face that a segment (an edge or fold of the other surface) passes through; nothing where
-/// there is none. The segment's ends lie strictly on opposite sides of a triangle's plane, and the crossing
-/// is inside the face, a quad's fold included. Where a bent quad is pierced twice, the crossing nearer the
-/// segment's first vertex counts.
+/// The triangle of a face, one of its one or two, that a segment passes through; nothing where there is none.
+/// The segment's ends lie strictly on opposite sides of the triangle's plane, and the crossing is inside the
+/// face. That is so at the side where two triangles meet, if it is a fold. Where a bent quad is pierced
+/// twice, the crossing nearer the segment's first point counts.
+std::optional<Piece> pierced_triangle(const Simplex& segment, std::span<const Simplex> triangles,
+                                      bool has_fold, DecisionCount& count);
+
+/// The same of an edge or fold of a surface and a face of the other.
 std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeaturePiece& segment,
                                           const Surface& other, std::uint32_t face, DecisionCount& count);
 

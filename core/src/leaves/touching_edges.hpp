@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -29,6 +30,12 @@ struct TouchingEdges {
     of_a.insert(of_a.end(), other.of_a.begin(), other.of_a.end());
     of_b.insert(of_b.end(), other.of_b.begin(), other.of_b.end());
     pierced = pierced || other.pierced;
+  }
+  /// Makes room for this many edges of each surface ahead of time; SceneCapacity states it.
+  static constexpr std::size_t reserved = 8192;
+  void reserve() {
+    of_a.reserve(reserved);
+    of_b.reserve(reserved);
   }
   template <typename Self>
   static auto parts(Self& self) {

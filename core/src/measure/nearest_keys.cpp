@@ -2,14 +2,22 @@
 
 #include <algorithm>
 
+#include "base/working_memory.hpp"
 #include "core/base/bytes_of.hpp"
 #include "core/base/growth_policy.hpp"
+#include "core/mesh/pair_room.hpp"
+#include "core/pair/contact_rank.hpp"
 
 namespace graze {
 namespace {
 
 /// The least number of contacts gathered beyond those to keep, before the nearest are chosen.
 constexpr std::size_t least_to_spare = 1024;
+
+/// How many contacts are gathered until the nearest are chosen.
+std::size_t room_for(std::size_t most) {
+  return most + std::max(most, least_to_spare);
+}
 
 /// More than the rounding of reported distances of two surfaces.
 double rounding_of(const SurfacePair& pair, double distance) {
@@ -20,8 +28,9 @@ double rounding_of(const SurfacePair& pair, double distance) {
 
 }  // namespace
 
-void NearestKeys::begin(std::size_t most) {
+void NearestKeys::begin(std::size_t most, ContactDetail detail) {
   most_ = most;
+  detail_ = detail;
   found_.clear();
   limit_ = least_ = std::numeric_limits<double>::infinity();
   is_cut_ = false;
@@ -29,6 +38,7 @@ void NearestKeys::begin(std::size_t most) {
 }
 
 double NearestKeys::limit(const SurfacePair& pair) {
+  if (detail_ == ContactDetail::nearest) return std::numeric_limits<double>::infinity();
   const std::lock_guard lock(mutex_);
   return limit_ + rounding_of(pair, limit_);
 }
@@ -41,13 +51,13 @@ void NearestKeys::add(const SurfacePair& pair, std::span<const FeaturePairKey> k
   for (const Contact& contact : scratch.contacts) least_ = std::min(least_, contact.distance);
   const double may_be_nearest = least_ + rounding_of(pair, least_);
   ClosestSet nearest(pair, Ties::lowest, nearest_);
-  const std::size_t room = most_ + std::max(most_, least_to_spare);
+  const std::size_t room = room_for(most_);
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    const double distance = scratch.contacts[i].distance;
-    if (distance <= may_be_nearest) nearest.offer(keys[i]);
-    if (distance > limit_) continue;
+    if (scratch.contacts[i].distance <= may_be_nearest) nearest.offer(keys[i]);
+    const double rank = contact_rank(detail_, scratch.contacts[i]);
+    if (rank > limit_) continue;
     if (found_.size() == room) keep_nearest(pair);
-    if (distance <= limit_) found_.push_back({distance, keys[i]});
+    if (rank <= limit_) found_.push_back({rank, keys[i]});
   }
 }
 
@@ -57,9 +67,9 @@ void NearestKeys::keep_nearest(const SurfacePair& pair) {
   is_cut_ = true;
   const auto last = found_.begin() + static_cast<std::ptrdiff_t>(most_) - 1;
   std::nth_element(found_.begin(), last, found_.end(), [](const Found& left, const Found& right) {
-    return left.distance != right.distance ? left.distance < right.distance : left.key < right.key;
+    return left.rank != right.rank ? left.rank < right.rank : left.key < right.key;
   });
-  limit_ = last->distance;
+  limit_ = last->rank;
   found_.erase(last + 1, found_.end());
 }
 
@@ -89,8 +99,16 @@ void NearestKeys::finish(const SurfacePair& pair, std::vector<FeaturePairKey>& k
   if (!nearest_.keys.empty()) nearest.keys.assign(nearest_.keys.front());
 }
 
+void NearestKeys::reserve(std::size_t most, std::size_t keys) {
+  found_.reserve(std::min(keys, room_for(most)));
+  PairRoom of_lowest;
+  of_lowest.ties = 1;
+  graze::reserve(nearest_, of_lowest);
+}
+
 void NearestKeys::reserve_as(const NearestKeys& other) {
   found_.reserve(other.found_.capacity());
+  graze::reserve_as(nearest_, other.nearest_);
 }
 
 std::size_t NearestKeys::byte_count() const {

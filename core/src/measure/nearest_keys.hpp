@@ -22,25 +22,27 @@ struct NearestKeysScratch {
   static auto parts(Self& self) {
     return std::tie(self.contacts);
   }
-  void reserve(const PairRoom& /*room*/) {}  // where there is a limit, memory is taken when it is met
+  void reserve(const PairRoom& /*room*/) {}  // by PairDetector::reserve_for_limit, if there is one
 };
 
-/// Keeps the nearest contacts of a pair of surfaces, so many at most. They may come in any order and several
-/// times. They are compared by the distance as it is reported, and at equal distance by their keys. The
-/// result depends neither on the order nor on the thread that a contact comes from.
+/// Keeps the contacts of lowest rank of a pair of surfaces, so many at most: the nearest, or with
+/// ContactDetail::nearest the deepest. They may come in any order and several times. They are compared by
+/// their `contact_rank` as they are reported, and at equal rank by their keys. The result depends neither on
+/// the order nor on the thread that a contact comes from.
 ///
-/// The nearest key of a pair of features stands for all its keys, as in `keep_nearest_of_each`. A key that is
-/// further than as many others as are kept stays out whatever comes later. So do all that are further than
+/// The nearest key of a pair of features stands for all its keys, as in `keep_nearest_of_each`. A key that
+/// has a higher rank than as many others as are kept stays out whatever comes later. So do all that are above
 /// it, and dropping it at once loses nothing.
 class NearestKeys {
  public:
   /// Forgets all; of the next pair at most so many are kept, at least one.
-  void begin(std::size_t most);
+  void begin(std::size_t most, ContactDetail detail);
   /// Takes sorted keys, each once, of each pair of features the nearest. Any number of threads at once.
   void add(const SurfacePair& pair, std::span<const FeaturePairKey> keys, MeasureScratch& measure,
            NearestKeysScratch& scratch);
   /// The distance from which on contacts are not kept. It is a little more than that of the furthest one
-  /// kept, by as much as reported distances are rounded. Any thread may ask; it shrinks meanwhile.
+  /// kept, by as much as reported distances are rounded. It is infinite where the deepest are kept, which may
+  /// be far. Any thread may ask; it shrinks meanwhile.
   [[nodiscard]] double limit(const SurfacePair& pair);
 
   // When all have been added:
@@ -51,12 +53,14 @@ class NearestKeys {
   /// one, into `nearest`. It need not be among the first of those that are reported to be as near.
   void finish(const SurfacePair& pair, std::vector<FeaturePairKey>& keys, Closest& nearest);
 
+  /// Makes room for pairs of so many keys, of which at most `most` are kept.
+  void reserve(std::size_t most, std::size_t keys);
   void reserve_as(const NearestKeys& other);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   struct Found {
-    double distance;
+    double rank;
     FeaturePairKey key;
   };
   void keep_nearest(const SurfacePair& pair);
@@ -64,8 +68,9 @@ class NearestKeys {
 
   std::mutex mutex_;  ///< guards all that follows while keys are added
   std::size_t most_ = 0;
-  std::vector<Found> found_;  ///< up to twice as many as are kept
-  double limit_ = std::numeric_limits<double>::infinity();
+  ContactDetail detail_ = ContactDetail::features;
+  std::vector<Found> found_;                                ///< up to twice as many as are kept
+  double limit_ = std::numeric_limits<double>::infinity();  ///< contacts of a higher rank are left out
   bool is_cut_ = false;
   Closest nearest_;
   double least_ = std::numeric_limits<double>::infinity();  ///< of the distances as reported

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "arithmetic/arithmetic.hpp"
+#include "core/base/floating_point_scope.hpp"
 
 namespace graze {
 namespace {
@@ -40,6 +41,7 @@ bool is_flipped(const Mesh& mesh, std::uint32_t edge) {
 }  // namespace
 
 MeshOddities find_oddities(const Mesh& mesh) {
+  const FloatingPointScope scope;
   MeshOddities odd;
   std::map<std::vector<std::uint32_t>, std::uint32_t> seen_faces;
   for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {

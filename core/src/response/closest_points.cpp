@@ -39,20 +39,6 @@ std::optional<ClosestPoints> closest_of_parallels(const Segment& a, const Segmen
   return ClosestPoints{point, other.point, other.point - point, true};
 }
 
-/// The point in which a segment passes through the inside of a triangle.
-std::optional<Eigen::Vector3d> piercing_point(const Segment& segment, const TrianglePoints& triangle) {
-  const Eigen::Vector3d normal = area_normal(triangle);
-  const double start = normal.dot(segment[0] - triangle[0]);
-  const double end = normal.dot(segment[1] - triangle[0]);
-  if (!((start < 0 && end > 0) || (start > 0 && end < 0))) return std::nullopt;
-  const Eigen::Vector3d point = segment[0] + (segment[1] - segment[0]) * (start / (start - end));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& from = triangle[i];
-    if (!(normal.dot((triangle[(i + 1) % 3] - from).cross(point - from)) > 0)) return std::nullopt;
-  }
-  return point;
-}
-
 }  // namespace
 
 TrianglePoint closest_on_sides(const Eigen::Vector3d& point, const TrianglePoints& triangle) {
@@ -78,8 +64,6 @@ ClosestPoints closest_of_ends(const Segment& a, const Segment& b, bool are_paral
 }
 
 ClosestPoints closest_of_segment_and_triangle(const Segment& segment, const TrianglePoints& triangle) {
-  if (const auto point = piercing_point(segment, triangle))
-    return {*point, *point, Eigen::Vector3d::Zero(), true};
   Nearest nearest;
   for (const Eigen::Vector3d& end : segment) nearest.offer(end, end - closest_on_triangle(end, triangle).gap);
   for (std::size_t i = 0; i < 3; ++i) {

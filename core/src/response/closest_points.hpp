@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 
 #include "response/feature_points.hpp"
@@ -75,9 +76,10 @@ struct ClosestPoints {
   Eigen::Vector3d b;
   Eigen::Vector3d gap;  ///< b - a, but with a true direction where rounding leaves none in the difference
   bool are_interior;
+  std::int8_t pierced_triangle = -1;  ///< of the face that an edge pierces, or -1
   double height = 0;  ///< of a vertex and a triangle: that of TrianglePoint, which spares a second normal
 
-  [[nodiscard]] ClosestPoints swapped() const { return {b, a, -gap, are_interior, height}; }
+  [[nodiscard]] ClosestPoints swapped() const { return {b, a, -gap, are_interior, pierced_triangle, height}; }
 };
 
 /// Finds the closest points of segments that are parallel, or that are not closest inside both.
@@ -100,8 +102,8 @@ inline ClosestPoints closest_of_segments(const Segment& a, const Segment& b) {
           true};
 }
 
-/// Finds the closest points of a segment and a triangle. They are interior where the segment pierces the
-/// triangle. Both points are one then, and the gap is zero.
+/// Finds the closest points of a segment and a triangle that it does not pierce. One of them is not inside
+/// its simplex.
 ClosestPoints closest_of_segment_and_triangle(const Segment& segment, const TrianglePoints& triangle);
 
 }  // namespace graze

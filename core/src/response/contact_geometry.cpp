@@ -1,8 +1,15 @@
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <graze/contact_geometry.hpp>
 #include <optional>
+#include <span>
 
+#include "closest_features/piercing.hpp"
+#include "core/base/floating_point_scope.hpp"
+#include "core/surface/surface.hpp"
 #include "response/closest_points.hpp"
 #include "response/feature_normals.hpp"
 #include "response/feature_points.hpp"
@@ -48,7 +55,7 @@ ClosestPoints closest_to_face(const Eigen::Vector3d& point, const PlacedFeature&
     if (second.gap.squaredNorm() < best.gap.squaredNorm()) best = second;
     is_interior = best.part == TrianglePart::inside || is_on_fold;
   }
-  return {point, point - best.gap, -best.gap, is_interior, best.height};
+  return {point, point - best.gap, -best.gap, is_interior, -1, best.height};
 }
 
 /// Whether points serve better as the closest ones of two features.
@@ -57,17 +64,57 @@ bool is_better(const ClosestPoints& found, const ClosestPoints& best) {
   return found.gap.squaredNorm() < best.gap.squaredNorm();
 }
 
+/// The triangle of a face that a segment passes through, or -1, decided exactly as in reports. It asks plain
+/// double first. Coordinates that no report has are not decided.
+std::int8_t pierced_triangle_of(const Segment& segment, const PlacedFeature& face) {
+  std::array<Simplex, 2> triangles{Simplex{3, {}, face.triangle(0)}};
+  if (face.is_quad()) triangles[1] = {3, {}, face.triangle(1)};
+  const auto some = std::span(triangles).first(face.is_quad() ? 2 : 1);
+  std::int8_t passed = -1;
+  bool is_sure = true;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const Passing passing = certain_passing(segment, some[i].point);
+    is_sure = is_sure && passing != Passing::unsure && (passing == Passing::no || passed < 0);
+    if (passing == Passing::yes) passed = static_cast<std::int8_t>(i);
+  }
+  if (is_sure) return passed;
+  const auto is_good = [](const Eigen::Vector3d& point) { return Surface::is_within_limits(point); };
+  if (!std::all_of(segment.begin(), segment.end(), is_good)) return -1;
+  for (const Simplex& triangle : some)
+    if (!std::all_of(triangle.point.begin(), triangle.point.end(), is_good)) return -1;
+  const FloatingPointScope scope;
+  DecisionCount count;
+  const bool has_fold =
+      face.is_quad() && diagonal_of(face.placed.mesh, face.feature.index).feature.kind == FeatureKind::face;
+  const auto pierced = pierced_triangle({2, {}, {segment[0], segment[1]}}, some, has_fold, count);
+  if (!pierced) return -1;
+  return *pierced == Piece::first ? 0 : 1;
+}
+
+/// Where a segment passes through the inside of a face. The point is rounded.
+std::optional<ClosestPoints> piercing(const Segment& segment, const PlacedFeature& face) {
+  const std::int8_t which = pierced_triangle_of(segment, face);
+  if (which < 0) return std::nullopt;
+  const TrianglePoints triangle = face.triangle(static_cast<std::size_t>(which));
+  const Eigen::Vector3d normal = area_normal(triangle);
+  const double start = normal.dot(segment[0] - triangle[0]);
+  const double end = normal.dot(segment[1] - triangle[0]);
+  // Near 0 these are what rounding leaves.
+  const double way = start == end ? 0.5 : std::clamp(start / (start - end), 0.0, 1.0);
+  const Eigen::Vector3d point = segment[0] + (segment[1] - segment[0]) * way;
+  return ClosestPoints{point, point, Eigen::Vector3d::Zero(), true, which};
+}
+
 /// Points inside both come before nearer ones that are not: first where the segment pierces the face, then
 /// where it is closest to the inner diagonal.
 ClosestPoints closest_to_face(const Segment& segment, const PlacedFeature& face) {
-  ClosestPoints best = closest_of_segment_and_triangle(segment, face.triangle(0));
-  if (!face.is_quad() || best.are_interior) return best;
-  const ClosestPoints second = closest_of_segment_and_triangle(segment, face.triangle(1));
-  if (is_better(second, best)) best = second;
-  if (best.are_interior) return best;
+  if (const auto pierced = piercing(segment, face)) return *pierced;
+  const ClosestPoints first = closest_of_segment_and_triangle(segment, face.triangle(0));
+  if (!face.is_quad()) return first;
   const ClosestPoints fold = closest_of_segments(segment, face.diagonal());
-  if (fold.are_interior) best = fold;
-  return best;
+  if (fold.are_interior) return fold;
+  const ClosestPoints second = closest_of_segment_and_triangle(segment, face.triangle(1));
+  return is_better(second, first) ? second : first;
 }
 
 /// One of the closest points of two faces is on an edge or on an inner diagonal.
@@ -77,6 +124,7 @@ ClosestPoints closest_of_faces(const PlacedFeature& a, const PlacedFeature& b) {
     const auto offer = [&](const Segment& segment, bool is_inside) {
       ClosestPoints found = closest_to_face(segment, to);
       found.are_interior = found.are_interior && is_inside;
+      found.pierced_triangle = -1;
       if (!best || is_better(found, *best)) best = is_swapped ? found.swapped() : found;
     };
     if (of.is_quad()) offer(of.diagonal(), true);
@@ -103,8 +151,13 @@ ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
 /// The rule of Contact::normal for distance 0, in plain double.
 Eigen::Vector3d touching_normal(const PlacedFeature& a, const PlacedFeature& b, const ClosestPoints& at) {
   const auto exists = [](const Eigen::Vector3d& normal) { return normal.norm() > 0x1p-40; };
-  const Eigen::Vector3d of_a = a.normal_at(at.a);
-  const Eigen::Vector3d of_b = b.normal_at(at.b);
+  const auto normal_of = [&](const PlacedFeature& of, const Eigen::Vector3d& point) {
+    const bool is_pierced = of.is(FeatureKind::face) && at.pierced_triangle >= 0;
+    return is_pierced ? unit_normal(of.triangle(static_cast<std::size_t>(at.pierced_triangle)))
+                      : of.normal_at(point);
+  };
+  const Eigen::Vector3d of_a = normal_of(a, at.a);
+  const Eigen::Vector3d of_b = normal_of(b, at.b);
   if (a.is(FeatureKind::face) && exists(of_a)) return of_a.normalized();
   if (b.is(FeatureKind::face) && exists(of_b)) return -of_b.normalized();
   if (a.is(FeatureKind::edge) && b.is(FeatureKind::edge)) {

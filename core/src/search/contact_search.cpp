@@ -22,7 +22,8 @@ constexpr std::chrono::nanoseconds to_find_one{5};
 
 /// Uses the near list of an earlier query where it still has all that can be in contact.
 SearchProgress ContactSearch::begin(SearchWorker& worker) {
-  if (is_limited()) nearest_keys_.begin(pair_.query.contact_limit);
+  if (is_limited()) nearest_keys_.begin(pair_.query.contact_limit, pair_.query.detail);
+  lowest_.reset();
   list_slack_ = 0;
   touching_.clear();
   fold_.reset();
@@ -115,6 +116,16 @@ void ContactSearch::reserve(const PairRoom& room) {
   for (auto* const keys : {&keys_, &first.keys}) keys->reserve(keys_of_contact * room.contacts);
   first.near.reserve(keys_of_contact * room.contacts);
   stretches_.reserve(1);
+}
+
+/// The slice of a pair that is not cut is there, since `reserve` was called before.
+void ContactSearch::reserve_for_solids() {
+  slices_.first().contacts.touching.reserve();
+  touching_.reserve();
+}
+
+void ContactSearch::reserve_for_limit(std::size_t most, const PairRoom& room) {
+  nearest_keys_.reserve(most, keys_of_contact * room.contacts);
 }
 
 std::size_t ContactSearch::byte_count() const {

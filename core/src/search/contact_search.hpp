@@ -16,6 +16,7 @@
 #include "search/search_slices.hpp"
 #include "search/search_worker.hpp"
 #include "search/searched_pair.hpp"
+#include "search/solid_search.hpp"
 #include "vertices/near_vertices.hpp"
 
 namespace graze {
@@ -46,6 +47,8 @@ class ContactSearch {
   void make_room_until_deadline(SearchWorker& worker);
   void reserve_as(const ContactSearch& other);
   void reserve(const PairRoom& room);
+  void reserve_for_solids();
+  void reserve_for_limit(std::size_t most, const PairRoom& room);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
@@ -108,10 +111,12 @@ class ContactSearch {
 
   // A limit of contacts. Slices hand their keys over to one list of the nearest:
   [[nodiscard]] bool is_limited() const { return pair_.query.contact_limit > 0; }
+  [[nodiscard]] bool is_limited_later() const { return is_limited() && SolidSearch::chooses(pair_.query); }
   [[nodiscard]] double threshold_now(SearchWorker& worker);
   void hand_over(SearchSlice& slice, SearchWorker& worker);
   void hand_over_if_many(SearchSlice& slice, SearchWorker& worker);
   SearchProgress finish_nearest(SearchWorker& worker);
+  void add_keys_of_vertices(SearchWorker& worker);
 
   // Sorted keys, and contacts:
   void bin_keys(SearchSlice& slice, SearchWorker& worker);
@@ -139,7 +144,7 @@ class ContactSearch {
   std::optional<NearKey> fold_;  ///< the nearest where one feature is a fold, for `ContactDetail::nearest`
   std::vector<FeaturePairKey> keys_;
   NearestKeys nearest_keys_;                           ///< of all slices, where contacts are limited
-  FeaturePairKey lowest_;                              ///< the nearest of all, where contacts are limited
+  std::optional<FeaturePairKey> lowest_;               ///< the nearest of all, where contacts are limited
   std::vector<Stretch> stretches_;                     ///< of `keys_`
   std::vector<std::span<const FeaturePairKey>> runs_;  ///< of the slices' keys, by bins
 };

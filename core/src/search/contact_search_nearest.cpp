@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "leaves/nearest_features.hpp"
+#include "measure/measure.hpp"
 #include "search/contact_search.hpp"
 
 namespace graze {
@@ -47,11 +48,11 @@ void ContactSearch::find_nearest_fold(SearchWorker& worker) {
   }
 }
 
-/// Answers for surfaces in contact at a fold alone: there is no contact to list.
+/// Answers for surfaces in contact at a fold alone: it is the one contact then.
 SearchProgress ContactSearch::finish_at_fold(SearchWorker& worker) {
   set_distance(*pair_.answer, worker.pair, fold_->key);
   pair_.answer->in_contact = pair_.answer->listed = true;
-  pair_.answer->contacts.clear();
+  pair_.answer->contacts.assign(1, measure(worker.pair, fold_->key));
   return SearchProgress::answered;
 }
 

@@ -53,14 +53,16 @@ void PairSearch::next_stage(SearchWorker& worker) {
   if (progress == SearchProgress::answered) phase_ = Phase::done;
 }
 
-/// Completes an answer about a pair with a solid.
+/// Completes an answer about a pair with a solid. Where it asks for the closest points, these may be known at
+/// once. Then it completes the new answer, which lists the pair, so that it does not ask again.
 SearchProgress PairSearch::complete_solids(SearchWorker& worker) {
   const TouchingEdges* touching = contacts_.touching();
   if (touching == nullptr && phase_ == Phase::closest) touching = closest_.touching();
   const SearchProgress progress = SolidSearch(pair_, worker, touching).complete();
   if (progress != SearchProgress::no_contact) return progress;
   phase_ = Phase::closest;
-  return closest_.begin(worker);
+  const SearchProgress again = closest_.begin(worker);
+  return again == SearchProgress::answered ? complete_solids(worker) : again;
 }
 
 /// Puts the results of the stage together, and begins the next.

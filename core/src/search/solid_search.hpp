@@ -11,7 +11,8 @@
 namespace graze {
 
 /// Completes the answer about a pair with a solid, on one thread: which vertices of one object are inside the
-/// other, the contacts of `ContactDetail::nearest` there, and the sides of its contacts.
+/// other, the contacts of `ContactDetail::nearest` there, the sides of its contacts, and which of these are
+/// kept where their number is limited.
 class SolidSearch {
  public:
   /// `touching` lists the edges that touch. It is null where the search has not found them; then they are
@@ -19,6 +20,10 @@ class SolidSearch {
   SolidSearch(SearchedPair& pair, SearchWorker& worker, const TouchingEdges* touching)
       : pair_(pair), worker_(worker), scratch_(worker.scratch.solid), touching_(touching) {}
 
+  /// Whether it chooses the contacts that are kept. How deep vertices are is not known before.
+  [[nodiscard]] static bool chooses(const PairQuery& query) {
+    return query.has_solid() && query.detail == ContactDetail::nearest;
+  }
   /// Makes the reach infinite if something is inside, of surfaces that are no nearer than the threshold. What
   /// is inside is in contact, and needs a distance. Returns false if the budget is spent.
   [[nodiscard]] bool widen_reach();
@@ -32,13 +37,16 @@ class SolidSearch {
   [[nodiscard]] bool knows_inside() const;
   void repeat_inside();
   [[nodiscard]] bool find_touching(double apart);
+  [[nodiscard]] bool pierces_where_looked_at() const;
   [[nodiscard]] Inside state(bool pierced) const;
   void remember_inside(double apart) const;
   void add_contacts_inside();
   void list_keys_inside();
-  void keep_nearest(std::size_t most);
   void merge_contacts();
   void set_sides() const;
+  void turn_pushes() const;
+  [[nodiscard]] bool leads_in(const Contact& contact) const;
+  void keep_deepest();
 
   SearchedPair& pair_;
   SearchWorker& worker_;

@@ -6,10 +6,13 @@
 #include <span>
 #include <tuple>
 
+#include "closest_features/piercing.hpp"
 #include "core/base/growth_policy.hpp"
+#include "core/pair/contact_rank.hpp"
 #include "measure/measure_batch.hpp"
 #include "search/solid_search.hpp"
 #include "solid/nearest_on_surface.hpp"
+#include "solid/point_in_solid.hpp"
 
 namespace graze {
 namespace {
@@ -19,8 +22,10 @@ auto key_of(const Contact& contact) {
 }
 
 /// The order in which contacts of a limited answer are kept.
-bool is_nearer(const Contact& left, const Contact& right) {
-  return left.distance != right.distance ? left.distance < right.distance : key_of(left) < key_of(right);
+bool is_kept_before(const Contact& left, const Contact& right) {
+  const double rank_left = contact_rank(ContactDetail::nearest, left);
+  const double rank_right = contact_rank(ContactDetail::nearest, right);
+  return rank_left != rank_right ? rank_left < rank_right : key_of(left) < key_of(right);
 }
 
 }  // namespace
@@ -28,14 +33,10 @@ bool is_nearer(const Contact& left, const Contact& right) {
 /// Adds a contact for each vertex inside that is further from the surface than the threshold. The others have
 /// one already.
 void SolidSearch::add_contacts_inside() {
-  PairAnswer& answer = *pair_.answer;
-  if (!has_some() || answer.cut) return;  // what a cut answer keeps is nearer
+  if (!has_some()) return;
   list_keys_inside();
   resize_to_overwrite(scratch_.contacts, scratch_.keys.size());
   measure(worker_.pair, scratch_.keys, scratch_.contacts, worker_.scratch.measure);
-  const std::size_t limit = pair_.query.contact_limit;
-  if (limit > 0 && answer.contacts.size() + scratch_.contacts.size() > limit)
-    keep_nearest(limit - answer.contacts.size());
   merge_contacts();
 }
 
@@ -55,16 +56,6 @@ void SolidSearch::list_keys_inside() {
   add_all(false, scratch_.b_in_a.inside());
   std::sort(scratch_.keys.begin(), scratch_.keys.end());
   scratch_.keys.erase(std::unique(scratch_.keys.begin(), scratch_.keys.end()), scratch_.keys.end());
-}
-
-void SolidSearch::keep_nearest(std::size_t most) {
-  auto& contacts = scratch_.contacts;
-  pair_.answer->cut = true;
-  const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(most);
-  std::nth_element(contacts.begin(), end, contacts.end(), is_nearer);
-  contacts.erase(end, contacts.end());
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& left, const Contact& right) { return key_of(left) < key_of(right); });
 }
 
 /// Merges the contacts inside into the answer's, from the back, in place.
@@ -88,6 +79,50 @@ void SolidSearch::set_sides() const {
     if (pair_.query.b_is_solid && contact.feature_a.kind == FeatureKind::vertex)
       contact.side_b = scratch_.a_in_b.side_of(contact.feature_a.index);
   }
+}
+
+/// Marks the contacts of edges that pierce a solid's face whose normal leads into the solid.
+void SolidSearch::turn_pushes() const {
+  for (Contact& contact : pair_.answer->contacts) {
+    if (contact.kind != ContactKind::EF || contact.distance != 0) continue;
+    const bool is_face_of_a = contact.feature_a.kind == FeatureKind::face;
+    const bool is_of_solid = is_face_of_a ? pair_.query.a_is_solid : pair_.query.b_is_solid;
+    if (is_of_solid && leads_in(contact)) (is_face_of_a ? contact.side_a : contact.side_b) = Side::back;
+  }
+}
+
+/// Whether the normal of a pierced face leads into its solid. That takes a ray, which most edges need not:
+/// one with an end inside, and the other outside and in front of the face, leads in where nothing is inside
+/// out.
+bool SolidSearch::leads_in(const Contact& contact) const {
+  const bool is_face_of_a = contact.feature_a.kind == FeatureKind::face;
+  const Surface& solid = is_face_of_a ? *pair_.a : *pair_.b;
+  const Surface& other = is_face_of_a ? *pair_.b : *pair_.a;
+  const Feature& face = is_face_of_a ? contact.feature_a : contact.feature_b;
+  const Feature& edge = is_face_of_a ? contact.feature_b : contact.feature_a;
+  const VerticesInSolid& vertices = is_face_of_a ? scratch_.b_in_a : scratch_.a_in_b;
+  const auto [first, second] = other.mesh().edge(edge.index);
+  // The normal of the contact is that of a's face, or the opposite of b's.
+  const double way = contact.normal.dot(other.position(second) - other.position(first));
+  const bool is_second_in_front = (way > 0) == is_face_of_a;
+  const Side in_front = vertices.side_of(is_second_in_front ? second : first);
+  const Side behind = vertices.side_of(is_second_in_front ? first : second);
+  if (!vertices.has_inside_out() && in_front == Side::front && behind == Side::back) return false;
+  const auto pierced = pierced_piece(other, edge_piece(edge.index), solid, face.index, worker_.pair.count);
+  return pierced && normal_leads_in(solid, *pierced, contact.point_a, worker_.pair.count);
+}
+
+/// Leaves out the contacts beyond the limit: the deepest are kept, and edges that pierce go first.
+void SolidSearch::keep_deepest() {
+  auto& contacts = pair_.answer->contacts;
+  const std::size_t limit = pair_.query.contact_limit;
+  if (limit == 0 || contacts.size() <= limit) return;
+  pair_.answer->cut = true;
+  const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(limit);
+  std::nth_element(contacts.begin(), end, contacts.end(), is_kept_before);
+  contacts.erase(end, contacts.end());
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& left, const Contact& right) { return key_of(left) < key_of(right); });
 }
 
 }  // namespace graze

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "closest_features/closest_features.hpp"
 #include "closest_features/feature_pair_key.hpp"
@@ -51,11 +52,14 @@ class RayCount {
  public:
   RayCount(const Eigen::Vector3d& point, const Surface& solid, DecisionCount& count)
       : point_(point), solid_(solid), count_(count) {}
+  /// Does not count a triangle that holds the point.
+  void leave_out(const FeaturePiece& triangle) { without_ = triangle; }
 
   void add_face(std::uint32_t face) {
     const auto corner = solid_.mesh().face(face);
     bool may_hold = false;
     for (std::size_t last = 2; last < corner.size(); ++last) {
+      if (without_ == face_piece(face, last == 2 ? Piece::first : Piece::second)) continue;
       const Triangle triangle = {solid_.position(corner[0]), solid_.position(corner[last - 1]),
                                  solid_.position(corner[last])};
       if (!may_meet_ray(point_, triangle)) continue;
@@ -67,9 +71,11 @@ class RayCount {
   }
   [[nodiscard]] PointInSolid location() const {
     if (on_surface_) return PointInSolid::on_surface;
-    return winding_ == 0 ? PointInSolid::outside : PointInSolid::inside;
+    if (winding_ == 0) return PointInSolid::outside;
+    return winding_ > 0 ? PointInSolid::inside : PointInSolid::inside_out;
   }
   [[nodiscard]] bool is_on_surface() const { return on_surface_; }
+  [[nodiscard]] int winding() const { return winding_; }
 
  private:
   void add_triangle(const Triangle& triangle) {
@@ -91,25 +97,60 @@ class RayCount {
   const Eigen::Vector3d& point_;
   const Surface& solid_;
   DecisionCount& count_;
+  std::optional<FeaturePiece> without_;
   int winding_ = 0;
   bool on_surface_ = false;
 };
+
+/// Visits the leaves that a ray from `point` along +x may meet.
+template <typename GoesOn, typename Use>
+void visit_leaves_ahead(const Eigen::Vector3d& point, const Surface& solid, const GoesOn& goes_on,
+                        const Use& use) {
+  visit_leaves(
+      solid,
+      [&](const Box& box) {
+        return goes_on() && box.max.x() >= point.x() && box.min.y() <= point.y() &&
+               box.max.y() >= point.y() && box.min.z() <= point.z() && box.max.z() >= point.z();
+      },
+      [&](const Region& leaf) {
+        for (const std::uint32_t face : solid.mesh().regions().faces(leaf)) use(face);
+      });
+}
+
+/// Whether a ray as of `side_of_ray`, from a point on a triangle, is in front of it once it has left it.
+bool leads_to_front(const Surface& solid, const FeaturePiece& triangle, DecisionCount& count) {
+  const Simplex corners = simplex_of(solid, triangle);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int side = decide_sign(count, [&]<typename Number>() {
+      const Vector<Number> normal = cross(difference<Number>(corners.point[1], corners.point[0]),
+                                          difference<Number>(corners.point[2], corners.point[0]));
+      return axis == 0 ? normal.x : (axis == 1 ? normal.y : normal.z);
+    });
+    if (side != 0) return side > 0;
+  }
+  return true;
+}
 
 }  // namespace
 
 PointInSolid locate(const Eigen::Vector3d& point, const Surface& solid, DecisionCount& count) {
   if (!contains(solid.box(), point)) return PointInSolid::outside;
   RayCount ray(point, solid, count);
-  visit_leaves(
-      solid,
-      [&](const Box& box) {
-        return !ray.is_on_surface() && box.max.x() >= point.x() && box.min.y() <= point.y() &&
-               box.max.y() >= point.y() && box.min.z() <= point.z() && box.max.z() >= point.z();
-      },
-      [&](const Region& leaf) {
-        for (const std::uint32_t face : solid.mesh().regions().faces(leaf)) ray.add_face(face);
-      });
+  visit_leaves_ahead(
+      point, solid, [&] { return !ray.is_on_surface(); }, [&](std::uint32_t face) { ray.add_face(face); });
   return ray.location();
+}
+
+bool normal_leads_in(const Surface& solid, const FeaturePiece& triangle, const Eigen::Vector3d& point,
+                     DecisionCount& count) {
+  const int side = side_of_plane(point, simplex_of(solid, triangle).point, count);
+  RayCount ray(point, solid, count);
+  if (side == 0) ray.leave_out(triangle);
+  visit_leaves_ahead(
+      point, solid, [] { return true; }, [&](std::uint32_t face) { ray.add_face(face); });
+  const bool is_in_front = side == 0 ? leads_to_front(solid, triangle, count) : side > 0;
+  // Behind a triangle the surface winds once more than in front of it.
+  return (is_in_front ? ray.winding() : ray.winding() - 1) < 0;
 }
 
 }  // namespace graze

@@ -13,7 +13,8 @@
 
 namespace graze {
 
-/// Working memory of one thread for pairs with a solid. It is taken when the first such pair is met.
+/// Working memory of one thread for pairs with a solid. It is taken when the first such pair is met, or by
+/// `reserve_for_solids`.
 struct SolidScratch {
   VerticesInSolid a_in_b;
   VerticesInSolid b_in_a;
@@ -28,6 +29,14 @@ struct SolidScratch {
                     self.contacts);
   }
   void reserve(const PairRoom& /*room*/) {}
+  void reserve_for_solids(const PairRoom& room) {
+    a_in_b.reserve(room);
+    b_in_a.reserve(room);
+    touching.reserve();
+    touching_leaves.leaves.reserve(room.leaf_pairs);
+    keys.reserve(keys_of_contact * room.ties);
+    contacts.reserve(room.contacts);
+  }
 };
 
 }  // namespace graze

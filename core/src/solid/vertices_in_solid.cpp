@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "leaves/touching_edges.hpp"
 #include "solid/point_in_solid.hpp"
 #include "solid/region_visit.hpp"
 
@@ -28,7 +29,8 @@ void VerticesInSolid::find(const Surface& surface, const Surface& solid,
     const PointInSolid location = locate(surface.position(first), solid, count);
     // All edges of a vertex on the surface touch it, so it is not joined with others.
     if (location == PointInSolid::on_surface) states_[first] = State::on_surface;
-    if (location != PointInSolid::inside) continue;
+    if (location != PointInSolid::inside && location != PointInSolid::inside_out) continue;
+    has_inside_out_ = has_inside_out_ || location == PointInSolid::inside_out;
     for (const std::uint32_t vertex : joined_) states_[vertex] = State::inside;
     inside_.insert(inside_.end(), joined_.begin(), joined_.end());
   }
@@ -52,6 +54,7 @@ void VerticesInSolid::begin(const Surface& surface) {
     for (const std::uint32_t vertex : *vertices) states_[vertex] = State::outside;
   candidates_.clear();
   inside_.clear();
+  has_inside_out_ = false;
   const std::size_t count = surface.mesh().vertex_count();
   if (states_.size() < count) states_.resize(count, State::outside);
   if (beside_.size() < count) beside_.resize(count, 0);
@@ -106,6 +109,7 @@ void VerticesInSolid::reserve(const PairRoom& room) {
   states_.reserve(room.vertices);
   beside_.reserve(room.vertices);
   for (auto* const vertices : {&candidates_, &joined_, &inside_}) vertices->reserve(room.vertices);
+  touching_.reserve(TouchingEdges::reserved);
 }
 
 }  // namespace graze

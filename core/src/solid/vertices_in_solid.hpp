@@ -32,6 +32,8 @@ class VerticesInSolid {
     return states_[vertex] == State::inside ? Side::back : Side::front;
   }
   [[nodiscard]] bool has_some() const { return !inside_.empty(); }
+  /// Whether some are inside a part of the solid that is wound inside out. `find` sees that.
+  [[nodiscard]] bool has_inside_out() const { return has_inside_out_; }
   [[nodiscard]] bool has_all(const Surface& surface) const {
     return inside_.size() == surface.mesh().regions().vertices().size();
   }
@@ -58,6 +60,7 @@ class VerticesInSolid {
   std::vector<std::uint32_t> candidates_;  ///< the vertices in the solid's box
   std::vector<std::uint32_t> joined_;      ///< those that are decided together
   std::vector<std::uint32_t> inside_;
+  bool has_inside_out_ = false;
 };
 
 }  // namespace graze

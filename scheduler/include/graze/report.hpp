@@ -48,7 +48,8 @@ struct PairReport {
   /// values of the pair.
   bool stale = false;
   /// True if SceneSettings::max_contacts or SceneSettings::max_contacts_per_pair left contacts out. The
-  /// nearest ones are listed. Phase, distance and witness are those of all contacts.
+  /// nearest ones are listed, or with ContactDetail::nearest the deepest. Phase, distance and witness are
+  /// those of all contacts.
   bool contacts_cut = false;
   /// Whether one object is inside the other, if one of them is a solid (ObjectSettings::solid). It is
   /// Inside::none if #complete is false because a budget ran out, and in a row that says #phase `ended`.

@@ -223,8 +223,8 @@ class GRAZE_API Scene {
   ///
   /// With BindPolicy::every_step the call copies the memory a last time, and the object stays there. If the
   /// memory is bad then, the object is frozen until it is given good positions. With BindPolicy::when_told
-  /// the copy counts only if no step has begun since the binding, or if steps only surveyed the object.
-  /// Otherwise the object stays where it was read last.
+  /// the copy counts if no step has begun since the binding, if positions_changed() told of the memory and no
+  /// step has read it since, or if steps only surveyed the object. Otherwise the object stays where it was.
   void unbind_positions(ObjectId object);
   /// Tells the scene that the caller has written bound memory. `max_displacement` promises how far any vertex
   /// is at most from where the last step saw it. A broken promise is a Diagnostic.

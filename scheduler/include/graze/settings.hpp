@@ -109,12 +109,15 @@ struct SceneSettings {
   /// The most contacts that a report lists, of all pairs together. It is at least 1. No value means no limit.
   ///
   /// The report keeps the nearest contacts: by reported distance, then by the order of the pairs, then by
-  /// kind and features. A pair that loses contacts has PairReport::contacts_cut true and PairReport::complete
-  /// false. Its phase, distance and witness are those of all its contacts. Memory follows the number of
-  /// contacts kept.
+  /// kind and features. With ContactDetail::nearest it keeps the deepest: by Contact::separation() in place
+  /// of the distance, and edges that pierce come last. A pair that loses contacts has
+  /// PairReport::contacts_cut true and PairReport::complete false. Its phase, distance and witness are those
+  /// of all its contacts. Memory follows the number of contacts kept, with a solid also that of its vertices
+  /// in contact.
   std::optional<std::size_t> max_contacts = std::nullopt;
   /// The most contacts that a report lists for each pair. It is at least 1. No value means no limit. The
-  /// report keeps the nearest contacts of the pair: by reported distance, then by kind and features.
+  /// report keeps the nearest contacts of the pair: by reported distance, then by kind and features. With
+  /// ContactDetail::nearest it keeps the deepest, as #max_contacts does.
   std::optional<std::size_t> max_contacts_per_pair = std::nullopt;
   /// The most region distances that a report lists, of all pairs together. They are the paper's cd: the red,
   /// green and blue lines of its figure 7. 0 means that none are looked for.
@@ -140,7 +143,7 @@ struct SceneCapacity {
   ///
   /// If the number is not 0, each object also gets room for the bounds of its regions, even if it is added
   /// later. Each thread gets room for a pair of 1,024 contacts, 1,024 leaf pairs, and 1,024 contacts at the
-  /// least distance.
+  /// least distance. If an object is a solid, it also gets room for 8,192 edges that touch another surface.
   std::size_t near_pairs = 0;
   /// The number of contacts of all pairs together, in the answers of a step and in a report.
   std::size_t contacts = 0;

@@ -163,11 +163,11 @@ bool Staging::has_step_read(const Binding& binding) const {
 // ---- Calls
 
 ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+  const FloatingPointScope scope;
   if (mesh == nullptr) throw Error("object '" + settings.name + "': there is no mesh");
   if (const auto problem = problem_of(settings)) throw Error(*problem);
   const std::string who = "object '" + settings.name + "'";
   check_solid(*mesh, settings, who);
-  const FloatingPointScope scope;
   AddObject call{{},
                  std::make_unique<Surface>(mesh),
                  settings,
@@ -466,6 +466,7 @@ void Staging::add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored) {
 }
 
 void Staging::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
+  const FloatingPointScope scope;
   Calls calls(queue_);
   make_or_lose({}, LostCalls::any, [&] {
     if (const auto problem = problem_of(kind_a, kind_b, rule))

@@ -12,6 +12,11 @@ namespace {
 /// The least number of contacts beyond the limit that are gathered before the nearest are selected.
 constexpr std::size_t least_to_spare = 1024;
 
+/// How many contacts are gathered until the nearest are selected.
+std::size_t room_for_limit(std::size_t most) {
+  return most + std::max(most, least_to_spare);
+}
+
 auto features_of(const Contact& contact) {
   return std::tuple(contact.kind, contact.feature_a.kind, contact.feature_a.index, contact.feature_b.kind,
                     contact.feature_b.index);
@@ -19,8 +24,9 @@ auto features_of(const Contact& contact) {
 
 }  // namespace
 
-void NearestContacts::begin(std::size_t most) {
+void NearestContacts::begin(std::size_t most, ContactDetail detail) {
   most_ = most;
+  detail_ = detail;
   contacts_.clear();
   jobs_.clear();
   limit_ = std::numeric_limits<double>::infinity();
@@ -28,11 +34,11 @@ void NearestContacts::begin(std::size_t most) {
 
 void NearestContacts::add(std::uint32_t job, std::span<const Contact> contacts) {
   const std::lock_guard lock(mutex_);
-  const std::size_t room = most_ + std::max(most_, least_to_spare);
+  const std::size_t room = room_for_limit(most_);
   for (const Contact& contact : contacts) {
-    if (contact.distance > limit_) continue;
+    if (rank_of(contact) > limit_) continue;
     if (contacts_.size() == room) keep_nearest();
-    if (contact.distance > limit_) continue;
+    if (rank_of(contact) > limit_) continue;
     contacts_.push_back(contact);
     jobs_.push_back(job);
   }
@@ -46,10 +52,10 @@ void NearestContacts::keep_nearest() {
   std::nth_element(order_.begin(), end - 1, order_.end(), [&](std::uint32_t left, std::uint32_t right) {
     const Contact& a = contacts_[left];
     const Contact& b = contacts_[right];
-    if (a.distance != b.distance) return a.distance < b.distance;
+    if (rank_of(a) != rank_of(b)) return rank_of(a) < rank_of(b);
     return jobs_[left] != jobs_[right] ? jobs_[left] < jobs_[right] : features_of(a) < features_of(b);
   });
-  limit_ = contacts_[*(end - 1)].distance;
+  limit_ = rank_of(contacts_[*(end - 1)]);
   // The order in which they were added is restored: the contacts of a job stay adjacent and sorted.
   std::sort(order_.begin(), end);
   for (std::size_t i = 0; i < most_; ++i) {
@@ -58,6 +64,13 @@ void NearestContacts::keep_nearest() {
   }
   contacts_.erase(contacts_.begin() + static_cast<std::ptrdiff_t>(most_), contacts_.end());
   jobs_.resize(most_);
+}
+
+void NearestContacts::reserve(std::size_t most, std::size_t contacts) {
+  const std::size_t room = std::min(contacts, room_for_limit(most));
+  contacts_.reserve(room);
+  jobs_.reserve(room);
+  order_.reserve(room);
 }
 
 std::size_t NearestContacts::byte_count() const {

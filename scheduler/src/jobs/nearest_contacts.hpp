@@ -8,15 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "core/pair/contact_rank.hpp"
+
 namespace graze {
 
-/// Keeps the nearest contacts of all jobs of a step, up to a limit, ordered by (distance, job, kind and
-/// features). What it keeps does not depend on the order in which jobs are answered. A contact is left out
-/// once as many nearer ones as the limit have been added.
+/// Keeps the contacts of lowest rank of all jobs of a step, up to a limit, ordered by (contact_rank, job,
+/// kind and features). These are the nearest, or with ContactDetail::nearest the deepest. What it keeps does
+/// not depend on the order in which jobs are answered. A contact is left out once as many of lower rank as
+/// the limit have been added.
 class NearestContacts {
  public:
   /// Forgets all contacts and sets the limit; 0 keeps none.
-  void begin(std::size_t most);
+  void begin(std::size_t most, ContactDetail detail);
   /// Adds copies of a job's contacts, which are sorted by their features. Any number of threads may call this
   /// at once.
   void add(std::uint32_t job, std::span<const Contact> contacts);
@@ -32,17 +35,21 @@ class NearestContacts {
       begin = end;
     }
   }
+  /// Makes room for steps with so many contacts, of which at most `most` are kept.
+  void reserve(std::size_t most, std::size_t contacts);
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
+  [[nodiscard]] double rank_of(const Contact& contact) const { return contact_rank(detail_, contact); }
   void keep_nearest();
 
   std::mutex mutex_;  ///< guards all members below while contacts are added
   std::size_t most_ = 0;
+  ContactDetail detail_ = ContactDetail::features;
   std::vector<Contact> contacts_;    ///< the limit and the spare ones at most; those of a job are adjacent
   std::vector<std::uint32_t> jobs_;  ///< the job of each contact
   std::vector<std::uint32_t> order_;
-  double limit_ = std::numeric_limits<double>::infinity();  ///< contacts at a larger distance are left out
+  double limit_ = std::numeric_limits<double>::infinity();  ///< contacts of a higher rank are left out
 };
 
 }  // namespace graze

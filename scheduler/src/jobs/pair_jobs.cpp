@@ -107,9 +107,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.list_slack =
       (is_about_vertices(query.detail) ? list_slack_of_vertices : list_slack_of_features).of(motion, leaf);
   query.front_limit = front_pairs_of_all / pair_count_;
-  query.contact_limit =
-      std::min(settings_.max_contacts.value_or(no_limit), settings_.max_contacts_per_pair.value_or(no_limit));
-  if (query.contact_limit == no_limit) query.contact_limit = 0;
+  query.contact_limit = contact_limit();
   // A list of features only helps if all of them may become contacts. It is made no longer than necessary.
   const bool may_be_cut =
       job.last == nullptr || job.last->contacts_cut || job.last->contact_count > query.contact_limit / 2;
@@ -123,6 +121,13 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
     if (!is_about_vertices(query.detail)) query.detail = ContactDetail::none;
   }
   return query;
+}
+
+/// The most contacts that a pair keeps; 0 without a limit.
+std::size_t PairJobs::contact_limit() const {
+  const std::size_t limit =
+      std::min(settings_.max_contacts.value_or(no_limit), settings_.max_contacts_per_pair.value_or(no_limit));
+  return limit == no_limit ? 0 : limit;
 }
 
 void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
@@ -147,7 +152,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::tim
   long_answers_.resize(std::max(long_answers_.size(), long_jobs_.size()));
   keep_time_back(last.report().contacts().size(), report);
   lend_memory(report);
-  nearest_.begin(settings_.max_contacts.value_or(0));
+  nearest_.begin(settings_.max_contacts.value_or(0), settings_.detail);
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget)
     run_within_work(*settings_.work_budget);
@@ -467,12 +472,23 @@ void PairJobs::reserve(std::size_t jobs, std::size_t contacts) {
   room_.contacts = std::max(room_.contacts, std::min(contacts, reserved_of_pair));
   room_.leaf_pairs = room_.ties = reserved_of_pair;
   room_.region_distances = settings_.region_distances;
-  for (Worker& worker : workers_) worker.reserve(room_);
+  if (settings_.max_contacts) nearest_.reserve(*settings_.max_contacts, contacts);
+  reserve_workers();
 }
 
-void PairJobs::reserve_for(const IndexedMesh& mesh) {
+void PairJobs::reserve_for(const IndexedMesh& mesh, bool is_solid) {
   room_.include(mesh);
-  for (Worker& worker : workers_) worker.reserve(room_);
+  is_for_solids_ = is_for_solids_ || (is_solid && !is_about_vertices(settings_.detail));
+  reserve_workers();
+}
+
+void PairJobs::reserve_workers() {
+  const std::size_t limit = contact_limit();
+  for (Worker& worker : workers_) {
+    worker.reserve(room_);
+    if (is_for_solids_) worker.detector.reserve_for_solids(room_);
+    if (limit > 0) worker.detector.reserve_for_limit(limit, room_);
+  }
 }
 
 std::size_t PairJobs::byte_count() const {

@@ -49,8 +49,8 @@ class PairJobs {
   [[nodiscard]] bool equalize_capacity(Clock::time_point start);
   /// Reserves memory for that many jobs, and for the contacts of all of them together.
   void reserve(std::size_t jobs, std::size_t contacts);
-  /// Reserves memory for pairs with objects of that mesh.
-  void reserve_for(const IndexedMesh& mesh);
+  /// Reserves memory for pairs with objects of that mesh, which may be solids.
+  void reserve_for(const IndexedMesh& mesh, bool is_solid);
   /// The bytes held here, and the growth of the fronts in the pairs' memories.
   [[nodiscard]] std::size_t byte_count() const;
   /// The bytes held by the workers.
@@ -83,6 +83,7 @@ class PairJobs {
   };
 
   [[nodiscard]] PairQuery query_of(const PairJob& job) const;
+  [[nodiscard]] std::size_t contact_limit() const;
   [[nodiscard]] static bool is_large(const PairJob& job);
   void run_group(std::span<const std::uint32_t> jobs);
   void run_rounds_of_slices();
@@ -96,6 +97,7 @@ class PairJobs {
   void store_answer(std::uint32_t index, PairAnswer& answer, unsigned worker);
   void lend_memory(ReportBuilder& report);
   void refer_to(std::uint32_t index, const PairAnswer& answer, unsigned worker);
+  void reserve_workers();
   void keep_time_back(std::size_t last_contacts, ReportBuilder& report);
   void share_contacts(const LastContacts& last);
   [[nodiscard]] bool make_room_in_report(std::size_t contacts);
@@ -131,7 +133,8 @@ class PairJobs {
   std::vector<PairAnswer> long_answers_;   ///< the answers of long_jobs_; never shrinks
   std::vector<LargeSlice> slices_;         ///< the slices of all large jobs of the group
   std::vector<Worker> workers_;
-  PairRoom room_;  ///< the capacity that was reserved for each worker
+  PairRoom room_;               ///< the capacity that was reserved for each worker
+  bool is_for_solids_ = false;  ///< whether it was reserved for pairs with solids, too
 };
 
 }  // namespace graze

@@ -198,8 +198,9 @@ bool ObjectStore::is_outdated(const SetPositions& call) const {
 
 bool ObjectStore::wants(const UnbindPositions& call) const {
   const Object* const object = find(call.object);
-  // Positions that were only surveyed have not been read yet.
-  return call.is_due || (object != nullptr && object->bound && object->is_surveyed());
+  if (call.is_due || object == nullptr || !object->bound) return call.is_due;
+  // Positions that were only surveyed, or told of since the last step, have not been read yet.
+  return object->is_surveyed() || object->bound->is_notified;
 }
 
 void ObjectStore::apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics) {

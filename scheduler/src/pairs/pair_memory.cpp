@@ -1,6 +1,7 @@
 #include "pairs/pair_memory.hpp"
 
 #include <memory>
+#include <utility>
 
 #include "core/base/bytes_of.hpp"
 
@@ -47,7 +48,13 @@ void PairMemories::make_room(PairMemory& memory, const PairMemoryRoom& room) {
     if (front.near == nullptr) front.near = std::make_unique<NearList>();
     front.near->pairs.reserve(room.features);
   }
+  if (is_for_solids_ && front.last_inside == nullptr) front.last_inside = std::make_unique<LastInside>();
   reserved_bytes_ += front.byte_count();
+}
+
+void PairMemories::reserve_for_solids() {
+  if (std::exchange(is_for_solids_, true)) return;
+  for (PairMemory& memory : memories_) make_room(memory, {});
 }
 
 std::size_t PairMemories::byte_count() const {

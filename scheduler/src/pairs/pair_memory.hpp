@@ -49,6 +49,8 @@ class PairMemories {
 
   /// Reserves memory for that many pairs.
   void reserve(std::size_t pairs, const PairMemoryRoom& room);
+  /// Reserves memory for what is remembered of solids, in all memories that are reserved now or later.
+  void reserve_for_solids();
   /// The bytes held. Of the fronts it counts only reserved memory.
   [[nodiscard]] std::size_t byte_count() const;
 
@@ -58,6 +60,7 @@ class PairMemories {
   std::deque<PairMemory> memories_;  ///< a deque, so that they stay in place
   std::vector<Index> free_;
   std::size_t reserved_bytes_ = 0;  ///< of fronts
+  bool is_for_solids_ = false;      ///< whether reserved memories have room for what is inside
 };
 
 }  // namespace graze

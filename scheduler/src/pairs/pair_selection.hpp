@@ -65,6 +65,7 @@ class PairSelection {
 
   /// Reserves memory for that many pairs of the broad phase.
   void reserve(std::size_t pairs, const PairMemoryRoom& room);
+  void reserve_for_solids() { memories_.reserve_for_solids(); }
   /// The bytes held. Of the fronts it counts only reserved memory.
   [[nodiscard]] std::size_t byte_count() const;
 

@@ -106,6 +106,11 @@ class ReportBuilder {
     report_.shown_ = other.shown_;
     report_.complete_ = other.complete_;
   }
+  /// Copies the rows of another report. It takes memory if there is no room for them.
+  void copy_rows_of(const FrameReport& other) {
+    report_.rows_ = *other.shown_;
+    report_.complete_ = other.complete_;
+  }
   [[nodiscard]] std::uint64_t frame() const { return report_.frame_; }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }

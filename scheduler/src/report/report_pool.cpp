@@ -56,10 +56,16 @@ void ReportPool::cancel() noexcept {
 void ReportPool::repeat_rows() {
   const std::uint32_t last = published();
   const std::uint32_t lender = slot(last).lender == no_slot ? last : slot(last).lender;
+  if (!may_lend(lender)) return ReportBuilder(slot(filling_).report).copy_rows_of(slot(last).report);
   slot(filling_).lender = lender;
-  ++slot(lender).borrowers;
+  if (++slot(lender).borrowers == 1) ++lender_count_;
   ++loan_count_;
   ReportBuilder(slot(filling_).report).show_rows_of(slot(last).report);
+}
+
+/// Whether rows of a slot may be shown by another one, so that it keeps its own as long.
+bool ReportPool::may_lend(std::uint32_t index) {
+  return !is_reserved_ || slot(index).borrowers > 0 || lender_count_ == 0;
 }
 
 /// Ends the loans of all slots that nobody reads.
@@ -74,7 +80,7 @@ void ReportPool::end_loans() {
 void ReportPool::end_loan(std::uint32_t index) {
   const std::uint32_t lender = std::exchange(slot(index).lender, no_slot);
   if (lender == no_slot) return;
-  --slot(lender).borrowers;
+  if (--slot(lender).borrowers == 0) --lender_count_;
   --loan_count_;
 }
 
@@ -148,8 +154,10 @@ void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
     if (is_free(index)) make_room(index);
     if (has_room(index)) ++with_room;
   }
-  // Two slots are needed beside the held ones: one is published, and one is being filled.
-  const std::size_t wanted = std::min<std::size_t>(held, slot_limit - 2) + 2;
+  is_reserved_ = is_reserved_ || held > 0;
+  // Three slots are needed beside the held ones: one is published, one is being filled, and one may lend its
+  // rows to others.
+  const std::size_t wanted = std::min<std::size_t>(held, slot_limit - 3) + 3;
   for (; with_room < wanted && slot_count_ < slot_limit; ++with_room) make_room(add_slot());
 }
 

@@ -21,7 +21,9 @@ namespace graze {
 /// slot, and nobody waits for it.
 ///
 /// A report may show the rows of an earlier report, its lender. The lender's slot is filled again only when
-/// no readable report shows its rows. Only the stepping thread keeps count of loans.
+/// no readable report shows its rows. So a lender that nobody holds takes a slot. Where slots were reserved
+/// there is one for that, and with a second lender rows are copied instead. Only the stepping thread keeps
+/// count of loans.
 ///
 /// The pool lives until its scene and all handles are gone: `owners_` counts the scene and every retired slot
 /// that is still referenced.
@@ -40,7 +42,7 @@ class ReportPool {
   [[nodiscard]] FrameReport& begin();
   /// Gives up the report of the last `begin`, and frees the memory of all reports that nobody reads.
   void cancel() noexcept;
-  /// Makes the report of the last `begin` show the rows of the published one. Only the stepping thread calls
+  /// Makes the report of the last `begin` have the rows of the published one. Only the stepping thread calls
   /// this and the members below.
   void repeat_rows();
   /// Gives every report that nobody reads the capacity that any report has needed, and the others once their
@@ -89,6 +91,7 @@ class ReportPool {
   }
   [[nodiscard]] bool is_unread(std::uint32_t index);
   [[nodiscard]] bool is_free(std::uint32_t index);
+  [[nodiscard]] bool may_lend(std::uint32_t index);
   void end_loans();
   void end_loan(std::uint32_t index);
   [[nodiscard]] std::uint32_t find_free();
@@ -109,8 +112,10 @@ class ReportPool {
   std::array<std::unique_ptr<Chunk>, chunk_capacity> chunks_;
   std::uint32_t slot_count_ = 0;
   std::uint32_t filling_ = 0;
-  std::uint32_t loan_count_ = 0;  ///< slots that have a lender
-  ReportRoom room_;               ///< that every report gets when nobody reads it
+  std::uint32_t loan_count_ = 0;    ///< slots that have a lender
+  std::uint32_t lender_count_ = 0;  ///< slots that are one
+  bool is_reserved_ = false;        ///< slots were reserved
+  ReportRoom room_;                 ///< that every report gets when nobody reads it
   bool all_have_room_ = true;
   std::size_t byte_count_ = sizeof(ReportPool);
 };

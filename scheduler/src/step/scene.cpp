@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/floating_point_scope.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/pair/pair_query.hpp"
 #include "step/scene_state.hpp"
@@ -50,7 +51,10 @@ class SteppingEnd {
 
 }  // namespace
 
-Scene::Scene(const SceneSettings& settings) : state_(std::make_unique<State>(settings)) {}
+Scene::Scene(const SceneSettings& settings) {
+  const FloatingPointScope scope;
+  state_ = std::make_unique<State>(settings);
+}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;

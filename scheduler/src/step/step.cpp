@@ -133,13 +133,13 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* captu
                            reserve(std::exchange(call.capacity, {}));
                          },
                          [&](AddObject& added) {
-                           if (is_reserved_) prepare_surface(*added.surface, added.settings.motion);
+                           if (is_reserved_) prepare_surface(*added.surface, added.settings);
                            store_.apply(added);
                          },
                          [&](ReplaceMesh& call) {
                            const Object* const object = store_.find(call.object);
                            if (is_reserved_ && object != nullptr)
-                             prepare_surface(*call.surface, object->settings.motion);
+                             prepare_surface(*call.surface, object->settings);
                            if (object != nullptr) pairs_.filter().regroup(*object, call.face_groups);
                            store_.apply(call);
                          },
@@ -177,7 +177,7 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
   for (const auto& object : store_.objects()) {
     if (object == nullptr) continue;  // removed in this step
     object->end_view();
-    prepare_surface(object->surface_to_write(), object->settings.motion);
+    prepare_surface(object->surface_to_write(), object->settings);
     store_.count_bytes(*object);
     prepare_copy(*object);
   }
@@ -185,10 +185,11 @@ void Step::reserve_for_pairs(const SceneCapacity& capacity) {
 
 /// Prepares an object for its first pair: the bounds of its regions, room for its leaves in working memory,
 /// and positions by pose.
-void Step::prepare_surface(Surface& surface, Motion motion) {
-  if (motion != Motion::deformable) surface.reserve_positions(true);
+void Step::prepare_surface(Surface& surface, const ObjectSettings& settings) {
+  if (settings.motion != Motion::deformable) surface.reserve_positions(true);
   refit_.prepare(surface);
-  jobs_.reserve_for(surface.mesh());
+  jobs_.reserve_for(surface.mesh(), settings.solid);
+  if (settings.solid && !is_about_vertices(settings_.detail)) pairs_.reserve_for_solids();
 }
 
 /// Reserves memory for the positions of a bound object, which are copied when it comes near another. An

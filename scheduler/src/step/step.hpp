@@ -35,7 +35,7 @@ class Step {
   void apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* capture);
   void set_ignored(const IgnoreGroups& groups);
   void reserve_for_pairs(const SceneCapacity& capacity);
-  void prepare_surface(Surface& surface, Motion motion);
+  void prepare_surface(Surface& surface, const ObjectSettings& settings);
   void prepare_copy(Object& object);
   void write_pairs(const PairList& list, const FrameReport& previous, ReportBuilder& builder);
   void write_pair(const PairJob& job, std::size_t index, const FrameReport& previous, ReportBuilder& builder);

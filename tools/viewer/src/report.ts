@@ -133,7 +133,15 @@ export class FrameReport {
 
   push(contact: number): [number, number, number] {
     const [x, y, z] = this.block.normal.subarray(3 * contact, 3 * contact + 3) as unknown as [number, number, number];
-    return this.isBehind(contact) ? [-x, -y, -z] : [x, y, z];
+    return this.isBehind(contact) || this.leadsIn(contact) ? [-x, -y, -z] : [x, y, z];
+  }
+
+  /** Where an edge pierces a face, the side of the pierced object says whether the face's normal leads into its solid. */
+  private leadsIn(contact: number): boolean {
+    const { distance, features } = this.block;
+    const [isFaceA, isFaceB] = [features[4 * contact] === 2, features[4 * contact + 2] === 2];
+    if (distance[contact] !== 0 || isFaceA === isFaceB) return false;
+    return SIDES[isFaceA ? this.sideA(contact) : this.sideB(contact)] === 'back';
   }
 
   /** With a vertex, its side of the other surface decides; without one, both sides do. At distance 0 nothing is behind. */

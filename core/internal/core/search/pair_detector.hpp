@@ -47,6 +47,10 @@ class GRAZE_API PairDetector {
   void reserve_as(const PairDetector& other);
   /// Makes room ahead of time.
   void reserve(const PairRoom& room);
+  /// Makes further room ahead of time for pairs of that size that have a solid.
+  void reserve_for_solids(const PairRoom& room);
+  /// Makes further room ahead of time for pairs of that size of which at most so many contacts are kept.
+  void reserve_for_limit(std::size_t most, const PairRoom& room);
   /// Bytes of working memory held.
   [[nodiscard]] std::size_t byte_count() const;
 
