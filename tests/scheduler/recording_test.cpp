@@ -96,14 +96,6 @@ SceneSettings random_settings(unsigned seed) {
   return settings;
 }
 
-/// Without the limit of all pairs together. With it the contacts of a pair depend on other pairs, and on what
-/// frozen pairs repeat: a part of a recording does not know these.
-SceneSettings random_settings_of_parts(unsigned seed) {
-  SceneSettings settings = random_settings(seed);
-  settings.max_contacts.reset();
-  return settings;
-}
-
 /// Records random calls and keeps what each report says.
 std::vector<std::string> record_random_calls(unsigned seed, std::size_t frames, std::size_t before,
                                              const std::filesystem::path& file,
@@ -236,11 +228,11 @@ TEST_CASE("recording: a replay begins at any frame, and a recording in the middl
   for (unsigned seed = 0; seed < 40; ++seed) {
     INFO("seed " << seed);
     const TemporaryFile whole;
-    (void)record_random_calls(seed, 30, 0, whole.path(), random_settings_of_parts(seed));
+    (void)record_random_calls(seed, 30, 0, whole.path(), random_settings(seed));
     for (std::size_t first = 0; first < 30; first += 4)
       CHECK(first_difference(whole.path(), {.first_frame = first}) == "");
     const TemporaryFile late;
-    (void)record_random_calls(seed, 30, 10, late.path(), random_settings_of_parts(seed));
+    (void)record_random_calls(seed, 30, 10, late.path(), random_settings(seed));
     CHECK(Recording(late.path()).is_cut());
     CHECK(first_difference(late.path()) == "");
   }
@@ -251,7 +243,7 @@ TEST_CASE("recording: a part has the same answers, of all objects or of two") {
     INFO("seed " << seed);
     const TemporaryFile whole;
     const TemporaryFile part;
-    (void)record_random_calls(seed, 30, 0, whole.path(), random_settings_of_parts(seed));
+    (void)record_random_calls(seed, 30, 0, whole.path(), random_settings(seed));
     const Recording recording(whole.path());
     cut_recording(recording, {.first_frame = 11, .last_frame = 17}, part.path());
     CHECK(Recording(part.path()).frame_count() == 7);
