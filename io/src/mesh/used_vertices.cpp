@@ -9,7 +9,7 @@ UsedVertices::UsedVertices(std::span<const std::uint32_t> corners, std::size_t v
   if (corners.size() < vertex_count / few) {
     old_numbers_.assign(corners.begin(), corners.end());
     std::ranges::sort(old_numbers_);
-    old_numbers_.erase(std::ranges::unique(old_numbers_).begin(), old_numbers_.end());
+    old_numbers_.erase(std::unique(old_numbers_.begin(), old_numbers_.end()), old_numbers_.end());
     return;
   }
   new_numbers_.assign(vertex_count, 0);

@@ -22,7 +22,7 @@ FrameFaces::FrameFaces(const Mesh& mesh) {
       edges_.push_back(edge_of(face[i], face[(i + 1) % face.size()]));
   }
   std::ranges::sort(edges_);
-  edges_.erase(std::ranges::unique(edges_).begin(), edges_.end());
+  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 }
 
 bool FrameFaces::is_known(std::span<const std::uint32_t> face) const {
