@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -275,6 +276,7 @@ class LeafFeaturePairs {
       range_.found(vertex, face);
       if (known.voronoi != kernels::unsure_voronoi && is_triangle(pair_.b, face))
         return accept_in_float(vertex_piece(vertex.index), piece_in(pair_.b, face, known), range_of(known));
+      if (range_.is_superfluous(lowest_key(vertex.index, lowest_corner(pair_.b, face)))) return;
       if (may_be_near(pair_.a, vertex, pair_.b, face, known))
         scratch_.naming.add_vertex_and_face(pair_, vertex.index, face.index, sink_);
     };
@@ -285,6 +287,7 @@ class LeafFeaturePairs {
       range_.found(face, vertex);
       if (known.voronoi != kernels::unsure_voronoi && is_triangle(pair_.a, face))
         return accept_in_float(piece_in(pair_.a, face, known), vertex_piece(vertex.index), range_of(known));
+      if (range_.is_superfluous(lowest_key(lowest_corner(pair_.a, face), vertex.index))) return;
       if (may_be_near(pair_.b, vertex, pair_.a, face, known))
         scratch_.naming.add_face_and_vertex(pair_, face.index, vertex.index, sink_);
     };
@@ -300,6 +303,9 @@ class LeafFeaturePairs {
         return accept_in_float(piece_of_edge(pair_.a.mesh(), a.index, voronoi >> 2U),
                                piece_of_edge(pair_.b.mesh(), b.index, voronoi & 3U), SquaredRange{0, 0});
       }
+      if (are_edges &&
+          range_.is_superfluous(lowest_key(pair_.a.mesh().edge(a.index)[0], pair_.b.mesh().edge(b.index)[0])))
+        return;
       if (!may_be_near(pair_.a, a, pair_.b, b, known)) return;
       if (range_.wants_touching() && certainly_apart(ends_of(pair_.a, a), ends_of(pair_.b, b))) return;
       if (are_edges)
@@ -341,6 +347,15 @@ class LeafFeaturePairs {
       return pierced_piece(surface, segment, other, face.index, pair_.count);
     ++pair_.count.named_in_float;
     return face_piece(face.index, Piece::first);
+  }
+
+  /// The lowest key that two features can have, by the lowest vertex of each.
+  static FeaturePairKey lowest_key(std::uint32_t vertex_a, std::uint32_t vertex_b) {
+    return FeaturePairKey::of(vertex_piece(vertex_a), vertex_piece(vertex_b));
+  }
+  static std::uint32_t lowest_corner(const Surface& surface, const FeatureRef& face) {
+    const auto corner = surface.mesh().face(face.index);
+    return *std::min_element(corner.begin(), corner.end());
   }
 
   // ---- By the places of float

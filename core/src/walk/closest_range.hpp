@@ -109,8 +109,8 @@ class ClosestRange {
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }
   /// Where one key is enough and one is known at distance 0, only lower ones may take its place.
   [[nodiscard]] bool is_superfluous(const FeaturePairKey& lowest) const {
-    const bool is_told = touching_edges_ == nullptr || found_.closest.pierced;
-    return is_decided() && is_told && set_.front() < lowest;
+    if (!is_decided() || !(set_.front() < lowest)) return false;
+    return touching_edges_ == nullptr || found_.closest.pierced || lowest.meeting() != Meeting::pierced;
   }
   [[nodiscard]] bool wants_touching() const { return is_decided(); }
   static constexpr bool nearest_only = false;
