@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "scenes/coinciding_scenes.hpp"
+#include "scenes/inside_scenes.hpp"
 #include "scenes/played_scene.hpp"
 
 namespace {
@@ -40,6 +41,7 @@ bool use(std::string_view name) {
 void play(std::string_view name, ContactDetail detail) {
   auto played = graze::scenes::make_played_scene(name);
   if (played == nullptr) played = graze::scenes::make_coinciding_scene(name);
+  if (played == nullptr) played = graze::scenes::make_inside_scene(name, true);
   if (played == nullptr) throw std::runtime_error("no such scene");
   graze::SceneSettings settings = played->settings();
   settings.detail = detail;

@@ -11,6 +11,7 @@ namespace graze {
 template <bool nearest>
 struct BelowThreshold {
   static constexpr bool nearest_only = nearest;
+  static constexpr bool may_settle = false;
 
   double threshold;
   const NearListing& listing;

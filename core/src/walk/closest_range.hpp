@@ -105,6 +105,7 @@ class ClosestRange {
   /// Whether an edge may pierce a face.
   [[nodiscard]] bool may_pierce() const { return may_pierce_; }
   static constexpr bool nearest_only = false;
+  static constexpr bool may_settle = true;
   void may_touch(const FeatureRef& /*segment*/, bool /*is_of_a*/) const {}
   [[nodiscard]] static double touching() { return 0; }
   [[nodiscard]] static bool is_listing() { return false; }
@@ -119,6 +120,10 @@ class ClosestRange {
       if (!squared.is_beyond(set_.upper())) set_.offer(key);
     };
     if (scratch.select_near(pair_, leaf_a, leaf_b, *this)) {
+      // Where all keys at distance 0 are wanted, most are those of corners that coincide.
+      scratch.coinciding.clear();
+      if (set_.upper() == 0 && set_.wants_all() && set_.has_vertices() && pair_.groups == nullptr)
+        scratch.coinciding.begin(pair_, leaf_a.region, leaf_b.region);
       LeafFeaturePairs keys(pair_, scratch, *this, offer);
       keys.add_selected();
       keys.finish();

@@ -13,6 +13,7 @@
 #include "stress/budgets.hpp"
 #include "stress/coinciding.hpp"
 #include "stress/determinism.hpp"
+#include "stress/inside.hpp"
 #include "stress/objects.hpp"
 #include "stress/reader.hpp"
 #include "stress/soak.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 struct StressOptions {
   bool reader = false, soak = false, determinism = false, budgets = false, coinciding = false;
+  bool inside = false;
   double seconds = 60;
   ObjectsOptions objects;
   SoakOptions soaking;
@@ -44,6 +46,8 @@ void run(StressOptions options) {
     result = run_determinism_study(options.playing);
   } else if (options.coinciding) {
     result = run_coinciding_study(options.frames > 0 ? options.frames : 9);
+  } else if (options.inside) {
+    result = run_inside_study(options.frames > 0 ? options.frames : 5);
   } else if (options.budgets) {
     if (options.frames > 0) options.budgeted.frames = options.frames;
     result = run_budgets_study(options.budgeted);
@@ -61,7 +65,7 @@ void run(StressOptions options) {
 void add_stress_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("stress",
                                          "Puts graze under load: one of --reader, --objects, --soak, "
-                                         "--determinism, --budgets and --coinciding.");
+                                         "--determinism, --budgets, --coinciding and --inside.");
   const auto options = std::make_shared<StressOptions>();
   auto* const studies = command->add_option_group("studies")->require_option(1);
   studies->add_flag("--reader", options->reader,
@@ -76,6 +80,7 @@ void add_stress_command(CLI::App& app) {
                     "The same bits from 1 to 16 threads, again and again");
   studies->add_flag("--coinciding", options->coinciding,
                     "Surfaces that coincide exactly beside neighbours in which they do not");
+  studies->add_flag("--inside", options->inside, "A body wholly inside a solid, beside a plain tree");
   studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
   command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
       ->check(thread_number())
@@ -92,9 +97,10 @@ void add_stress_command(CLI::App& app) {
   command
       ->add_option(
           "--frames", options->frames,
-          "How many frames --objects times, --determinism and --coinciding play and --budgets steps each "
-          "scene; by default 20, 9 and 100 of the latter three, and more of smaller scenes. --soak takes as "
-          "many in place of --minutes")
+          "How many frames --objects times, --determinism, --coinciding and --inside play and --budgets "
+          "steps "
+          "each scene; by default 20, 9, 5 and 100 of the latter four, and more of smaller scenes. --soak "
+          "takes as many in place of --minutes")
       ->check(whole_number(1));
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
       ->check(whole_number(1))
