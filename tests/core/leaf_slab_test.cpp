@@ -112,6 +112,22 @@ bool check_apart(const Leaf& a, const Leaf& b, double distance) {
   return true;
 }
 
+/// Checks the bound of the distance of a point against what three corners span. Returns whether it is
+/// positive.
+bool check_lower(const Leaf& leaf, const Vector3d& point, Random& random) {
+  const double lower = lower_squared(leaf.slab, point - leaf.middle);
+  const auto corner = [&] {
+    return leaf.corners[random.below(static_cast<std::uint32_t>(leaf.corners.size()))];
+  };
+  for (int i = 0; i < 20; ++i) {
+    const Real first = random.between(0, 1);
+    const Real second = random.between(0, 1) * static_cast<double>(1 - first);
+    const Vector held = corner() * first + corner() * second + corner() * (1 - first - second);
+    REQUIRE(static_cast<Real>(lower) <= (held - point.cast<Real>()).squaredNorm() * (1 + 0x1p-50L));
+  }
+  return lower > 0;
+}
+
 Surface in_floats(const Surface& surface) {
   Surface other(surface.shared_mesh());
   std::vector<Eigen::Vector3f> positions;
@@ -154,6 +170,22 @@ TEST_CASE("leaf slabs: they hold the corners, and what they say to be apart is")
       CHECK(known > 0);
   }
   CHECK(apart > all / 2);
+}
+
+TEST_CASE("leaf slabs: no point is said to be further from a leaf than it is") {
+  Random random(5);
+  std::size_t positive = 0;
+  for (std::uint64_t family = 0; family < family_count; ++family) {
+    const Surface surface = surface_of(shape_of(static_cast<Family>(family), 0, family));
+    const double unit = (surface.box().max - surface.box().min).maxCoeff() / 20;
+    for (const Leaf& leaf : leaves_of(surface))
+      for (const double away : {0.1, 1.0, 10.0, 1000.0})
+        positive +=
+            check_lower(leaf, leaf.middle + away * unit * random.vector(-1, 1), random) && family == plain
+                ? 1U
+                : 0U;
+  }
+  CHECK(positive > 100);
 }
 
 TEST_CASE("made of leaves: what is made of the same positions is kept, and made anew of others") {

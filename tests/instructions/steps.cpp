@@ -12,6 +12,7 @@
 
 #include "scenes/coinciding_scenes.hpp"
 #include "scenes/costly_scenes.hpp"
+#include "scenes/inside_scenes.hpp"
 #include "scenes/played_scene.hpp"
 
 namespace {
@@ -40,6 +41,7 @@ void play(std::string_view name, ContactDetail detail) {
   auto played = graze::scenes::make_played_scene(name);
   if (played == nullptr) played = graze::scenes::make_coinciding_scene(name);
   if (played == nullptr) played = graze::scenes::make_costly_scene(name);
+  if (played == nullptr) played = graze::scenes::make_inside_scene(name, true);
   if (played == nullptr) throw std::runtime_error("no such scene");
   graze::SceneSettings settings = played->settings();
   settings.detail = detail;

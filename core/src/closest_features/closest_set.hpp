@@ -59,6 +59,12 @@ class ClosestSet {
     return ties_ == Ties::lowest && closest_.upper == 0 && !keys_.empty() &&
            (closest_.pierced || threshold > 0);
   }
+  /// Whether all keys at the least distance are kept.
+  [[nodiscard]] bool wants_all() const { return ties_ == Ties::all; }
+  /// Whether two vertices are probably among the keys: certainly not where none are.
+  [[nodiscard]] bool has_vertices() const {
+    return !keys_.empty() && keys_.front().kind() == ContactKind::VV;
+  }
   /// Puts the keys in order.
   void merge_runs() { keys_.merge_runs(); }
 

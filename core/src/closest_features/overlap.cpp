@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "arithmetic/certain.hpp"
 #include "arithmetic/direction.hpp"
 
 namespace graze {
@@ -22,6 +23,10 @@ Vector<Number> normal_of(const Simplex& triangle) {
 }
 
 bool has_area(const Simplex& triangle, DecisionCount& count) {
+  if (certainly_not_parallel(triangle.point[1] - triangle.point[0], triangle.point[2] - triangle.point[0])) {
+    ++count.in_double;
+    return true;
+  }
   return !is_zero(count, [&]<typename Number>() { return normal_of<Number>(triangle); });
 }
 
@@ -86,11 +91,13 @@ bool segment_overlaps_triangle(const Simplex& segment, const Simplex& triangle, 
   const Eigen::Vector3d& p = segment.point[0];
   const Eigen::Vector3d& q = segment.point[1];
   if (p == q || !has_area(triangle, count)) return false;
+  // Sides are asked first: whether a segment is parallel is mostly a question of zero, which takes longest.
+  if (a_side_separates(triangle, segment, fold_side, count)) return false;
   const bool is_side = is_corner(p, triangle) && is_corner(q, triangle);
   const bool is_parallel = is_side || decide_sign(count, [&]<typename Number>() {
                                         return dot(normal_of<Number>(triangle), difference<Number>(q, p));
                                       }) == 0;
-  if (!is_parallel || a_side_separates(triangle, segment, fold_side, count)) return false;
+  if (!is_parallel) return false;
   std::array<int, 3> sides{};
   for (std::size_t i = 0; i < 3; ++i) sides[i] = side_of_line(triangle, p, q, triangle.point[i], count);
   const bool runs_along_fold = fold_side < 3 && sides[fold_side] == 0 && sides[(fold_side + 1) % 3] == 0;

@@ -12,6 +12,7 @@ namespace graze {
 template <bool nearest>
 struct BelowThreshold {
   static constexpr bool nearest_only = nearest;
+  static constexpr bool may_settle = false;
 
   double threshold;
   const NearListing& listing;
@@ -23,6 +24,7 @@ struct BelowThreshold {
   [[nodiscard]] double touching() const { return listing.slack; }
   [[nodiscard]] bool is_listing() const { return listing.is_wanted(); }
   void found(const FeatureRef& a, const FeatureRef& b) const { listing.add(a, b); }
+  [[nodiscard]] bool collects_touching() const { return touching_edges != nullptr; }
   void may_touch(const FeatureRef& segment, bool is_of_a) const {
     if (touching_edges != nullptr) touching_edges->add(segment, is_of_a);
   }

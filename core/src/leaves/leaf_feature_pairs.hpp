@@ -31,7 +31,8 @@ namespace graze {
 /// neither is anything that is apart.
 ///
 /// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance,
-/// and two edges have a key only if both closest points are inside.
+/// and two edges have a key only if both closest points are inside. If `Range::may_settle` is true, pairs
+/// that `LeafScratch::coinciding` settles are left to it.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
  public:
@@ -160,10 +161,12 @@ class LeafFeaturePairs {
   /// Calls `use(rows, columns, count)` with pairs of the first `row_count` of `rows` and of `columns`, by
   /// number. These are the pairs whose boxes are not certainly further than a limit from each other. Returns
   /// whether that was not all.
-  template <std::size_t RowCorners, std::size_t Corners, typename Use>
+  ///
+  /// Pairs for which `settle(row, column)` holds are left out.
+  template <std::size_t RowCorners, std::size_t Corners, typename Settle, typename Use>
   bool near_boxes(const SelectedFeatures<RowCorners>& rows, std::size_t row_count,
                   const SelectedFeatures<Corners>& columns, const kernels::Block& boxes, float limit,
-                  const Use& use) {
+                  const Settle& settle, const Use& use) {
     if (row_count == 0 || boxes.count == 0) return false;
     const kernels::NearPairs near = lists_.room_for(boxes.count);
     const std::size_t each = std::max<std::size_t>(1, FloatFilterScratch::pairs_at_once / boxes.count);
@@ -177,26 +180,47 @@ class LeafFeaturePairs {
       discarded += count * boxes.count - found;
       for (std::size_t k = 0; k < found; ++k) near.row[k] = row_index[near.row[k]];
       for (std::size_t k = 0; k < found; ++k) near.column[k] = column_index[near.column[k]];
-      use(near.row, near.column, found);
+      use(near.row, near.column, leave_out_settled(near, found, settle));
     }
     pair_.count.discarded_in_float += discarded;
     return discarded > 0;
   }
+  /// Keeps those pairs that are not settled, in their order; returns how many they are.
+  template <typename Settle>
+  std::size_t leave_out_settled(const kernels::NearPairs& near, std::size_t count, const Settle& settle) {
+    if constexpr (!Range::may_settle) return count;
+    if (!scratch_.coinciding.any()) return count;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t row = near.row[k];
+      const std::uint32_t column = near.column[k];
+      near.row[kept] = row;
+      near.column[kept] = column;
+      kept += settle(row, column) ? 0U : 1U;
+    }
+    return kept;
+  }
   /// Visits the pairs whose boxes are not certainly further than the range's limit.
-  template <std::size_t RowCorners, std::size_t Corners, typename Use>
+  template <std::size_t RowCorners, std::size_t Corners, typename Settle, typename Use>
   void near_boxes(const SelectedFeatures<RowCorners>& rows, const SelectedFeatures<Corners>& columns,
-                  const kernels::Block& boxes, const Use& use) {
+                  const kernels::Block& boxes, const Settle& settle, const Use& use) {
     const double limit = range_.limit();
-    if (near_boxes(rows, rows.count(), columns, boxes, local(limit), use)) range_.left_out(limit);
+    if (near_boxes(rows, rows.count(), columns, boxes, local(limit), settle, use)) range_.left_out(limit);
   }
 
   template <typename Handler>
   void near_vertices(const SelectedFeatures<1>& vertices, const SelectedFeatures<3>& triangles,
                      const kernels::Block& boxes, FloatBatch<1, 3>& batch, const Handler& handle) {
-    near_boxes(vertices, triangles, boxes, [&](const auto* of_vertices, const auto* of_faces, auto count) {
-      batch.add(vertices.all().view(), of_vertices, triangles.all().view(), of_faces, count,
-                [&] { bound(batch, handle); });
-    });
+    const bool are_of_a = &batch == &batches_.vertex_a;
+    const auto settle = [&](std::uint32_t vertex, std::uint32_t triangle) {
+      return are_of_a ? scratch_.coinciding.settle_vertex_and_face(pair_, vertex, triangle, sink_)
+                      : scratch_.coinciding.settle_face_and_vertex(pair_, triangle, vertex, sink_);
+    };
+    near_boxes(vertices, triangles, boxes, settle,
+               [&](const auto* of_vertices, const auto* of_faces, auto count) {
+                 batch.add(vertices.all().view(), of_vertices, triangles.all().view(), of_faces, count,
+                           [&] { bound(batch, handle); });
+               });
   }
 
   template <typename Handler>
@@ -204,8 +228,16 @@ class LeafFeaturePairs {
                 const kernels::Block& boxes, FloatBatch<2, 3>& batch, const Handler& handle) {
     if (!range_.may_pierce()) return;
     const kernels::Block touching_boxes{boxes.data, boxes.stride, triangles.touching()};
+    const bool is_through_b = &batch == &batches_.through_b;
+    const bool are_edges = segments.all().view().kind == FeatureRefKind::edge;
+    const auto settle = [&](std::uint32_t segment, std::uint32_t triangle) {
+      // An edge that ends at a corner does not pierce, but it touches.
+      if (!are_edges || range_.collects_touching()) return false;
+      return is_through_b ? scratch_.coinciding.ends_at_face_of_b(segment, triangle)
+                          : scratch_.coinciding.ends_at_face_of_a(segment, triangle);
+    };
     near_boxes(segments, segments.touching(), triangles, touching_boxes,
-               batches_.frame.to_local_limit(range_.touching()),
+               batches_.frame.to_local_limit(range_.touching()), settle,
                [&](const auto* of_segments, const auto* of_faces, auto count) {
                  batch.add(segments.all().view(), of_segments, triangles.all().view(), of_faces, count,
                            [&] { bound(batch, handle); });
@@ -218,11 +250,17 @@ class LeafFeaturePairs {
       batches_.segments.add(a.all().view(), of_a, b.all().view(), of_b, count,
                             [&] { bound(batches_.segments, handle_segments()); });
     };
+    const bool are_edges =
+        a.all().view().kind == FeatureRefKind::edge && b.all().view().kind == FeatureRefKind::edge;
+    const auto settle = [&](std::uint32_t of_a, std::uint32_t of_b) {
+      return are_edges && scratch_.coinciding.settle_edges(pair_, of_a, of_b, sink_);
+    };
     if (a.count() <= b.count())
-      near_boxes(a, b, boxes_of(b), add);
+      near_boxes(a, b, boxes_of(b), settle, add);
     else
-      near_boxes(b, a, boxes_of(a),
-                 [&](const auto* of_b, const auto* of_a, auto count) { add(of_a, of_b, count); });
+      near_boxes(
+          b, a, boxes_of(a), [&](std::uint32_t of_b, std::uint32_t of_a) { return settle(of_a, of_b); },
+          [&](const auto* of_b, const auto* of_a, auto count) { add(of_a, of_b, count); });
   }
 
   // ---- By the bounds of float

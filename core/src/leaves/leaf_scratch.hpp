@@ -5,6 +5,7 @@
 
 #include "closest_features/feature_pair_key.hpp"
 #include "leaves/closest_features_batch.hpp"
+#include "leaves/coinciding_corners.hpp"
 #include "leaves/float_filter.hpp"
 #include "leaves/leaf_cache.hpp"
 #include "leaves/leaf_features.hpp"
@@ -40,12 +41,17 @@ struct LeafScratch {
   FloatBatches filter;
   ClosestFeaturesBatch naming;
   RecentKeys recent_keys;
+  CoincidingCorners coinciding;
   FilterFrame frame;
+  /// Whether leaves get slabs that are further apart than they are large. They pay where boxes leave many
+  /// leaves about as near as the nearest, as between a shell and what is in its middle.
+  bool makes_slabs_of_far = false;
 
   /// Call it before the first pair of leaves of a query or slice. It forgets the query before. The frame is
   /// that of this pair, or of the first that is met.
   void begin() {
     frame = {};
+    makes_slabs_of_far = false;
     folds.begin();
     filter.begin();
     naming.begin();
@@ -66,16 +72,17 @@ struct LeafScratch {
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.all_a, self.all_b, self.slabs_a, self.slabs_b, self.corners, self.listed_a,
-                    self.listed_b, self.a, self.b, self.filter);
+                    self.listed_b, self.a, self.b, self.filter, self.coinciding);
   }
 
- private:
+  /// The slab of a leaf of `surface` where it is now. `slabs` is the cache for that surface.
   static const LeafSlab& slab_now(PerLeafCache<LeafSlab>& slabs, const Surface& surface, const Region& leaf) {
     slabs.begin(surface);
     const std::size_t number = surface.mesh().regions().number(leaf);
     return slabs.of(number, [&] { return slab_of(surface, leaf); });
   }
 
+ private:
   /// Chooses another frame if the present one does not serve: along the faces of a long leaf.
   void choose_frame(const LeafOf& leaf_a, const LeafOf& leaf_b) {
     const OrientedBox* const along = leaf_a.oriented != nullptr ? leaf_a.oriented : leaf_b.oriented;
@@ -107,7 +114,7 @@ struct LeafScratch {
     LeafSlab slab_a;
     LeafSlab slab_b;
     // Vertices alone are laid out as soon as their slab is made.
-    if (!vertices_only && are_worth_slabs(leaf_a.box, leaf_b.box, limit)) {
+    if (!vertices_only && (makes_slabs_of_far || are_worth_slabs(leaf_a.box, leaf_b.box, limit))) {
       slab_a = slab_now(slabs_a, pair.a, leaf_a.region);
       slab_b = slab_now(slabs_b, pair.b, leaf_b.region);
       if (are_apart(slab_a, slab_b, middle_b - middle_a, limit)) return nothing_near();

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <graze/contact.hpp>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "base/inplace_vector.hpp"
 #include "base/working_memory.hpp"
 #include "closest_features/feature_pair_key.hpp"
 #include "core/mesh/pair_room.hpp"
@@ -18,20 +18,16 @@ namespace graze {
 /// Two features, of a and b.
 using TwoFeatures = std::pair<Feature, Feature>;
 
-/// An edge or face that holds a feature, with directions that show of most holders that they are not
-/// parallel. An edge has its own direction, a face the normals of its triangles.
+/// An edge or face that holds a feature. Its direction shows of most that they are not parallel to others. An
+/// edge has its own direction, a face the normal of a triangle. The fourth number is the square of its
+/// length, were the corners square.
 struct Holder {
-  struct Direction {
-    Eigen::Vector3d vector;
-    double largest_square;  ///< of its length, were the corners square
-  };
-  Feature feature;
-  InplaceVector<Direction, 2> directions;
+  std::uint32_t feature;
+  std::array<double, 4> direction;
 };
 
-/// All that hold a feature, itself included where it is no vertex; each once.
+/// All that hold a feature, itself included where it is no vertex; a quad for each of its triangles.
 struct Holders {
-  std::vector<Feature> features;
   std::vector<Holder> edges;
   std::vector<Holder> faces;
 
@@ -39,8 +35,13 @@ struct Holders {
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.features, self.edges, self.faces);
+    return std::tie(self.edges, self.faces);
   }
+  void reserve(const PairRoom& room);
+
+ private:
+  void add_edge(const Surface& surface, std::uint32_t edge);
+  void add_face(const Surface& surface, std::uint32_t face);
 };
 
 /// Working memory of one thread.

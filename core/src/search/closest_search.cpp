@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t closest_first = 64;  ///< leaf pairs that make the bound tight before others are cut
 constexpr std::size_t closest_each = 64;
+constexpr std::size_t few_near = 256;  ///< pairs of leaves that no slabs are made for
 
 /// Updates the bound of two listed leaves by the result of testing them now, after a motion since they were
 /// listed.
@@ -178,6 +179,7 @@ SearchProgress ClosestSearch::begin_closest(SearchWorker& worker) {
   stage_ = Stage::closest;
   auto& leaves = slices_.found().leaves;
   const std::size_t near = sort_near_first(leaves, closest_.closest.upper, touching_order());
+  are_many_near_ = near > few_near;
   const std::size_t first = slices_.may_cut() ? std::min(near, closest_first) : near;
   if (!test_leaves(0, first, closest_, worker)) return SearchProgress::gave_up;
   // Leaf pairs are kept or not by their lower bounds alone, which ascend.
@@ -195,6 +197,7 @@ SearchProgress ClosestSearch::begin_closest(SearchWorker& worker) {
 bool ClosestSearch::test_leaves(std::size_t begin, std::size_t end, ClosestFound& found,
                                 SearchWorker& worker) {
   worker.begin_leaves(slices_.found());
+  worker.scratch.features.makes_slabs_of_far = are_many_near_;
   ClosestRange range(worker.pair, pair_.query, ties(), found, source_ != LeafSource::front_if_apart);
   for (std::size_t i = begin; i < end && !range.is_decided(); ++i) {
     LeafPair& leaves = slices_.found().leaves[i];

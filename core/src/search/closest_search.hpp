@@ -83,7 +83,8 @@ class ClosestSearch {
   NearBlocks& near_blocks_;
   Stage stage_ = Stage::approach;
   LeafSource source_ = LeafSource::walk;
-  bool is_bounded_ = false;  ///< by the last answer, so that middle vertices need not be asked
+  bool is_bounded_ = false;     ///< by the last answer, so that middle vertices need not be asked
+  bool are_many_near_ = false;  ///< pairs of leaves that are no further than the bound known before
   ClosestFound closest_;
   TouchingEdges touching_;
   bool has_touching_ = false;

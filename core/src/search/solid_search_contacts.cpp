@@ -46,8 +46,10 @@ void SolidSearch::list_keys_inside() {
   const auto add_all = [&](bool are_of_a, std::span<const std::uint32_t> vertices) {
     if (vertices.empty()) return;
     NearestOnSurface nearest(worker_.pair, are_of_a, worker_.scratch.features);
-    for (const std::uint32_t vertex : vertices) {
-      const std::optional<VertexNearest> found = nearest.find(vertex);
+    constexpr std::size_t some = 16;  // about a leaf
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (i % some == 0) nearest.begin_some(vertices.subspan(i, std::min(some, vertices.size() - i)));
+      const std::optional<VertexNearest> found = nearest.find(vertices[i]);
       if (found && !is_closer_than(worker_.pair, found->key, found->squared, pair_.query.threshold))
         scratch_.keys.push_back(found->key);
     }

@@ -4,11 +4,16 @@
 #include <cmath>
 
 #include "closest_features/closest_features.hpp"
+#include "solid/region_visit.hpp"
 
 namespace graze {
 namespace {
 
-/// A lower bound of the squared distance of a point and a box.
+/// A lower bound of the squared distance of two boxes, or of a point and a box.
+double lower_squared(const Box& a, const Box& b) {
+  const Eigen::Vector3d beside = (b.min - a.max).cwiseMax(a.min - b.max).cwiseMax(0.0);
+  return beside.squaredNorm() * round_down - 0x1p-1000;
+}
 double lower_squared(const Eigen::Vector3d& point, const Box& box) {
   const Eigen::Vector3d beside = (box.min - point).cwiseMax(point - box.max).cwiseMax(0.0);
   return beside.squaredNorm() * round_down - 0x1p-1000;
@@ -32,31 +37,73 @@ NearestOnSurface::NearestOnSurface(const SurfacePair& pair, bool are_of_a, LeafS
   leaves_.begin(to_, scratch.filter.frame, false);
 }
 
+/// Lists the leaves that may be nearer to any of the vertices than what was nearest to the last one.
+void NearestOnSurface::begin_some(std::span<const std::uint32_t> vertices) {
+  is_listed_ = false;
+  // With groups, what was nearest to another vertex may be no feature for this one.
+  if (!has_any_ || pair_.groups != nullptr) return;
+  Box box;
+  double limit = 0;
+  for (const std::uint32_t vertex : vertices) {
+    const Eigen::Vector3d point = from_.position(vertex);
+    box.add(point);
+    limit = std::max(limit, upper_beside_last(point));
+  }
+  listed_.clear();
+  is_listed_ = true;
+  visit_leaves(
+      to_, [&](const Box& region) { return is_listed_ && lower_squared(box, region) <= limit; },
+      [&](const Region& leaf) {
+        const double lower = lower_squared(box, box_of(to_.mesh().regions().number(leaf)));
+        is_listed_ = is_listed_ && listed_.push_back({lower, &leaf});
+      });
+  std::sort(listed_.begin(), listed_.end(), [](const NearLeaf& left, const NearLeaf& right) {
+    return left.lower != right.lower ? left.lower < right.lower : left.leaf < right.leaf;
+  });
+}
+
 std::optional<VertexNearest> NearestOnSurface::find(std::uint32_t vertex) {
   begin(vertex);
+  if (is_listed_)
+    search_listed();
+  else
+    search_all();
+  add_bounded();
+  return has_any_ ? std::optional(nearest_) : std::nullopt;
+}
+
+void NearestOnSurface::search_listed() {
+  for (const NearLeaf& each : listed_) {
+    if (each.lower > limit_) return;
+    if (lower_of(to_.mesh().regions().number(*each.leaf)) <= limit_ && is_near(*each.leaf))
+      add_leaf(*each.leaf);
+  }
+}
+
+void NearestOnSurface::search_all() {
   open_.push_back({lower_of(0), 0});
   while (!open_.empty()) {
     const Open next = open_.back();
     open_.pop_back();
     if (next.lower > limit_) continue;
     const Region& region = to_.mesh().regions().region(next.region);
-    if (region.is_leaf())
-      add_leaf(region);
-    else
+    if (!region.is_leaf())
       open_children(region);
+    else if (is_near(region))
+      add_leaf(region);
   }
-  add_bounded();
-  return has_any_ ? std::optional(nearest_) : std::nullopt;
+}
+
+/// Whether a leaf may be as near as the nearest, by its slab.
+bool NearestOnSurface::is_near(const Region& leaf) {
+  const LeafSlab& slab = LeafScratch::slab_now(are_of_a_ ? scratch_.slabs_b : scratch_.slabs_a, to_, leaf);
+  return !(lower_squared(slab, point_ - to_.middle(leaf)) > limit_);
 }
 
 void NearestOnSurface::begin(std::uint32_t vertex) {
   point_ = from_.position(vertex);
   limit_ = std::numeric_limits<double>::infinity();
-  // With groups, what was nearest to another vertex may be no feature for this one.
-  if (has_any_ && pair_.groups == nullptr) {
-    const FeaturePiece last = are_of_a_ ? nearest_.key.b() : nearest_.key.a();
-    shrink_limit(squared_range(point_, simplex_of(to_, last).point[0]).high);
-  }
+  if (has_any_ && pair_.groups == nullptr) shrink_limit(upper_beside_last(point_));
   has_any_ = false;
   nearest_.vertex = are_of_a_ ? VertexOfPair::of_a(vertex) : VertexOfPair::of_b(vertex);
   to_frame(from_, std::span(&vertex, 1), scratch_.filter.frame, corner_.data());
@@ -66,9 +113,23 @@ void NearestOnSurface::begin(std::uint32_t vertex) {
                                    listed.data());
 }
 
-double NearestOnSurface::lower_of(std::uint32_t region) const {
+/// At least the squared distance of a point and of what was nearest to the last vertex.
+double NearestOnSurface::upper_beside_last(const Eigen::Vector3d& point) const {
+  const Simplex last = simplex_of(to_, are_of_a_ ? nearest_.key.b() : nearest_.key.a());
+  double upper = squared_range(point, last.point[0]).high;
+  for (std::uint32_t i = 1; i < last.size; ++i)
+    upper = std::min(upper, squared_range(point, last.point[i]).high);
+  return upper;
+}
+
+Box NearestOnSurface::box_of(std::size_t region) const {
   const Box& box = to_.face_boxes()[region];
-  return lower_squared(point_, slack_ == 0 ? box : grown(box, slack_));
+  return slack_ == 0 ? box : grown(box, slack_);
+}
+
+double NearestOnSurface::lower_of(std::size_t region) const {
+  return slack_ == 0 ? lower_squared(point_, to_.face_boxes()[region])
+                     : lower_squared(point_, box_of(region));
 }
 
 /// Puts the nearest child last, since that is taken first.

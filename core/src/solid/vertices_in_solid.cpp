@@ -32,8 +32,9 @@ void VerticesInSolid::find(const Surface& surface, const Surface& solid,
     if (location != PointInSolid::inside && location != PointInSolid::inside_out) continue;
     has_inside_out_ = has_inside_out_ || location == PointInSolid::inside_out;
     for (const std::uint32_t vertex : joined_) states_[vertex] = State::inside;
-    inside_.insert(inside_.end(), joined_.begin(), joined_.end());
   }
+  for (const std::uint32_t vertex : candidates_)
+    if (states_[vertex] == State::inside) inside_.push_back(vertex);
   for (const std::uint64_t edge : touching_) beside_[edge >> 32U] = beside_[edge & ~std::uint32_t{0}] = 0;
 }
 

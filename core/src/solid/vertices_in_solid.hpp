@@ -24,7 +24,7 @@ class VerticesInSolid {
   void set_all(const Surface& surface);
   void set_none(const Surface& surface);
 
-  /// The vertices inside, in no order.
+  /// The vertices inside. Those that follow each other are mostly beside each other, as leaves have them.
   [[nodiscard]] std::span<const std::uint32_t> inside() const { return inside_; }
   /// The side of the solid on which a vertex is: `back` inside, `none` on the surface.
   [[nodiscard]] Side side_of(std::uint32_t vertex) const {

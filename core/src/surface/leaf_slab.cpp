@@ -130,4 +130,19 @@ bool are_apart(const LeafSlab& a, const LeafSlab& b, const Eigen::Vector3d& betw
   return is_apart(a, b, between, cosine, sine, further) || is_apart(b, a, -between, cosine, sine, further);
 }
 
+// The contents are between the two planes, and within the radius of the middle vertex. So they are no nearer
+// along the normal than the planes, and no nearer across it than a circle of that radius.
+double lower_squared(const LeafSlab& slab, const Eigen::Vector3d& way) {
+  if (!slab.is_known()) return 0;
+  const double height = slab.normal.cast<double>().dot(way);
+  const double lost = (way.cwiseAbs().sum() + static_cast<double>(slab.radius)) * 0x1p-40 + lost_to_underflow;
+  const double over = std::max(
+      0.0, std::max(height - static_cast<double>(slab.high), static_cast<double>(slab.low) - height) - lost);
+  // The normal may be a little shorter than 1, and the height by as much less than it is.
+  const double across_squared = way.squaredNorm() - height * height * (1 + 0x1p-18);
+  const double across =
+      std::max(0.0, std::sqrt(std::max(0.0, across_squared)) - static_cast<double>(slab.radius) - lost);
+  return (over * over + across * across) * round_down;
+}
+
 }  // namespace graze

@@ -31,6 +31,10 @@ LeafSlab slab_of(const Surface& surface, const Region& leaf);
 /// a's middle vertex to b's.
 bool are_apart(const LeafSlab& a, const LeafSlab& b, const Eigen::Vector3d& between, double distance);
 
+/// At most the squared distance of a point and the contents of a slab; `way` leads from the middle vertex to
+/// the point.
+double lower_squared(const LeafSlab& slab, const Eigen::Vector3d& way);
+
 /// Whether slabs may say more than boxes about pairs within a distance: they do not where that is as large as
 /// a leaf.
 inline bool are_worth_slabs(const Box& a, const Box& b, double distance) {

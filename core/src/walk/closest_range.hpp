@@ -114,12 +114,14 @@ class ClosestRange {
   }
   [[nodiscard]] bool wants_touching() const { return is_decided(); }
   static constexpr bool nearest_only = false;
+  static constexpr bool may_settle = true;
   void may_touch(const FeatureRef& segment, bool is_of_a) const {
     if (touching_edges_ != nullptr) touching_edges_->add(segment, is_of_a);
   }
   /// Collects the edges that touch between leaves that are tested from here on. Whether one pierces a face is
   /// found out, too.
   void collect(TouchingEdges& touching) { touching_edges_ = &touching; }
+  [[nodiscard]] bool collects_touching() const { return touching_edges_ != nullptr; }
   [[nodiscard]] static double touching() { return 0; }
   [[nodiscard]] static bool is_listing() { return false; }
   static void found(const FeatureRef& /*a*/, const FeatureRef& /*b*/) {}
@@ -133,6 +135,10 @@ class ClosestRange {
       if (!squared.is_beyond(set_.upper())) set_.offer(key);
     };
     if (scratch.select_near(pair_, leaf_a, leaf_b, *this)) {
+      // Where all keys at distance 0 are wanted, most are those of corners that coincide.
+      scratch.coinciding.clear();
+      if (set_.upper() == 0 && set_.wants_all() && set_.has_vertices() && pair_.groups == nullptr)
+        scratch.coinciding.begin(pair_, leaf_a.region, leaf_b.region);
       LeafFeaturePairs keys(pair_, scratch, *this, offer);
       keys.add_selected();
       keys.finish();

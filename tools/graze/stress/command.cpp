@@ -14,6 +14,7 @@
 #include "stress/coinciding.hpp"
 #include "stress/costly.hpp"
 #include "stress/determinism.hpp"
+#include "stress/inside.hpp"
 #include "stress/never_touching.hpp"
 #include "stress/objects.hpp"
 #include "stress/reader.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 struct StressOptions {
   bool reader = false, soak = false, determinism = false, budgets = false, coinciding = false, costly = false;
-  bool never_touching = false;
+  bool never_touching = false, inside = false;
   double seconds = 60;
   ObjectsOptions objects;
   SoakOptions soaking;
@@ -51,6 +52,8 @@ void run(StressOptions options) {
     result = run_costly_study(options.frames > 0 ? options.frames : 9);
   } else if (options.never_touching) {
     result = run_never_touching_study(options.frames > 0 ? options.frames : 50);
+  } else if (options.inside) {
+    result = run_inside_study(options.frames > 0 ? options.frames : 5);
   } else if (options.budgets) {
     if (options.frames > 0) options.budgeted.frames = options.frames;
     result = run_budgets_study(options.budgeted);
@@ -68,8 +71,8 @@ void run(StressOptions options) {
 void add_stress_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("stress",
                                          "Puts graze under load: one of --reader, --objects, --soak, "
-                                         "--determinism, --budgets, --coinciding, --costly and "
-                                         "--never-touching.");
+                                         "--determinism, --budgets, --coinciding, --costly, "
+                                         "--never-touching and --inside.");
   const auto options = std::make_shared<StressOptions>();
   auto* const studies = command->add_option_group("studies")->require_option(1);
   studies->add_flag("--reader", options->reader,
@@ -89,6 +92,7 @@ void add_stress_command(CLI::App& app) {
   studies->add_flag(
       "--never-touching", options->never_touching,
       "Objects that lie in each other but can never touch, beside one that moves far from them");
+  studies->add_flag("--inside", options->inside, "A body wholly inside a solid, beside a plain tree");
   studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
   command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
       ->check(thread_number())
@@ -104,9 +108,9 @@ void add_stress_command(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--frames", options->frames,
-                   "How many frames --objects times, --determinism, --coinciding, --costly and "
-                   "--never-touching play and --budgets steps each scene; by default 20, 9, 9, 50 and 100 of "
-                   "the latter five, and more of smaller scenes. --soak takes as many in place of --minutes")
+                   "How many frames --objects times, --determinism, --coinciding, --costly, --never-touching "
+                   "and --inside play and --budgets steps each scene; by default 20, 9, 9, 50, 5 and 100 of "
+                   "the latter six, and more of smaller scenes. --soak takes as many in place of --minutes")
       ->check(whole_number(1));
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
       ->check(whole_number(1))
