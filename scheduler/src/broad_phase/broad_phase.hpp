@@ -23,15 +23,13 @@ class IgnoredPairs {
  public:
   using Serials = std::pair<std::uint64_t, std::uint64_t>;
 
+  virtual ~IgnoredPairs() = default;
   /// Whether no pair is ignored.
   [[nodiscard]] virtual bool is_empty() const = 0;
   [[nodiscard]] virtual bool contains(const Serials& pair) const = 0;
   /// The pairs that became ignored, or are not ignored any more, since they were last forgotten. No value
   /// means that there are too many to name.
   [[nodiscard]] virtual std::optional<std::span<const Serials>> changed() const = 0;
-
- protected:
-  ~IgnoredPairs() = default;
 };
 
 /// Keeps the pairs of objects that may be near, from step to step. Pairs that filters take out have no place
