@@ -35,14 +35,8 @@ inline double lower_distance(const Eigen::Vector3d& middle_a, double radius_a,
 
 /// At most the distance of two regions whose boxes are along their faces, where these are not null, or along
 /// the axes of space.
-inline double lower_of_long(const OrientedBox* oriented_a, const Box& box_a, const OrientedBox* oriented_b,
-                            const Box& box_b) {
-  if (oriented_a == nullptr && oriented_b == nullptr) return 0;
-  const OrientedBox a = oriented_a != nullptr ? *oriented_a : OrientedBox::of(box_a);
-  const OrientedBox b = oriented_b != nullptr ? *oriented_b : OrientedBox::of(box_b);
-  return std::max(oriented_a != nullptr ? lower_along_axes(a, b) : 0,
-                  oriented_b != nullptr ? lower_along_axes(b, a) : 0);
-}
+double lower_of_long(const OrientedBox* oriented_a, const Box& box_a, const OrientedBox* oriented_b,
+                     const Box& box_b);
 
 /// The certified bound of docs/method.md, section 2, for the regions of two surfaces as they are now: from
 /// the boxes of the last refit, less the motion since then.
@@ -88,14 +82,8 @@ class RegionBounds {
  private:
   [[nodiscard]] const Box& box_a(const RegionPair& pair) const { return a_.boxes(boxes_)[pair.a]; }
   [[nodiscard]] const Box& box_b(const RegionPair& pair) const { return b_.boxes(boxes_)[pair.b]; }
-  [[nodiscard]] double lower_of_long_regions(const RegionPair& pair) const {
-    const auto oriented = [](const Surface& surface, std::uint32_t region) -> const OrientedBox* {
-      const LongRegions& all = surface.mesh().long_regions();
-      const std::uint32_t index = all.empty() ? LongRegions::none : all.index_of(region);
-      return index == LongRegions::none ? nullptr : &surface.oriented_boxes()[index];
-    };
-    return lower_of_long(oriented(a_, pair.a), box_a(pair), oriented(b_, pair.b), box_b(pair));
-  }
+  /// Apart from `lower`, which is so small that it is inlined.
+  [[nodiscard]] double lower_of_long_regions(const RegionPair& pair) const;
   static double size(const Box& box) { return (box.max - box.min).maxCoeff(); }
   static double less_motion(double distance, double motion) {
     return motion == 0 ? distance : std::max(0.0, (distance - motion) * round_down);

@@ -178,20 +178,9 @@ class LeafPairs {
     if (size_b > very_different * size_a && !b.is_leaf()) return {false, true};
     return {true, true};
   }
-  double lower_of_long_leaves(const RegionPair& leaves) {
-    return lower_of_long(scratch_.long_a.of(leaves.a), scratch_.boxes_a.of(leaves.a),
-                         scratch_.long_b.of(leaves.b), scratch_.boxes_b.of(leaves.b));
-  }
-  /// By the corners of either leaf along the axes of the other, if that is long.
-  double lower_along_long(const RegionPair& leaves) {
-    const OrientedBox* const of_a = scratch_.long_a.of(leaves.a);
-    const OrientedBox* const of_b = scratch_.long_b.of(leaves.b);
-    double lower = 0;
-    if (of_a != nullptr) lower = lower_along_axes(*of_a, box_along(*of_a, pair_.b, leaves.b));
-    if (of_b != nullptr)
-      lower = std::max(lower, lower_along_axes(*of_b, box_along(*of_b, pair_.a, leaves.a)));
-    return lower;
-  }
+  // Apart from what calls them, which is so small that it is inlined.
+  [[nodiscard]] double lower_of_long_leaves(const RegionPair& leaves);
+  [[nodiscard]] double lower_along_long(const RegionPair& leaves);
 
   const SurfacePair& pair_;
   const PairQuery& query_;
