@@ -393,7 +393,7 @@ Contact closest_contact(const SurfacePair& pair, const std::vector<FeaturePairKe
     if (key.kind() < ContactKind::EE) break;
   }
   if (const auto contact = parallel.lowest(lowest)) return *contact;
-  return measure(pair, *lowest);
+  return measure(pair, lowest == nullptr ? keys.front() : *lowest);
 }
 
 }  // namespace graze
