@@ -16,8 +16,7 @@ namespace graze {
 /// Says what a step does while all frames of its recorder wait to be written.
 enum class WhenBehind : std::uint8_t {
   /// The step is not delayed. Its frame is dropped and counted, and the next frame that is recorded begins
-  /// with
-  /// the whole scene. For a program that keeps a frame rate.
+  /// with the whole scene. For a program that keeps a frame rate.
   drop,
   /// The step waits until a frame is written, so no frame is lost. For a run without a frame rate to keep.
   wait
