@@ -16,8 +16,8 @@ namespace graze {
 /// Finds the keys of `ContactDetail::nearest` between leaves of two surfaces. Edges that pierce faces, and
 /// edges that are locally closest below a threshold, are appended to `keys`. What may be nearest to a vertex
 /// is offered to `vertices`, which are complete when all leaves have been added. The fold of a quad and what
-/// is nearest to it are no contact. But the surfaces may be nearest there, so `fold` takes the nearest of
-/// those below the threshold.
+/// is nearest to it are a contact only where there is no other. `fold` takes the nearest of those below the
+/// threshold.
 class NearestFeatures {
  public:
   /// All keys have come after `finish`. So have the edges that touch in `touching`, which may be null.

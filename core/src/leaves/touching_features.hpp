@@ -7,13 +7,16 @@
 
 namespace graze {
 
-/// Finds the edges of either surface that may touch a face of the other, between pairs of leaves, and whether
-/// one pierces it. Float answers nearly all of it: once one edge pierces, no other is decided.
+/// Finds the edges of either surface that may touch a face of the other, between pairs of leaves. Groups of
+/// faces play no part in that. It also finds whether an edge pierces a face that it is looked at with. Float
+/// answers nearly all of it: once one edge pierces, no other is decided.
 class TouchingFeatures {
  public:
-  /// All edges are in `touching` after `finish`.
-  TouchingFeatures(const SurfacePair& pair, LeafScratch& scratch, TouchingEdges& touching)
-      : pair_(pair), scratch_(scratch), touching_(touching) {}
+  /// All edges are in `touching` after `finish`. `pair` has no groups, and `groups` are those that say what
+  /// is looked at, or null.
+  TouchingFeatures(const SurfacePair& pair, const GroupFilter* groups, LeafScratch& scratch,
+                   TouchingEdges& touching)
+      : pair_(pair), groups_(groups), scratch_(scratch), touching_(touching) {}
 
   void add(const LeafOf& leaf_a, const LeafOf& leaf_b);
   void finish();
@@ -21,8 +24,10 @@ class TouchingFeatures {
  private:
   template <typename Use>
   void with_pairs(const Use& use);
+  [[nodiscard]] bool is_piercing(const FeaturePairKey& key) const;
 
   const SurfacePair& pair_;
+  const GroupFilter* groups_;
   LeafScratch& scratch_;
   TouchingEdges& touching_;
 };

@@ -67,6 +67,7 @@ bool is_better(const ClosestPoints& found, const ClosestPoints& best) {
 /// The triangle of a face that a segment passes through, or -1, decided exactly as in reports. It asks plain
 /// double first. Coordinates that no report has are not decided.
 std::int8_t pierced_triangle_of(const Segment& segment, const PlacedFeature& face) {
+  const FloatingPointScope scope;
   std::array<Simplex, 2> triangles{Simplex{3, {}, face.triangle(0)}};
   if (face.is_quad()) triangles[1] = {3, {}, face.triangle(1)};
   const auto some = std::span(triangles).first(face.is_quad() ? 2 : 1);
@@ -82,7 +83,6 @@ std::int8_t pierced_triangle_of(const Segment& segment, const PlacedFeature& fac
   if (!std::all_of(segment.begin(), segment.end(), is_good)) return -1;
   for (const Simplex& triangle : some)
     if (!std::all_of(triangle.point.begin(), triangle.point.end(), is_good)) return -1;
-  const FloatingPointScope scope;
   DecisionCount count;
   const bool has_fold =
       face.is_quad() && diagonal_of(face.placed.mesh, face.feature.index).feature.kind == FeatureKind::face;

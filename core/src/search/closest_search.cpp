@@ -218,11 +218,18 @@ bool ClosestSearch::test_leaves(LeafPair& leaves, ClosestRange& range, SearchWor
     range.offer_vertices(a, b, worker.scratch.features);
     return true;
   }
-  has_touching_ = is_one_pair_of_leaves();
-  touching_.clear();
-  if (has_touching_) range.collect(touching_);
+  // Slices of large pairs run at the same time, and these have more than one pair of leaves. So no two slices
+  // write the edges.
+  const bool collects = is_one_pair_of_leaves();
+  if (collects) {
+    touching_.clear();
+    range.collect(touching_);
+  }
   leaves.feature_lower_bound = rounded_down(range.offer_features(a, b, worker.scratch.features));
-  touching_.pierced = range.has_pierced();
+  if (collects) {
+    touching_.pierced = range.has_pierced();
+    has_touching_ = true;
+  }
   return true;
 }
 

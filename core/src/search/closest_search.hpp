@@ -33,6 +33,7 @@ class ClosestSearch {
 
   void reserve_as(const ClosestSearch& other);
   void reserve(const PairRoom& room);
+  void reserve_for_solids() { touching_.reserve(); }
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

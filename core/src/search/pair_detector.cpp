@@ -1,6 +1,5 @@
 #include "core/search/pair_detector.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "core/pair/group_filter.hpp"
@@ -52,9 +51,6 @@ void PairDetector::reserve(const PairRoom& room) {
 void PairDetector::reserve_for_solids(const PairRoom& room) {
   scratch_->search.reserve_for_solids();
   scratch_->memory.solid.reserve_for_solids(room);
-  PairRoom of_touching = room;
-  of_touching.contacts = std::max(room.contacts, room.ties);
-  scratch_->memory.nearest_of_vertices.reserve(of_touching);
 }
 
 void PairDetector::reserve_for_limit(std::size_t most, const PairRoom& room) {

@@ -35,7 +35,10 @@ class PairSearch {
   /// Reserves as much as another search has. Neither is cut into slices.
   void reserve_as(const PairSearch& other);
   void reserve(const PairRoom& room);
-  void reserve_for_solids() { contacts_.reserve_for_solids(); }
+  void reserve_for_solids() {
+    contacts_.reserve_for_solids();
+    closest_.reserve_for_solids();
+  }
   void reserve_for_limit(std::size_t most, const PairRoom& room) { contacts_.reserve_for_limit(most, room); }
   [[nodiscard]] std::size_t byte_count() const;
 

@@ -1,6 +1,5 @@
 #include "search/solid_search.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -85,23 +84,11 @@ bool SolidSearch::find_touching(double apart) {
           {&root, 1}, touches, [](const RegionPair&) {}, found))
     return false;
   worker_.begin_leaves(found);
-  TouchingFeatures features(whole, worker_.scratch.features, scratch_.touching);
+  TouchingFeatures features(whole, worker_.pair.groups, worker_.scratch.features, scratch_.touching);
   for (const LeafPair& leaves : found.leaves)
     features.add(leaf_pairs.leaf_a(leaves.pair), leaf_pairs.leaf_b(leaves.pair));
   features.finish();
-  if (worker_.pair.groups != nullptr) scratch_.touching.pierced = pierces_where_looked_at();
   return true;
-}
-
-/// Whether an edge pierces a face that it is looked at with, among the edges that pierce any.
-bool SolidSearch::pierces_where_looked_at() const {
-  const auto ref_of = [](const FeaturePiece& piece) {
-    const bool is_edge = piece.feature.kind == FeatureKind::edge;
-    return FeatureRef{is_edge ? FeatureRefKind::edge : FeatureRefKind::face, piece.feature.index};
-  };
-  return std::any_of(scratch_.keys.begin(), scratch_.keys.end(), [&](const FeaturePairKey& key) {
-    return is_edge_through_face(key) && worker_.pair.may(ref_of(key.a()), ref_of(key.b()));
-  });
 }
 
 Inside SolidSearch::state(bool pierced) const {

@@ -37,7 +37,6 @@ class SolidSearch {
   [[nodiscard]] bool knows_inside() const;
   void repeat_inside();
   [[nodiscard]] bool find_touching(double apart);
-  [[nodiscard]] bool pierces_where_looked_at() const;
   [[nodiscard]] Inside state(bool pierced) const;
   void remember_inside(double apart) const;
   void add_contacts_inside();

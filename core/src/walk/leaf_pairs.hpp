@@ -160,11 +160,11 @@ class LeafPairs {
 
   [[nodiscard]] LeafOf leaf_a(const RegionPair& leaves) {
     return {pair_.a.mesh().regions().region(leaves.a), scratch_.boxes_a.of(leaves.a),
-            scratch_.long_a.of(leaves.a)};
+            has_long_ ? scratch_.long_a.of(leaves.a) : nullptr};
   }
   [[nodiscard]] LeafOf leaf_b(const RegionPair& leaves) {
     return {pair_.b.mesh().regions().region(leaves.b), scratch_.boxes_b.of(leaves.b),
-            scratch_.long_b.of(leaves.b)};
+            has_long_ ? scratch_.long_b.of(leaves.b) : nullptr};
   }
 
  private:

@@ -39,7 +39,8 @@ struct Region {
 /// vertices is cut into 8 equal boxes about its centre. The centre is computed relative to the root box's
 /// minimum. A vertex on a cut goes to the upper side, and empty children are dropped. Coincident vertices or
 /// depth `max_level` end the cutting. A face belongs to the region of its first corner, an edge to that of
-/// its lower vertex, so that every feature has one owner.
+/// its lower vertex, so that every feature has one owner. A hub, a vertex of very many faces, leaves those
+/// that another corner can own to that corner.
 class GRAZE_API RegionTree {
  public:
   static constexpr std::uint32_t leaf_capacity = 30;
