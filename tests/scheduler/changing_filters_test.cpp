@@ -228,4 +228,20 @@ TEST_CASE("a pair that is ignored and watched again stands as it is, in many way
   CHECK(again->statistics().pairs_in_contact == pairs - 99);
 }
 
+TEST_CASE("an ignored pair whose object gets another mesh and is removed is no longer counted") {
+  SceneSettings settings = settings_of(0.25, 0.5, ContactDetail::closest);
+  settings.threads = 1;
+  Scene scene(settings);
+  const ObjectId a = scene.add(plate_mesh(), motion_of(Motion::rigid));
+  const ObjectId b = scene.add(plate_mesh(), motion_of(Motion::rigid));
+  scene.ignore(a, b);
+  CHECK(scene.step()->statistics().pairs_ignored == 1);
+  std::vector<std::uint32_t> same(plate_mesh()->vertex_count());
+  for (std::uint32_t vertex = 0; vertex < same.size(); ++vertex) same[vertex] = vertex;
+  scene.replace_mesh(a, plate_mesh(), same);
+  CHECK(scene.step()->statistics().pairs_ignored == 1);
+  scene.remove(a);
+  CHECK(scene.step()->statistics().pairs_ignored == 0);
+}
+
 }  // namespace graze::tests

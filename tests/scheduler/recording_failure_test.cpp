@@ -125,16 +125,18 @@ void check_gaps(const std::filesystem::path& file, const RecorderStatistics& cou
 }
 
 /// Lets each allocation of the recorder's thread fail in turn. Returns how many there are.
-std::uint64_t fail_each(unsigned seed, Kept kept, Lack lack, std::uint64_t end, std::uint64_t stride) {
+std::uint64_t fail_each(unsigned seed, Kept kept, Lack lack, std::uint64_t begin, std::uint64_t end,
+                        std::uint64_t stride) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "run.graze";
   for (std::uint64_t place = seed % stride;; place += stride) {
     INFO("seed " << seed << ", allocation " << place << ", in a ring: " << (kept == Kept::in_ring));
-    const Outcome outcome = play_short_of_memory(seed, {place, lack, 8, end}, kept, file);
+    const Outcome outcome = play_short_of_memory(seed, {place, lack, begin, end}, kept, file);
     CHECK(outcome.counted.frames + outcome.counted.dropped == frames_played);
     if (outcome.written) {
       CHECK(outcome.written->frames == outcome.counted.frames);
-      CHECK(outcome.written->dropped == outcome.counted.dropped);
+      // What is missing before the first frame of a ring is not missing in its file.
+      CHECK(outcome.written->dropped == (begin == 0 ? 0 : outcome.counted.dropped));
       CHECK(outcome.written->bytes == std::filesystem::file_size(file));
     }
     check_gaps(file, outcome.counted);
@@ -146,7 +148,7 @@ std::uint64_t fail_each(unsigned seed, Kept kept, Lack lack, std::uint64_t end, 
       CHECK(outcome.counted.dropped == 1);
     } else {
       CHECK(outcome.counted.dropped >= 1);
-      CHECK(outcome.counted.dropped <= end - 8);
+      CHECK(outcome.counted.dropped <= end - begin);
     }
   }
 }
@@ -177,14 +179,43 @@ TEST_CASE("recording: a writer that lacks memory once drops one frame, and the n
   std::uint64_t places = 0;
   for (unsigned seed = 0; seed < 4; ++seed)
     for (const Kept kept : {Kept::in_file, Kept::in_ring})
-      places += fail_each(seed, kept, Lack::once, 9, seed == 0 ? 3 : 13);
+      places += fail_each(seed, kept, Lack::once, 8, 9, seed == 0 ? 3 : 13);
   CHECK(places > 100);
 }
 
 TEST_CASE("recording: a writer that lacks memory for some frames drops these and goes on") {
   for (unsigned seed = 4; seed < 7; ++seed)
     for (const Kept kept : {Kept::in_file, Kept::in_ring})
-      (void)fail_each(seed, kept, Lack::from_then_on, 12, 23);
+      (void)fail_each(seed, kept, Lack::from_then_on, 8, 12, 23);
+}
+
+TEST_CASE("recording: a writer that lacks memory for a frame with a keyframe begins afresh with the next") {
+  for (const std::uint64_t begin : {0U, 5U})
+    for (const Kept kept : {Kept::in_file, Kept::in_ring})
+      (void)fail_each(7, kept, Lack::once, begin, begin + 1, 5);
+}
+
+TEST_CASE("recording: a writer sees a step that lacks memory, and the same step again") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "run.graze";
+  std::size_t failed = 0;
+  for (std::uint64_t place = 0; place < 60; ++place) {
+    INFO("allocation " << place);
+    NeedleOverPlate stage(one_thread_settings());
+    Recorder recorder(stage.scene, file);
+    FailingAllocator::begin(place, Lack::once);
+    try {
+      stage.step_at(0.25);
+    } catch (const std::bad_alloc&) {
+      ++failed;
+    }
+    (void)FailingAllocator::end();
+    stage.step_at(0.125);
+    recorder.close();
+    Recording(file).check();
+    CHECK(first_difference_in(file, 0) == "");
+  }
+  CHECK(failed > 5);
 }
 
 TEST_CASE("recording: a ring that lacked memory in step 21 of 120 has the other 119") {

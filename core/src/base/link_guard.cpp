@@ -2,11 +2,11 @@
 
 #if defined(__GLIBCXX__)
 
-namespace graze::link_guard {
+namespace graze {
 
 const char GRAZE_CONTAINERS = 0;
 const char GRAZE_STRINGS = 0;
 
-}  // namespace graze::link_guard
+}  // namespace graze
 
 #endif

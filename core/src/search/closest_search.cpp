@@ -220,7 +220,7 @@ bool ClosestSearch::test_leaves(LeafPair& leaves, ClosestRange& range, SearchWor
   }
   // Slices of large pairs run at the same time, and these have more than one pair of leaves. So no two slices
   // write the edges.
-  const bool collects = is_one_pair_of_leaves();
+  const bool collects = range.may_pierce() && is_one_pair_of_leaves();
   if (collects) {
     touching_.clear();
     range.collect(touching_);

@@ -57,7 +57,7 @@ class GltfMeshReader {
       add_primitive(primitive, joined(json_path_, ".primitives[", number++, "]"));
     read_vertices();
     Body& body = result_.body;
-    for (auto& target : body.targets) target.offsets.resize(body.vertices.size(), Eigen::Vector3d::Zero());
+    for (auto& target : body.targets) pad(target, body.vertices.size());
     if (!body.influences.empty()) {
       body.influences.resize(body.vertices.size());
       set_bones(body, *joints_);
@@ -65,7 +65,6 @@ class GltfMeshReader {
     set_rest_weights();
     const auto numbers = weld(body);
     for (auto& corner : result_.faces.corners) corner = numbers[corner];
-    document_.count_kept(3 * body.vertices.size() * (1 + body.targets.size()), json_path_);
     return std::move(result_);
   }
 
@@ -155,6 +154,13 @@ class GltfMeshReader {
         result_.faces.add_face(std::span(sets_[range.set].corners).subspan(i, 3));
   }
 
+  /// Gives a target offsets of 0 up to a number of vertices.
+  void pad(MorphTarget& target, std::size_t vertices) {
+    if (target.offsets.size() >= vertices) return;
+    document_.count_kept(3 * (vertices - target.offsets.size()), json_path_);
+    target.offsets.resize(vertices, Eigen::Vector3d::Zero());
+  }
+
   void add_targets(const VertexSet& set, const GltfElements& used) {
     if (!set.targets->is_array()) return;
     auto& targets = result_.body.targets;
@@ -167,7 +173,7 @@ class GltfMeshReader {
         document_.fail_at(here, "the target has another number of vertices than the mesh; export it again");
       const GltfNumbers offsets = read_accessor(document_, moved, "VEC3", here, used);
       document_.count_kept(offsets.values.size(), here);
-      targets[i].offsets.resize(first_, Eigen::Vector3d::Zero());
+      pad(targets[i], first_);
       for (std::size_t vertex = 0; vertex < used.size(); ++vertex)
         targets[i].offsets.push_back(offsets.vector(vertex));
     }

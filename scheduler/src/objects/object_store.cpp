@@ -116,6 +116,7 @@ void ObjectStore::apply(ReplaceMesh& call) {
   now.face_groups = std::move(call.face_groups);
   now.mesh_number = object->mesh_number + 1;
   now.replaced = std::move(replaced);
+  now.ignored_partners = std::move(object->ignored_partners);
   now.frozen = object->frozen && object->is_posed();
   if (!now.frozen) now.pose = object->pose ? object->pose : object->standing_pose;
   now.may_have_input = object->may_have_input;

@@ -60,7 +60,7 @@ void IgnoredObjects::forget(Object& object) {
     if (pairs_.erase(sorted_pair(object.serial, partner.serial)) && partner.counts) --counted_;
   some_erased_ = some_erased_ || !object.ignored_partners.empty();
   partner_bytes_ -= bytes_of(object.ignored_partners);
-  object.ignored_partners = {};
+  std::vector<IgnoredPartner>().swap(object.ignored_partners);  // with its memory
 }
 
 }  // namespace graze

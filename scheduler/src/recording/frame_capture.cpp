@@ -112,6 +112,8 @@ void FrameCapture::see_content(const PairFilter& filter) noexcept {
           if (a != nullptr && b != nullptr) add_record(IgnoreGroups{a->id, group_a, b->id, group_b, true});
         });
   });
+  // A step that fails after this is done again with the same frame, which has the scene by then.
+  if (frame_ != nullptr) frame_->is_snapshot = false;
 }
 
 void FrameCapture::see_memory(const Object& object) noexcept {

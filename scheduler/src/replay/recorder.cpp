@@ -150,7 +150,8 @@ void Recorder::State::finish() {
   if (problem_ != nullptr) std::rethrow_exception(problem_);
   try {
     if (file_ != nullptr) file_->finish(dropped_at_end());
-    if (std::exchange(must_write_on_diagnostic_, false)) (void)ring_->write(on_diagnostic_, dropped_at_end());
+    if (must_write_on_diagnostic_) (void)ring_->write(on_diagnostic_, dropped_at_end());
+    must_write_on_diagnostic_ = false;
   } catch (const std::bad_alloc&) {
     is_finished_ = false;
     throw;

@@ -34,10 +34,10 @@ constexpr std::array<CostlyCouple, 13> costly_couples = {{{"strips_straight", "c
                                                           {"crates_near", "crates_apart"},
                                                           {"balls_same", "balls_apart"},
                                                           {"balls_near", "balls_apart"}}};
-constexpr std::array<NamedDetail, 4> details = {{{"none", ContactDetail::none},
-                                                 {"closest", ContactDetail::closest},
-                                                 {"features", ContactDetail::features},
-                                                 {"nearest", ContactDetail::nearest}}};
+constexpr std::array<NamedDetail, 4> costly_details = {{{"none", ContactDetail::none},
+                                                        {"closest", ContactDetail::closest},
+                                                        {"features", ContactDetail::features},
+                                                        {"nearest", ContactDetail::nearest}}};
 
 struct StepTime {
   double median_ms = 0;
@@ -87,7 +87,7 @@ StressResult run_costly_study(std::size_t frames) {
   for (const CostlyCouple& couple : costly_couples) {
     const auto body = scenes::body_of_costly_scene(couple.scene);
     const double plain_ms = body != nullptr ? plain_loops_ms(*body) : 0;
-    for (const NamedDetail& detail : details) {
+    for (const NamedDetail& detail : costly_details) {
       const StepTime costly = step_time_of(couple.scene, detail.detail, frames);
       const StepTime beside = step_time_of(couple.neighbour, detail.detail, frames);
       std::vector<std::string> cells = {std::string(couple.scene),

@@ -19,10 +19,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array<NamedDetail, 4> details = {{{"none", ContactDetail::none},
-                                                 {"closest", ContactDetail::closest},
-                                                 {"features", ContactDetail::features},
-                                                 {"nearest", ContactDetail::nearest}}};
+constexpr std::array<NamedDetail, 4> inside_details = {{{"none", ContactDetail::none},
+                                                        {"closest", ContactDetail::closest},
+                                                        {"features", ContactDetail::features},
+                                                        {"nearest", ContactDetail::nearest}}};
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -30,7 +30,7 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-struct Timed {
+struct InsideTime {
   std::vector<double> step_ms;
   std::vector<double> tree_ms;
   std::size_t contacts = 0;         ///< of the last step
@@ -58,7 +58,7 @@ std::size_t count_wrong(const FrameReport& report, const std::vector<double>& di
   return wrong;
 }
 
-Timed time_of(std::string_view name, ContactDetail detail, std::size_t frames) {
+InsideTime inside_time_of(std::string_view name, ContactDetail detail, std::size_t frames) {
   const auto played = scenes::make_inside_scene(name);
   SceneSettings settings = played->settings();
   settings.detail = detail;
@@ -66,7 +66,7 @@ Timed time_of(std::string_view name, ContactDetail detail, std::size_t frames) {
   Scene scene(settings);
   played->advance(scene, 0);
   PlainTree tree(played->triangles(), played->solid());
-  Timed timed;
+  InsideTime timed;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     if (frame > 0) played->advance(scene, frame);
     const ReportHandle report = scene.step();
@@ -93,8 +93,8 @@ StressResult run_inside_study(std::size_t frames) {
                          {"ratio", 6}});
   print(table.head());
   for (const std::string_view name : scenes::inside_scene_names())
-    for (const NamedDetail& detail : details) {
-      Timed timed = time_of(name, detail.detail, frames);
+    for (const NamedDetail& detail : inside_details) {
+      InsideTime timed = inside_time_of(name, detail.detail, frames);
       const double step = median(timed.step_ms);
       const double tree = median(timed.tree_ms);
       print(table.row({std::string(name), detail.name, fixed(step, 3), std::to_string(timed.contacts),

@@ -73,15 +73,15 @@ class Heap {
   ObjectId ball_;
 };
 
-struct Timed {
+struct HeapTime {
   double first_ms = 0;
   double median_ms = 0;
   std::uint64_t filtered = 0;
 };
 
-Timed time_of(Filter filter, std::size_t count, std::size_t frames) {
+HeapTime heap_time_of(Filter filter, std::size_t count, std::size_t frames) {
   Heap heap(filter, count);
-  Timed timed;
+  HeapTime timed;
   timed.first_ms = heap.step(0)->statistics().step_ms;
   std::vector<double> times;
   for (std::size_t frame = 1; frame <= frames; ++frame) {
@@ -107,12 +107,12 @@ StressResult run_never_touching_study(std::size_t frames) {
                          {"ms a step", 10},
                          {"us a box", 9}});
   print(table.head());
-  const Timed alone = time_of(Filter::fixed, 0, frames);
+  const HeapTime alone = heap_time_of(Filter::fixed, 0, frames);
   print(table.row({"none", "0", "0", fixed(alone.first_ms, 3), fixed(alone.median_ms, 4), ""}));
   result.figures["alone"] = {{"first_ms", alone.first_ms}, {"ms", alone.median_ms}};
   for (const auto& [filter, name] : filters)
     for (const std::size_t count : {std::size_t{500}, std::size_t{2000}}) {
-      const Timed timed = time_of(filter, count, frames);
+      const HeapTime timed = heap_time_of(filter, count, frames);
       const double of_box = 1000 * (timed.median_ms - alone.median_ms) / static_cast<double>(count);
       print(table.row({std::string(name), std::to_string(count), std::to_string(timed.filtered),
                        fixed(timed.first_ms, 3), fixed(timed.median_ms, 4), fixed(of_box, 3)}));
