@@ -25,15 +25,15 @@
 #define GRAZE_STRINGS program_and_graze_both_need__GLIBCXX_USE_CXX11_ABI_0
 #endif
 
-namespace graze {
+namespace graze::link_guard {
 
 extern GRAZE_API const char GRAZE_CONTAINERS;
 extern GRAZE_API const char GRAZE_STRINGS;
 
-[[gnu::used]] inline const char* const guard_of_containers = &GRAZE_CONTAINERS;
-[[gnu::used]] inline const char* const guard_of_strings = &GRAZE_STRINGS;
+[[gnu::used]] inline const char* const containers = &GRAZE_CONTAINERS;
+[[gnu::used]] inline const char* const strings = &GRAZE_STRINGS;
 
-}  // namespace graze
+}  // namespace graze::link_guard
 
 #endif
 

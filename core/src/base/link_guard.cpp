@@ -2,11 +2,11 @@
 
 #if defined(__GLIBCXX__)
 
-namespace graze {
+namespace graze::link_guard {
 
 const char GRAZE_CONTAINERS = 0;
 const char GRAZE_STRINGS = 0;
 
-}  // namespace graze
+}  // namespace graze::link_guard
 
 #endif
