@@ -11,10 +11,10 @@ namespace {
 enum class Crossing : std::uint8_t { none, inside, on_side };
 
 /// A segment that ends at a corner of a triangle has that end in its plane.
-bool share_a_corner(const Simplex& segment, const Simplex& triangle) {
+bool share_a_corner(std::span<const Eigen::Vector3d> segment, std::span<const Eigen::Vector3d, 3> triangle) {
   for (std::size_t end = 0; end < 2; ++end)
-    for (const Eigen::Vector3d& corner : triangle.point)
-      if (segment.point[end] == corner) return true;
+    for (const Eigen::Vector3d& corner : triangle)
+      if (segment[end] == corner) return true;
   return false;
 }
 
@@ -49,14 +49,21 @@ Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t o
   return result;
 }
 
-/// Asks of an edge and a triangle what most of them answer, without pieces.
-Passing passing_of(const Surface& surface, const FeaturePiece& segment, const Surface& other,
-                   std::uint32_t face) {
+/// Whether an edge pierces a triangle that is a face. Most are decided without pieces, which take as long.
+bool pierces_triangle(const Surface& surface, std::uint32_t edge, const Surface& other, std::uint32_t face,
+                      DecisionCount& count) {
+  const auto end = surface.mesh().edge(edge);
   const auto corner = other.mesh().face(face);
-  if (corner.size() != 3 || segment.feature.kind != FeatureKind::edge) return Passing::unsure;
-  const auto end = surface.mesh().edge(segment.feature.index);
-  return certain_passing({surface.position(end[0]), surface.position(end[1])},
-                         {other.position(corner[0]), other.position(corner[1]), other.position(corner[2])});
+  const std::array<Eigen::Vector3d, 2> ends{surface.position(end[0]), surface.position(end[1])};
+  const std::array<Eigen::Vector3d, 3> corners{other.position(corner[0]), other.position(corner[1]),
+                                               other.position(corner[2])};
+  if (share_a_corner(ends, corners)) return false;
+  if (const Passing passing = certain_passing(ends, corners); passing != Passing::unsure) {
+    ++count.in_double;
+    return passing == Passing::yes;
+  }
+  return crossing(simplex_of(surface, edge_piece(edge)), simplex_of(other, face_piece(face, Piece::first)), 3,
+                  count) != Crossing::none;
 }
 
 }  // namespace
@@ -64,7 +71,7 @@ Passing passing_of(const Surface& surface, const FeaturePiece& segment, const Su
 std::optional<Piece> pierced_triangle(const Simplex& segment, std::span<const Simplex> triangles,
                                       bool has_fold, DecisionCount& count) {
   const auto crosses = [&](const Simplex& triangle, std::size_t fold_side) {
-    if (share_a_corner(segment, triangle)) return false;
+    if (share_a_corner(segment.point, triangle.point)) return false;
     const Passing passing = certain_passing({segment.point[0], segment.point[1]}, triangle.point);
     if (passing != Passing::unsure) {
       ++count.in_double;
@@ -87,11 +94,11 @@ std::optional<Piece> pierced_triangle(const Simplex& segment, std::span<const Si
 
 std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeaturePiece& segment,
                                           const Surface& other, std::uint32_t face, DecisionCount& count) {
-  if (const Passing passing = passing_of(surface, segment, other, face); passing != Passing::unsure) {
-    ++count.in_double;
-    return passing == Passing::yes ? std::optional(face_piece(face, Piece::first)) : std::nullopt;
-  }
   const bool is_quad = triangle_count(other.mesh(), face) == 2;
+  if (!is_quad && segment.feature.kind == FeatureKind::edge) {
+    const bool pierces = pierces_triangle(surface, segment.feature.index, other, face, count);
+    return pierces ? std::optional(face_piece(face, Piece::first)) : std::nullopt;
+  }
   std::array<Simplex, 2> triangles;
   triangles[0] = simplex_of(other, face_piece(face, Piece::first));
   if (is_quad) triangles[1] = simplex_of(other, face_piece(face, Piece::second));
