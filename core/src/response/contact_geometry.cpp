@@ -109,9 +109,9 @@ std::optional<ClosestPoints> piercing(const Segment& segment, const PlacedFeatur
 /// where it is closest to the inner diagonal.
 ClosestPoints closest_to_face(const Segment& segment, const PlacedFeature& face) {
   if (const auto pierced = piercing(segment, face)) return *pierced;
-  const ClosestPoints first = closest_of_segment_and_triangle(segment, face.triangle(0));
+  ClosestPoints first = closest_of_segment_and_triangle(segment, face.triangle(0));
   if (!face.is_quad()) return first;
-  const ClosestPoints fold = closest_of_segments(segment, face.diagonal());
+  ClosestPoints fold = closest_of_segments(segment, face.diagonal());
   if (fold.are_interior) return fold;
   const ClosestPoints second = closest_of_segment_and_triangle(segment, face.triangle(1));
   return is_better(second, first) ? second : first;

@@ -45,7 +45,7 @@ class SolidSearch {
   void set_sides() const;
   void turn_pushes() const;
   [[nodiscard]] bool leads_in(const Contact& contact) const;
-  void keep_deepest();
+  void keep_deepest() const;
 
   SearchedPair& pair_;
   SearchWorker& worker_;

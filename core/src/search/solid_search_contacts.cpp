@@ -115,7 +115,7 @@ bool SolidSearch::leads_in(const Contact& contact) const {
 }
 
 /// Leaves out the contacts beyond the limit: the deepest are kept, and edges that pierce go first.
-void SolidSearch::keep_deepest() {
+void SolidSearch::keep_deepest() const {
   auto& contacts = pair_.answer->contacts;
   const std::size_t limit = pair_.query.contact_limit;
   if (limit == 0 || contacts.size() <= limit) return;

@@ -4,6 +4,7 @@
 #include <array>
 #include <graze/export.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/base/box.hpp"
 
@@ -29,7 +30,8 @@ struct GRAZE_API OrientedBox {
 /// Makes an oriented box large enough for all that is added.
 class GRAZE_API OrientedExtent {
  public:
-  OrientedExtent(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin) : axes_(axes), origin_(origin) {}
+  OrientedExtent(Eigen::Matrix3d axes, Eigen::Vector3d origin)
+      : axes_(std::move(axes)), origin_(std::move(origin)) {}
 
   void add(const Eigen::Vector3d& point) {
     const Eigen::Vector3d at = axes_ * (point - origin_);
