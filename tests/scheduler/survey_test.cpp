@@ -126,8 +126,8 @@ TEST_CASE("survey: a binding that is taken back before a step is where its memor
     field.scene.unbind_positions(object);
     field.put(0, {0, 3, 3.75});
     const ReportHandle frozen = field.scene.step();
-    CHECK(kinds_of(*frozen) ==
-          std::vector{DiagnosticKind::not_finite});  // no step has read what it was told of
+    // No step has read what it was told of.
+    CHECK(kinds_of(*frozen) == std::vector{DiagnosticKind::not_finite});
     CHECK(frozen->pairs().empty());
     other[0] = good;
     field.scene.set_positions(object, other);
@@ -177,8 +177,7 @@ TEST_CASE("survey: bad memory freezes what is far too, until it is good") {
     CHECK(kinds_of(*field.scene.step()) == std::vector{DiagnosticKind::not_finite});
     field.put(2, {10, 0, 0.25});
     const ReportHandle frozen = field.scene.step();
-    CHECK(kinds_of(*frozen) ==
-          std::vector{DiagnosticKind::not_finite});  // no step has read what it was told of
+    CHECK(frozen->diagnostics().empty());
     CHECK(frozen->pairs().empty());
     field.scene.unbind_positions(field.ids[3]);
     CHECK(field.scene.step()->pairs().empty());
