@@ -15,7 +15,8 @@ namespace graze {
 std::optional<Piece> pierced_triangle(const Simplex& segment, std::span<const Simplex> triangles,
                                       bool has_fold, DecisionCount& count);
 
-/// The same of an edge or fold of a surface and a face of the other.
+/// The piece of a face that an edge or fold of the other surface pierces, by the rule above. No value where
+/// it pierces none.
 std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeaturePiece& segment,
                                           const Surface& other, std::uint32_t face, DecisionCount& count);
 

@@ -65,7 +65,8 @@ class LeafFeaturePairs {
     near_segments(a.folds, b.folds);
   }
 
-  /// Of the features that the scratch has taken, edges and folds with the faces that they may pierce, alone.
+  /// Adds the edges and folds that the scratch has taken with the faces that they may pierce, and nothing
+  /// else.
   void add_selected_piercings() {
     use_frame();
     const SelectedLeaf& a = scratch_.a;

@@ -8,6 +8,8 @@
 #include <graze/io/printable.hpp>
 #include <string_view>
 
+#include "output/text.hpp"
+
 namespace graze::tools {
 namespace {
 
@@ -28,13 +30,8 @@ std::string printable_lines(std::string_view text) {
 void say(const char* pattern, ...) {
   va_list arguments;
   va_start(arguments, pattern);
-  va_list again;
-  va_copy(again, arguments);
-  const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
+  const std::string text = format_list(pattern, arguments);
   va_end(arguments);
-  std::string text(length > 0 ? static_cast<std::size_t>(length) : 0, ' ');
-  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
-  va_end(again);
   std::fputs(printable_lines(text).c_str(), stdout);
 }
 

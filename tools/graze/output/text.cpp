@@ -1,7 +1,6 @@
 #include "output/text.hpp"
 
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 
 namespace graze::tools {
@@ -9,10 +8,15 @@ namespace graze::tools {
 std::string format(const char* pattern, ...) {
   va_list arguments;
   va_start(arguments, pattern);
+  std::string text = format_list(pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string format_list(const char* pattern, va_list arguments) {
   va_list again;
   va_copy(again, arguments);
   const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
-  va_end(arguments);
   std::string text(length > 0 ? static_cast<std::size_t>(length) : 0, ' ');
   std::vsnprintf(text.data(), text.size() + 1, pattern, again);
   va_end(again);

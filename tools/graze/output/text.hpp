@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdarg>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@ namespace graze::tools {
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+/// As format(), with arguments that another function was given.
+[[gnu::format(printf, 1, 0)]] std::string format_list(const char* pattern, va_list arguments);
 
 /// A count as printf's %llu takes it.
 inline unsigned long long number(std::uint64_t value) {

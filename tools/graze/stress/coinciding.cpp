@@ -1,6 +1,5 @@
 #include "stress/coinciding.hpp"
 
-#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include "output/text_table.hpp"
 #include "scenes/coinciding_scenes.hpp"
 #include "stress/details.hpp"
+#include "stress/median.hpp"
 
 namespace graze::tools {
 namespace {
@@ -46,9 +46,7 @@ Timed time_of(std::string_view name, ContactDetail detail, std::size_t frames) {
     times.push_back(report->statistics().step_ms);
     result.contacts = report->contacts().size();
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  result.median_ms = *middle;
+  result.median_ms = median_of(times);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "scenes/costly_scenes.hpp"
 #include "stress/clocks.hpp"
 #include "stress/details.hpp"
+#include "stress/median.hpp"
 #include "stress/plain_loops.hpp"
 
 namespace graze::tools {
@@ -34,10 +35,6 @@ constexpr std::array<CostlyCouple, 13> costly_couples = {{{"strips_straight", "c
                                                           {"crates_near", "crates_apart"},
                                                           {"balls_same", "balls_apart"},
                                                           {"balls_near", "balls_apart"}}};
-constexpr std::array<NamedDetail, 4> costly_details = {{{"none", ContactDetail::none},
-                                                        {"closest", ContactDetail::closest},
-                                                        {"features", ContactDetail::features},
-                                                        {"nearest", ContactDetail::nearest}}};
 
 struct StepTime {
   double median_ms = 0;
@@ -63,9 +60,7 @@ StepTime step_time_of(std::string_view name, ContactDetail detail, std::size_t f
     times.push_back(1e-6 * took);
     result.contacts = std::max(result.contacts, report->contacts().size());
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  result.median_ms = *middle;
+  result.median_ms = median_of(times);
   return result;
 }
 
@@ -87,7 +82,7 @@ StressResult run_costly_study(std::size_t frames) {
   for (const CostlyCouple& couple : costly_couples) {
     const auto body = scenes::body_of_costly_scene(couple.scene);
     const double plain_ms = body != nullptr ? plain_loops_ms(*body) : 0;
-    for (const NamedDetail& detail : costly_details) {
+    for (const NamedDetail& detail : surface_details) {
       const StepTime costly = step_time_of(couple.scene, detail.detail, frames);
       const StepTime beside = step_time_of(couple.neighbour, detail.detail, frames);
       std::vector<std::string> cells = {std::string(couple.scene),

@@ -14,5 +14,10 @@ inline constexpr std::array<NamedDetail, 4> timed_details = {{{"none", ContactDe
                                                               {"closest", ContactDetail::closest},
                                                               {"vertices", ContactDetail::vertices},
                                                               {"features", ContactDetail::features}}};
+/// The details about surfaces.
+inline constexpr std::array<NamedDetail, 4> surface_details = {{{"none", ContactDetail::none},
+                                                                {"closest", ContactDetail::closest},
+                                                                {"features", ContactDetail::features},
+                                                                {"nearest", ContactDetail::nearest}}};
 
 }  // namespace graze::tools

@@ -1,6 +1,5 @@
 #include "stress/inside.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -12,23 +11,13 @@
 #include "output/text_table.hpp"
 #include "scenes/inside_scenes.hpp"
 #include "stress/details.hpp"
+#include "stress/median.hpp"
 #include "stress/plain_tree.hpp"
 
 namespace graze::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::array<NamedDetail, 4> inside_details = {{{"none", ContactDetail::none},
-                                                        {"closest", ContactDetail::closest},
-                                                        {"features", ContactDetail::features},
-                                                        {"nearest", ContactDetail::nearest}}};
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct InsideTime {
   std::vector<double> step_ms;
@@ -93,10 +82,10 @@ StressResult run_inside_study(std::size_t frames) {
                          {"ratio", 6}});
   print(table.head());
   for (const std::string_view name : scenes::inside_scene_names())
-    for (const NamedDetail& detail : inside_details) {
+    for (const NamedDetail& detail : surface_details) {
       InsideTime timed = inside_time_of(name, detail.detail, frames);
-      const double step = median(timed.step_ms);
-      const double tree = median(timed.tree_ms);
+      const double step = median_of(timed.step_ms);
+      const double tree = median_of(timed.tree_ms);
       print(table.row({std::string(name), detail.name, fixed(step, 3), std::to_string(timed.contacts),
                        fixed(tree, 3), fixed(step / tree, 2)}));
       result.figures["scenes"].push_back({{"scene", name},

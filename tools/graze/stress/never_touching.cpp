@@ -1,6 +1,5 @@
 #include "stress/never_touching.hpp"
 
-#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include "output/text.hpp"
 #include "output/text_table.hpp"
 #include "scenes/scene_parts.hpp"
+#include "stress/median.hpp"
 
 namespace graze::tools {
 namespace {
@@ -89,9 +89,7 @@ HeapTime heap_time_of(Filter filter, std::size_t count, std::size_t frames) {
     times.push_back(report->statistics().step_ms);
     timed.filtered = report->statistics().pairs_filtered;
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  timed.median_ms = *middle;
+  timed.median_ms = median_of(times);
   return timed;
 }
 

@@ -101,7 +101,7 @@ class GRAZE_API IndexedMesh {
 
   /// The octree of regions, built with the mesh.
   [[nodiscard]] const RegionTree& regions() const { return regions_; }
-  /// Those of its regions whose faces are long.
+  /// The regions of the octree whose faces are long.
   [[nodiscard]] const LongRegions& long_regions() const { return long_regions_; }
 
   /// How far the rest shape reaches in any direction; made when it is first asked for, by any thread.

@@ -26,7 +26,7 @@ class GRAZE_API LongRegions {
   };
 
   LongRegions() = default;
-  /// Of a mesh that has its regions.
+  /// Finds the long regions of a mesh whose octree is built.
   explicit LongRegions(const IndexedMesh& mesh);
 
   [[nodiscard]] bool empty() const { return all_.empty(); }

@@ -19,7 +19,7 @@ struct GRAZE_API OrientedBox {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< from the origin, along the axes
   Eigen::Vector3d half = Eigen::Vector3d::Zero();    ///< half of the sides; not less for rounding
 
-  /// The same box, where nothing better is known.
+  /// A box along the coordinate axes as an oriented one, where nothing better is known.
   static OrientedBox of(const Box& box);
 };
 

@@ -73,9 +73,9 @@ struct ReadOptions {
 class GRAZE_API MeshFile {
  public:
   /// Reads a file. Throws InputError if it is missing or damaged, if its format is not read, or if it has no
-  /// face. Also throws InputError if a face uses a vertex that does not exist or is not finite, if the file
-  /// names a file that `options` does not allow, if it unfolds to far more than its size, and if there is not
-  /// enough memory for it.
+  /// face. Also throws InputError if a face uses a vertex that does not exist or is not finite, or if the
+  /// file names a file that `options` does not allow. So it does where the file unfolds to far more than its
+  /// size, and where there is not enough memory for it.
   static MeshFile read(const std::filesystem::path& path, const ReadOptions& options = {});
 
   /// Returns the objects of the file, of which there is at least one.
