@@ -88,7 +88,8 @@ void replace_settings(SceneSettings& settings, const RunOptions& options) {
       are_all_fields<SceneSettings, &SceneSettings::contact_distance, &SceneSettings::range,
                      &SceneSettings::detail, &SceneSettings::accuracy, &SceneSettings::threads,
                      &SceneSettings::max_contacts, &SceneSettings::max_contacts_per_pair,
-                     &SceneSettings::region_distances,
+                     &SceneSettings::region_distances, &SceneSettings::ways_out, &SceneSettings::carrying,
+                     &SceneSettings::carrying_band,
                      // A run has no frame rate to keep, and its tasks are the only ones.
                      &SceneSettings::time_budget, &SceneSettings::work_budget, &SceneSettings::arena>(),
       "each setting has an option, or is named as one that has none");

@@ -37,6 +37,14 @@ void ReportHash::add_distance(const PairReport& pair) {
   add(pair.witness.point_b);
 }
 
+void ReportHash::add(const WayOut& way) {
+  add(way.direction);
+  add(way.point);
+  add(way.fullness);
+  add(way.thickness);
+  add(way.extent);
+}
+
 void ReportHash::add(const PairReport& pair) {
   add(pair.a);
   add(pair.b);
@@ -46,10 +54,12 @@ void ReportHash::add(const PairReport& pair) {
   // Rows without solids and limits have the hashes that they had before there were any.
   if (pair.inside != Inside::none) add(number_of(pair.inside));
   if (pair.contacts_cut) add(std::uint64_t{1});
+  if (pair.way_out.fullness != 0) add(pair.way_out);
 }
 
 void ReportHash::add(const Contact& contact) {
   add(number_of(contact.kind) << 16U | number_of(contact.side_a) << 8U | number_of(contact.side_b));
+  if (contact.sunk) add(std::uint64_t{1});
   add(contact.feature_a);
   add(contact.feature_b);
   add(contact.point_a);

@@ -23,6 +23,7 @@ class ReportHash {
   void add(const Eigen::Vector3d& point);
   void add(const Feature& feature);
   void add(ObjectId id);
+  void add(const WayOut& way);
   void add(const PairReport& pair);
 
   std::uint64_t value_ = 0xcbf29ce484222325U;

@@ -111,6 +111,10 @@ struct Contact {
   Side side_a = Side::none;
   /// The side of the surface of object b on which #point_a lies.
   Side side_b = Side::none;
+  /// Whether two edges are sunk: both sides are Side::back, and one of the two edges pierces a face of the
+  /// other object. Both sides alone are `back` where thin things lie on each other. It is false for any other
+  /// kind, and at distance 0.
+  bool sunk = false;
   /// The feature of object a.
   Feature feature_a;
   /// The feature of object b.
@@ -134,9 +138,10 @@ struct Contact {
   std::uint64_t since = 0;
 
   /// Returns the #distance with a sign: negative if the contact's vertex lies behind the surface of the other
-  /// object, that is, if its side there is Side::back. Without a vertex it is negative if both sides are
-  /// `back`, and of two vertices if either side is. An edge that pierces a face has separation 0. Where a
-  /// side is `none` at a distance above 0, nothing says that the point lies behind.
+  /// object, that is, if its side there is Side::back. Of two vertices it is negative if either side is
+  /// `back`. Of two edges it is negative if they are #sunk. Of an edge or a face parallel to a face it is
+  /// negative if both sides are `back`. An edge that pierces a face has separation 0. Where a side is `none`
+  /// at a distance above 0, nothing says that the point lies behind.
   [[nodiscard]] double separation() const { return is_behind() ? -distance : distance; }
   /// Returns the direction, of length 1, along which b is moved relative to a to make separation() grow. It
   /// is #normal, or its opposite if the separation is negative.
@@ -151,6 +156,7 @@ struct Contact {
  private:
   /// At distance 0 nothing is behind, so that no separation is -0.
   [[nodiscard]] bool is_behind() const {
+    if (kind == ContactKind::EE) return sunk;
     return distance != 0 && has_negative_separation(
                                 feature_a.kind, feature_b.kind, [&] { return side_a == Side::back; },
                                 [&] { return side_b == Side::back; });
@@ -182,6 +188,31 @@ struct Witness {
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
   /// The point on #feature_b, in the caller's units.
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
+};
+
+/// A way out of a pair of objects whose surfaces pass through each other. SceneSettings::ways_out asks for it,
+/// and PairReport::way_out has it. Without a way all of it is 0 but #fullness and #point. It is not promised
+/// to be the shortest way.
+///
+/// The contour is where triangles of a and of b cross. It consists of segments p-q, directed along n_a × n_b,
+/// where n_a and n_b are the normals of the two triangles. Where surfaces share a plane, crossings within
+/// that plane count half on each side of it.
+struct WayOut {
+  /// The direction, of length 1, along which b leaves a. It is S/|S| with S = ½ Σ p × q over the contour,
+  /// taken from #point. If both are solids, −S is the gradient of the volume that they share, by a
+  /// translation of b. It is zero if #fullness is below 0.1.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  /// The middle of the contour, in the caller's units: that of its segments, weighted by their lengths.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  /// |S| divided by ½ Σ |(p − c) × (q − c)|, where c is #point. It is 1 where the contour is flat and winds
+  /// one way, and 0 where it cancels, as that of a stake through a plank. It is 0 if there is no contour.
+  double fullness = 0;
+  /// The extent along #direction of the contour, of the vertices of a inside b and of those of b inside a. It
+  /// is an estimate of the depth. Only vertices inside solids count.
+  double thickness = 0;
+  /// How far b has to go along #direction until the two are apart for certain: until all of b is beyond all
+  /// of a.
+  double extent = 0;
 };
 
 /// A pair of regions that are near each other. It is one line of the paper's figure 7, between the middle

@@ -18,6 +18,7 @@ void PairSearch::begin(const Surface& a, const Surface& b, const PairQuery& quer
   answer.in_contact = answer.listed = answer.cut = false;
   answer.complete = true;
   answer.inside = Inside::none;
+  answer.way_out = {};
 }
 
 bool PairSearch::advance(SearchScratch& scratch, PairCounters& counters) {

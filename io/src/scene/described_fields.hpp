@@ -25,6 +25,7 @@ inline constexpr std::tuple described_fields{
     DescribedField<&ObjectSettings::kind, &ObjectDescription::kind>{},
     DescribedField<&ObjectSettings::solid, &ObjectDescription::solid>{},
     DescribedField<&ObjectSettings::face_groups, &ObjectDescription::face_groups>{},
+    DescribedField<&ObjectSettings::hidden_groups, &ObjectDescription::hidden_groups>{},
 };
 static_assert(std::apply(
                   [](auto... described) {

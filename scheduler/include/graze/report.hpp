@@ -68,6 +68,9 @@ struct PairReport {
   std::size_t first_region_distance = 0;
   /// The number of region distances of the pair.
   std::size_t region_distance_count = 0;
+  /// How b leaves a, if SceneSettings::ways_out asks for it and the surfaces pass through each other: if
+  /// #inside is Inside::crossing, or an edge pierces a face. Otherwise all of it is 0.
+  WayOut way_out;
 };
 
 /// The kinds of bad input that a step reports. docs/embedding.md says what graze does in each case.

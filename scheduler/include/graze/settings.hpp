@@ -64,6 +64,12 @@ struct ObjectSettings {
   /// is empty: then all faces are in group 0. A form of Scene::ignore() takes out the faces of one group
   /// against those of another.
   std::vector<std::uint8_t> face_groups = {};
+  /// The groups of #face_groups whose faces are tested against nothing, such as the inner walls between tiles
+  /// that lie side by side. Order and repetitions do not matter. A hidden face still bounds a solid.
+  ///
+  /// An edge between a hidden face and one that is seen is tested with the seen face alone. The seen face is
+  /// taken to go on behind the edge in its plane, so that the edge is neither a border nor a crease.
+  std::vector<std::uint8_t> hidden_groups = {};
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the
@@ -126,6 +132,21 @@ struct SceneSettings {
   /// finds no room in StepStatistics::region_distances_left_out. The distances of each pair cost a walk of
   /// their own.
   std::size_t region_distances = 0;
+  /// Whether reports say how objects leave each other whose surfaces pass through each other:
+  /// PairReport::way_out. It takes time only for such pairs. It has no effect with the details `vertices` and
+  /// `regions`.
+  bool ways_out = false;
+  /// The most contacts that a report lists for each pair, chosen to carry it. 0 means no limit. It has an
+  /// effect with ContactDetail::nearest only.
+  ///
+  /// The deepest is among them. The others are those that span most, of the contacts that are less deep than
+  /// the deepest by #carrying_band at most, and whose push is within 26° of its push. A contact that the last
+  /// report listed is kept while it is one of these, so that the list does not jump when a body trembles.
+  /// Edges that pierce carry nothing. They are listed only for a pair that has no other contact.
+  std::size_t carrying = 0;
+  /// How much less deep than the deepest a contact may be that #carrying chooses. It is finite, and 0 or
+  /// more. No value means the threshold of the pair.
+  std::optional<double> carrying_band = std::nullopt;
 };
 
 /// Says how much room Scene::reserve() makes ahead of time.

@@ -62,6 +62,7 @@ inline constexpr std::tuple object_settings_fields{
     SettingsField<&ObjectSettings::user_data>{"user_data"},
     SettingsField<&ObjectSettings::solid>{"solid"},
     SettingsField<&ObjectSettings::face_groups>{"face_groups"},
+    SettingsField<&ObjectSettings::hidden_groups>{"hidden_groups"},
 };
 static_assert(has_every_member<ObjectSettings>(object_settings_fields),
               "name every field of ObjectSettings above");
@@ -95,6 +96,9 @@ inline constexpr std::tuple scene_settings_fields{
     SettingsField<&SceneSettings::max_contacts>{"max_contacts"},
     SettingsField<&SceneSettings::max_contacts_per_pair>{"max_contacts_per_pair"},
     SettingsField<&SceneSettings::region_distances>{"region_distances"},
+    SettingsField<&SceneSettings::ways_out>{"ways_out"},
+    SettingsField<&SceneSettings::carrying>{"carrying"},
+    SettingsField<&SceneSettings::carrying_band>{"carrying_band"},
 };
 static_assert(has_every_member<SceneSettings>(scene_settings_fields),
               "name every field of SceneSettings above");

@@ -37,8 +37,10 @@ std::uint64_t answer_hash_of(const FrameReport& report, const PairReport& pair) 
   Hash hash;
   hash(pair.complete, pair.stale, pair.contacts_cut, pair.inside, pair.distance.lower, pair.distance.upper);
   hash(pair.witness.feature_a, pair.witness.feature_b, pair.witness.point_a, pair.witness.point_b);
+  hash(pair.way_out.direction, pair.way_out.point, pair.way_out.fullness, pair.way_out.thickness,
+       pair.way_out.extent);
   for (const Contact& contact : report.contacts(pair)) {
-    hash(contact.kind, contact.side_a, contact.side_b, contact.feature_a, contact.feature_b);
+    hash(contact.kind, contact.side_a, contact.side_b, contact.sunk, contact.feature_a, contact.feature_b);
     hash(contact.point_a, contact.point_b, contact.normal, contact.distance);
   }
   for (const RegionDistance& region : report.region_distances(pair)) {

@@ -22,7 +22,10 @@ std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer) {
   row.user_data_b = job.b->settings.user_data;
   row.contacts_cut = answer.cut || answer.contacts_left_out > 0;
   row.complete = answer.complete && !row.contacts_cut;
-  if (answer.complete) row.inside = answer.inside;
+  if (answer.complete) {
+    row.inside = answer.inside;
+    row.way_out = answer.way_out;
+  }
   row.distance = answer.distance;
   row.witness = answer.witness;
   if (job.task == PairJob::Task::end)

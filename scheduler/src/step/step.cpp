@@ -236,6 +236,7 @@ void Step::write_pair(const PairJob& job, std::size_t index, const FrameReport& 
   if (repeats && !job.allowed) {
     row->phase = PairPhase::ended;
     row->inside = Inside::none;
+    row->way_out = {};
   }
   if (repeats && row->phase == job.last->phase && row->stale == job.last->stale) ++rows_again_;
   const bool in_contact = is_contact(row->phase);
@@ -267,6 +268,7 @@ void Step::end_pair(PairReport row, ReportBuilder& builder) {
   row.complete = true;
   row.stale = row.contacts_cut = false;
   row.inside = Inside::none;
+  row.way_out = {};
   builder.add(row, 0, {});
   pairs_.pass_row();
   ++builder.statistics().pairs_near;

@@ -14,6 +14,7 @@ struct PairFinding {
   bool cut = false;      ///< there were more contacts than PairQuery::contact_limit; all else is said of all
   std::uint32_t contacts_left_out = 0;  ///< for whoever keeps less of them than were found
   Inside inside = Inside::none;
+  WayOut way_out;  ///< where PairQuery::wants_way_out asked for it
   DistanceBounds distance;
   Witness witness;
   std::uint64_t region_distances_left_out = 0;  ///< at least so many more were not listed

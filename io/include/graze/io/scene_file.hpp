@@ -70,6 +70,8 @@ struct ObjectDescription {
   std::uint32_t kind = 0;
   /// The groups of the faces of each object of this entry, see ObjectSettings::face_groups.
   std::vector<std::uint8_t> face_groups;
+  /// The groups of each object of this entry that are hidden, see ObjectSettings::hidden_groups.
+  std::vector<std::uint8_t> hidden_groups;
   /// How errors name this entry, such as `scene.json: objects[2]`.
   std::string place;
 };
