@@ -185,7 +185,7 @@ void read_setting(const json& settings, std::string_view key, std::optional<Valu
 }
 // A setting that is off is not in the file.
 void read_setting(const json& settings, std::string_view key, bool& is_on) {
-  if (settings.contains(key)) read_value(settings.at(key), is_on);
+  if (settings.contains(key)) is_on = settings.at(key).get<bool>();
 }
 void read_setting(const json& settings, std::string_view key, std::size_t& most) {
   if (settings.contains(key)) read_value(settings.at(key), most);
