@@ -1,0 +1,268 @@
+#include "core/pair/carrying.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace graze {
+namespace {
+
+// Parts of the band. A contact that is listed leads as long as it is this much less deep than the deepest at
+// most; and of contacts that are as deep as each other to within the second, the outermost leads.
+constexpr double part_to_lead = 1.0 / 4;
+constexpr double part_of_even = 1.0 / 64;
+
+/// The cosine of 26°: pushes that differ by more do not carry together.
+constexpr double least_cosine = 0.898794;
+
+/// A contact that was listed stays if it is this far from those chosen, in parts of the farthest.
+constexpr double part_to_stay = 3.0 / 5;
+
+/// What overhangs the outline of those chosen by less than this part of its extent stands on them.
+constexpr double part_of_extent = 1.0 / 16;
+
+/// A point that is this near to the line of an edge, as an angle, is on the edge.
+constexpr double least_sine = 1e-9;
+
+auto key_of(const Contact& contact) {
+  return std::tie(contact.kind, contact.feature_a, contact.feature_b);
+}
+
+bool comes_before(const Contact& left, const Contact& right) {
+  return key_of(left) < key_of(right);
+}
+
+bool pierces(const Contact& contact) {
+  return contact.kind == ContactKind::EF && contact.distance == 0;
+}
+
+Eigen::Vector3d middle_of(const Contact& contact) {
+  return (contact.point_a + contact.point_b) / 2;
+}
+
+bool share_vertex(const Contact& left, const Contact& right) {
+  const auto is_vertex = [](const Feature& feature) { return feature.kind == FeatureKind::vertex; };
+  return (is_vertex(left.feature_a) && left.feature_a == right.feature_a) ||
+         (is_vertex(left.feature_b) && left.feature_b == right.feature_b);
+}
+
+template <typename Vector>
+double cross(const Vector& left, const Vector& right) {
+  return left.x() * right.y() - left.y() * right.x();
+}
+
+template <typename Vector>
+double distance_to_segment(const Vector& point, const Vector& begin, const Vector& end) {
+  const Vector way = end - begin;
+  const double length = way.squaredNorm();
+  const double along = length > 0 ? std::clamp((point - begin).dot(way) / length, 0.0, 1.0) : 0.0;
+  return (point - (begin + along * way)).norm();
+}
+
+/// The distance of a point to a convex polygon, counter-clockwise, which may be a segment or a point; 0
+/// inside. A polygon that is hardly wider than its own rounding has no inside.
+template <typename Vector>
+double distance_to_outline(const Vector& point, const std::vector<Vector>& outline) {
+  double distance = (point - outline.front()).norm();
+  bool is_inside = outline.size() > 2;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector& begin = outline[i];
+    const Vector& end = outline[(i + 1) % outline.size()];
+    distance = std::min(distance, distance_to_segment(point, begin, end));
+    const Vector way = point - begin;
+    const Vector edge = end - begin;
+    is_inside = is_inside && cross(edge, way) > least_sine * edge.norm() * way.norm();
+  }
+  return is_inside ? 0 : distance;
+}
+
+}  // namespace
+
+std::size_t CarryingChoice::choose(std::vector<Contact>& contacts, std::span<const Contact> last,
+                                   const CarryingRule& rule) {
+  collect(contacts);
+  if (candidates_.empty()) {  // nothing but edges that pierce
+    const std::size_t all = contacts.size();
+    contacts.resize(std::min(all, rule.most), Contact{});
+    return all;
+  }
+  find_listed(contacts, last);
+  keep_band(rule.band);
+  const std::uint32_t leader = find_leader(contacts, rule.band);
+  keep_directed(contacts, contacts[leader]);
+  const auto first = std::find_if(candidates_.begin(), candidates_.end(),
+                                  [&](const Candidate& each) { return each.index == leader; });
+  places_.clear();
+  chosen_ = 0;
+  add(*first);
+  spread(rule.most);
+  std::size_t kept = 0;
+  for (const Candidate& candidate : candidates_)
+    if (candidate.is_chosen) contacts[kept++] = contacts[candidate.index];
+  contacts.resize(kept, Contact{});
+  return candidates_.size();
+}
+
+/// Takes all contacts but edges that pierce.
+void CarryingChoice::collect(std::span<const Contact> contacts) {
+  candidates_.clear();
+  for (std::uint32_t i = 0; i < contacts.size(); ++i)
+    if (!pierces(contacts[i])) candidates_.push_back({.index = i, .separation = contacts[i].separation()});
+}
+
+/// Marks the contacts that the last report lists. One that is listed there by other features, because its
+/// vertex has come to another face, is the nearest of those that share a vertex with it.
+void CarryingChoice::find_listed(std::span<const Contact> contacts, std::span<const Contact> last) {
+  lost_.clear();
+  auto candidate = candidates_.begin();
+  for (std::uint32_t i = 0; i < last.size(); ++i) {
+    if (pierces(last[i])) continue;
+    while (candidate != candidates_.end() && comes_before(contacts[candidate->index], last[i])) ++candidate;
+    if (candidate != candidates_.end() && !comes_before(last[i], contacts[candidate->index]))
+      candidate->was_listed = true;
+    else
+      lost_.push_back(i);
+  }
+  for (const std::uint32_t i : lost_) {
+    Candidate* nearest = nullptr;
+    double least = 0;
+    for (Candidate& each : candidates_) {
+      const Contact& contact = contacts[each.index];
+      if (each.was_listed || !share_vertex(contact, last[i])) continue;
+      const double squared = (middle_of(contact) - middle_of(last[i])).squaredNorm();
+      if (nearest != nullptr && squared >= least) continue;
+      nearest = &each;
+      least = squared;
+    }
+    if (nearest != nullptr) nearest->was_listed = true;
+  }
+}
+
+/// Leaves out what is not deep enough.
+void CarryingChoice::keep_band(double band) {
+  double deepest = candidates_.front().separation;
+  for (const Candidate& each : candidates_) deepest = std::min(deepest, each.separation);
+  std::erase_if(candidates_, [&](const Candidate& each) { return each.separation > deepest + band; });
+  for (Candidate& each : candidates_)
+    each.share = band > 0 ? std::max(0.0, 1 - (each.separation - deepest) / band) : 1;
+}
+
+/// The contact that gives the direction of the push. It is a listed one if one of these is deep enough.
+std::uint32_t CarryingChoice::find_leader(std::span<const Contact> contacts, double band) const {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Candidate& each : candidates_) middle += middle_of(contacts[each.index]);
+  middle /= static_cast<double>(candidates_.size());
+  const auto is_deep = [](const Candidate& each) { return each.share >= 1 - part_to_lead; };
+  const bool goes_on = std::any_of(candidates_.begin(), candidates_.end(),
+                                   [&](const Candidate& each) { return each.was_listed && is_deep(each); });
+  const auto may_lead = [&](const Candidate& each) { return !goes_on || (each.was_listed && is_deep(each)); };
+  double deepest = std::numeric_limits<double>::infinity();
+  for (const Candidate& each : candidates_)
+    if (may_lead(each)) deepest = std::min(deepest, each.separation);
+  std::uint32_t leader = 0;
+  double farthest = -1;
+  for (const Candidate& each : candidates_) {
+    if (!may_lead(each) || each.separation > deepest + part_of_even * band) continue;
+    const double squared = (middle_of(contacts[each.index]) - middle).squaredNorm();
+    if (squared <= farthest) continue;
+    farthest = squared;
+    leader = each.index;
+  }
+  return leader;
+}
+
+/// Leaves out what does not push as the leader does. Finds the places of the rest in the plane square to the
+/// leader's push.
+void CarryingChoice::keep_directed(std::span<const Contact> contacts, const Contact& leader) {
+  const Eigen::Vector3d push = leader.push();
+  std::erase_if(candidates_, [&](const Candidate& each) {
+    return !(contacts[each.index].push().dot(push) > least_cosine);
+  });
+  Eigen::Index shortest = 0;
+  push.cwiseAbs().minCoeff(&shortest);
+  const Eigen::Vector3d first = push.cross(Eigen::Vector3d::Unit(shortest)).normalized();
+  const Eigen::Vector3d second = push.cross(first);
+  const Eigen::Vector3d origin = middle_of(leader);
+  for (Candidate& each : candidates_) {
+    const Eigen::Vector3d way = middle_of(contacts[each.index]) - origin;
+    each.place = {way.dot(first), way.dot(second)};
+  }
+}
+
+/// Chooses until there are so many, or no more. First it widens the outline of what is chosen. When that
+/// holds all the others, it fills the gaps.
+void CarryingChoice::spread(std::size_t most) {
+  most = std::min(most, candidates_.size());
+  double overhang = 0;  // what counts as outside
+  while (chosen_ < most) {
+    find_outline();
+    for (Candidate& each : candidates_) each.distance = distance_to_outline(each.place, outline_);
+    Candidate* const next = best(overhang);
+    if (next == nullptr) break;
+    add(*next);
+    if (chosen_ == 2) overhang = part_of_extent * next->distance;
+  }
+  for (Candidate& each : candidates_) {
+    each.distance = std::numeric_limits<double>::infinity();
+    for (const Place& place : places_) each.distance = std::min(each.distance, (each.place - place).norm());
+  }
+  while (chosen_ < most) {
+    Candidate& next = *best(0);
+    add(next);
+    for (Candidate& each : candidates_)
+      each.distance = std::min(each.distance, (each.place - next.place).norm());
+  }
+}
+
+/// The candidate that gains most, or one that was listed and gains nearly as much; null if none gains enough.
+CarryingChoice::Candidate* CarryingChoice::best(double least_gain) {
+  Candidate* best = nullptr;
+  Candidate* listed = nullptr;
+  for (Candidate& each : candidates_) {
+    if (each.is_chosen) continue;
+    if (best == nullptr || each.gain() > best->gain()) best = &each;
+    if (each.was_listed && (listed == nullptr || each.gain() > listed->gain())) listed = &each;
+  }
+  const double enough_to_stay = part_to_stay * std::max(least_gain, best->gain());
+  if (listed != nullptr && listed->gain() >= enough_to_stay) return listed;
+  return best->gain() >= least_gain ? best : nullptr;
+}
+
+void CarryingChoice::add(Candidate& candidate) {
+  candidate.is_chosen = true;
+  ++chosen_;
+  const auto comes_before = [](const Place& left, const Place& right) {
+    return left.x() != right.x() ? left.x() < right.x() : left.y() < right.y();
+  };
+  const auto at = std::lower_bound(places_.begin(), places_.end(), candidate.place, comes_before);
+  if (at == places_.end() || *at != candidate.place) places_.insert(at, candidate.place);
+}
+
+/// Finds the convex hull of all places that are chosen: first its lower side, then its upper one.
+void CarryingChoice::find_outline() {
+  outline_.clear();
+  const auto append = [&](const Place& place, std::size_t begin) {
+    while (outline_.size() > begin + 1) {
+      const Place& corner = outline_.back();
+      const Place& before = outline_[outline_.size() - 2];
+      if (cross<Place>(corner - before, place - corner) > 0) break;
+      outline_.pop_back();
+    }
+    outline_.push_back(place);
+  };
+  for (const Place& place : places_) append(place, 0);
+  const std::size_t lower = outline_.size() - 1;
+  for (std::size_t i = places_.size() - 1; i-- > 0;) append(places_[i], lower);
+  if (outline_.size() > 1) outline_.pop_back();  // the first again
+}
+
+void CarryingChoice::reserve(std::size_t contacts) {
+  candidates_.reserve(contacts);
+  lost_.reserve(contacts);
+  places_.reserve(contacts);
+  outline_.reserve(contacts + 1);
+}
+
+}  // namespace graze
