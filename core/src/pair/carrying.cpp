@@ -17,6 +17,9 @@ constexpr double part_of_even = 1.0 / 64;
 /// The cosine of 26°: pushes that differ by more do not carry together.
 constexpr double least_cosine = 0.898794;
 
+/// So many contacts push as the first leader does before half of the others go to other directions.
+constexpr std::size_t least_of_first = 4;
+
 /// A contact that was listed stays if it is this far from those chosen, in parts of the farthest.
 constexpr double part_to_stay = 3.0 / 5;
 
@@ -80,29 +83,32 @@ double distance_to_outline(const Vector& point, const std::vector<Vector>& outli
 
 }  // namespace
 
-std::size_t CarryingChoice::choose(std::vector<Contact>& contacts, std::span<const Contact> last,
-                                   const CarryingRule& rule) {
+bool CarryingChoice::choose(std::vector<Contact>& contacts, std::span<const Contact> last,
+                            const CarryingRule& rule) {
   collect(contacts);
   if (candidates_.empty()) {  // nothing but edges that pierce
     const std::size_t all = contacts.size();
     contacts.resize(std::min(all, rule.most), Contact{});
-    return all;
+    return all > rule.most;
   }
   find_listed(contacts, last);
   keep_band(rule.band);
-  const std::uint32_t leader = find_leader(contacts, rule.band);
-  keep_directed(contacts, contacts[leader]);
-  const auto first = std::find_if(candidates_.begin(), candidates_.end(),
-                                  [&](const Candidate& each) { return each.index == leader; });
+  Candidate& leader = *find_leader(contacts, rule.band);
+  find_places(contacts, leader);
   places_.clear();
   chosen_ = 0;
-  add(*first);
+  add_other_directions(contacts, rule);
+  add(leader);
   spread(rule.most);
   std::size_t kept = 0;
+  bool has_more = false;
   for (const Candidate& candidate : candidates_)
-    if (candidate.is_chosen) contacts[kept++] = contacts[candidate.index];
+    if (candidate.is_chosen)
+      contacts[kept++] = contacts[candidate.index];
+    else
+      has_more = has_more || candidate.is_directed || !candidate.is_covered;
   contacts.resize(kept, Contact{});
-  return candidates_.size();
+  return has_more;
 }
 
 /// Takes all contacts but edges that pierce.
@@ -145,74 +151,99 @@ void CarryingChoice::keep_band(double band) {
   double deepest = candidates_.front().separation;
   for (const Candidate& each : candidates_) deepest = std::min(deepest, each.separation);
   std::erase_if(candidates_, [&](const Candidate& each) { return each.separation > deepest + band; });
-  for (Candidate& each : candidates_)
-    each.share = band > 0 ? std::max(0.0, 1 - (each.separation - deepest) / band) : 1;
+  for (Candidate& each : candidates_) {
+    const double left = band > 0 ? std::max(0.0, 1 - (each.separation - deepest) / band) : 1;
+    each.worth = left * left * left * left;
+  }
 }
 
-/// The contact that gives the direction of the push. It is a listed one if one of these is deep enough.
-std::uint32_t CarryingChoice::find_leader(std::span<const Contact> contacts, double band) const {
+/// The contact that leads among those that no leader covers yet; null if there is none. It is a listed one if
+/// one of these is deep enough.
+CarryingChoice::Candidate* CarryingChoice::find_leader(std::span<const Contact> contacts, double band) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Candidate& each : candidates_) middle += middle_of(contacts[each.index]);
-  middle /= static_cast<double>(candidates_.size());
-  const auto is_deep = [](const Candidate& each) { return each.share >= 1 - part_to_lead; };
-  const bool goes_on = std::any_of(candidates_.begin(), candidates_.end(),
-                                   [&](const Candidate& each) { return each.was_listed && is_deep(each); });
-  const auto may_lead = [&](const Candidate& each) { return !goes_on || (each.was_listed && is_deep(each)); };
-  double deepest = std::numeric_limits<double>::infinity();
-  for (const Candidate& each : candidates_)
-    if (may_lead(each)) deepest = std::min(deepest, each.separation);
-  std::uint32_t leader = 0;
-  double farthest = -1;
+  double count = 0;
+  double deepest = infinity;
+  double deepest_listed = infinity;
   for (const Candidate& each : candidates_) {
-    if (!may_lead(each) || each.separation > deepest + part_of_even * band) continue;
-    const double squared = (middle_of(contacts[each.index]) - middle).squaredNorm();
-    if (squared <= farthest) continue;
+    if (each.is_covered) continue;
+    middle += middle_of(contacts[each.index]);
+    ++count;
+    deepest = std::min(deepest, each.separation);
+    if (each.was_listed) deepest_listed = std::min(deepest_listed, each.separation);
+  }
+  const bool goes_on = deepest_listed <= deepest + part_to_lead * band;
+  const double least = goes_on ? deepest_listed : deepest;
+  Candidate* leader = nullptr;
+  double farthest = 0;
+  for (Candidate& each : candidates_) {
+    if (each.is_covered || (goes_on && !each.was_listed)) continue;
+    if (each.separation > least + part_of_even * band) continue;
+    const double squared = (middle_of(contacts[each.index]) - middle / count).squaredNorm();
+    if (leader != nullptr && squared <= farthest) continue;
     farthest = squared;
-    leader = each.index;
+    leader = &each;
   }
   return leader;
 }
 
-/// Leaves out what does not push as the leader does. Finds the places of the rest in the plane square to the
-/// leader's push.
-void CarryingChoice::keep_directed(std::span<const Contact> contacts, const Contact& leader) {
-  const Eigen::Vector3d push = leader.push();
-  std::erase_if(candidates_, [&](const Candidate& each) {
-    return !(contacts[each.index].push().dot(push) > least_cosine);
-  });
+/// Marks what pushes as a leader does.
+void CarryingChoice::cover(std::span<const Contact> contacts, const Candidate& leader) {
+  const Eigen::Vector3d push = contacts[leader.index].push();
+  for (Candidate& each : candidates_)
+    if (contacts[each.index].push().dot(push) > least_cosine) each.is_covered = true;
+}
+
+/// Finds what pushes as the first leader does, and the places of it in the plane square to that push.
+void CarryingChoice::find_places(std::span<const Contact> contacts, const Candidate& leader) {
+  cover(contacts, leader);
+  const Eigen::Vector3d push = contacts[leader.index].push();
   Eigen::Index shortest = 0;
   push.cwiseAbs().minCoeff(&shortest);
   const Eigen::Vector3d first = push.cross(Eigen::Vector3d::Unit(shortest)).normalized();
   const Eigen::Vector3d second = push.cross(first);
-  const Eigen::Vector3d origin = middle_of(leader);
+  const Eigen::Vector3d origin = middle_of(contacts[leader.index]);
   for (Candidate& each : candidates_) {
+    each.is_directed = each.is_covered;
     const Eigen::Vector3d way = middle_of(contacts[each.index]) - origin;
     each.place = {way.dot(first), way.dot(second)};
+  }
+}
+
+/// Chooses one contact for each other direction, as long as enough are left for the first.
+void CarryingChoice::add_other_directions(std::span<const Contact> contacts, const CarryingRule& rule) {
+  if (rule.most <= least_of_first) return;
+  for (std::size_t left = (rule.most - least_of_first) / 2; left > 0; --left) {
+    Candidate* const leader = find_leader(contacts, rule.band);
+    if (leader == nullptr) return;
+    cover(contacts, *leader);
+    leader->is_chosen = true;
+    ++chosen_;
   }
 }
 
 /// Chooses until there are so many, or no more. First it widens the outline of what is chosen. When that
 /// holds all the others, it fills the gaps.
 void CarryingChoice::spread(std::size_t most) {
-  most = std::min(most, candidates_.size());
   double overhang = 0;  // what counts as outside
   while (chosen_ < most) {
     find_outline();
     for (Candidate& each : candidates_) each.distance = distance_to_outline(each.place, outline_);
     Candidate* const next = best(overhang);
     if (next == nullptr) break;
+    if (places_.size() == 1) overhang = part_of_extent * next->distance;
     add(*next);
-    if (chosen_ == 2) overhang = part_of_extent * next->distance;
   }
   for (Candidate& each : candidates_) {
     each.distance = std::numeric_limits<double>::infinity();
     for (const Place& place : places_) each.distance = std::min(each.distance, (each.place - place).norm());
   }
   while (chosen_ < most) {
-    Candidate& next = *best(0);
-    add(next);
+    Candidate* const next = best(0);
+    if (next == nullptr) break;
+    add(*next);
     for (Candidate& each : candidates_)
-      each.distance = std::min(each.distance, (each.place - next.place).norm());
+      each.distance = std::min(each.distance, (each.place - next->place).norm());
   }
 }
 
@@ -221,10 +252,11 @@ CarryingChoice::Candidate* CarryingChoice::best(double least_gain) {
   Candidate* best = nullptr;
   Candidate* listed = nullptr;
   for (Candidate& each : candidates_) {
-    if (each.is_chosen) continue;
+    if (each.is_chosen || !each.is_directed) continue;
     if (best == nullptr || each.gain() > best->gain()) best = &each;
     if (each.was_listed && (listed == nullptr || each.gain() > listed->gain())) listed = &each;
   }
+  if (best == nullptr) return nullptr;
   const double enough_to_stay = part_to_stay * std::max(least_gain, best->gain());
   if (listed != nullptr && listed->gain() >= enough_to_stay) return listed;
   return best->gain() >= least_gain ? best : nullptr;

@@ -143,8 +143,8 @@ void PairJobs::choose_carrying(std::uint32_t index, PairAnswer& answer, Worker& 
   const CarryingRule rule{std::min(settings_.carrying, limit),
                           settings_.carrying_band.value_or(jobs_[index].thresholds.threshold)};
   if (answer.contacts.empty()) return;
-  const std::size_t all = worker.carrying.choose(answer.contacts, last_->of(index), rule);
-  answer.cut = limit < std::min(settings_.carrying, all);
+  const bool has_more = worker.carrying.choose(answer.contacts, last_->of(index), rule);
+  answer.cut = has_more && limit < settings_.carrying;
 }
 
 void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,

@@ -23,9 +23,9 @@ struct CarryingRule {
 class GRAZE_API CarryingChoice {
  public:
   /// Leaves only the chosen ones of a pair's contacts, in their order. `last` are those that the last report
-  /// lists of the pair. Both are sorted by kind, feature a, feature b. Returns how many there were to choose
-  /// from.
-  std::size_t choose(std::vector<Contact>& contacts, std::span<const Contact> last, const CarryingRule& rule);
+  /// lists of the pair. Both are sorted by kind, feature a, feature b. Returns whether a higher number would
+  /// leave more.
+  bool choose(std::vector<Contact>& contacts, std::span<const Contact> last, const CarryingRule& rule);
   /// Makes room for pairs of so many contacts.
   void reserve(std::size_t contacts);
   void reserve_as(const CarryingChoice& other) { reserve(other.candidates_.capacity()); }
@@ -38,21 +38,25 @@ class GRAZE_API CarryingChoice {
 
   /// A contact that may be chosen.
   struct Candidate {
-    std::uint32_t index = 0;  ///< of the contact
-    bool was_listed = false;  ///< in the last report
+    std::uint32_t index = 0;   ///< of the contact
+    bool was_listed = false;   ///< in the last report
+    bool is_directed = false;  ///< pushes as the first leader does
+    bool is_covered = false;   ///< pushes as some leader does
     bool is_chosen = false;
     double separation = 0;
-    double share = 1;             ///< of the band that is left beyond it: 1 for the deepest
+    double worth = 1;             ///< 1 for the deepest, 0 at the end of the band
     Place place = Place::Zero();  ///< in the plane square to the push
     double distance = 0;          ///< from what is chosen
-    [[nodiscard]] double gain() const { return share * distance; }
+    [[nodiscard]] double gain() const { return worth * distance; }
   };
 
   void collect(std::span<const Contact> contacts);
   void find_listed(std::span<const Contact> contacts, std::span<const Contact> last);
   void keep_band(double band);
-  [[nodiscard]] std::uint32_t find_leader(std::span<const Contact> contacts, double band) const;
-  void keep_directed(std::span<const Contact> contacts, const Contact& leader);
+  [[nodiscard]] Candidate* find_leader(std::span<const Contact> contacts, double band);
+  void find_places(std::span<const Contact> contacts, const Candidate& leader);
+  void add_other_directions(std::span<const Contact> contacts, const CarryingRule& rule);
+  void cover(std::span<const Contact> contacts, const Candidate& leader);
   void spread(std::size_t most);
   [[nodiscard]] Candidate* best(double least_gain);
   void add(Candidate& candidate);
