@@ -121,22 +121,21 @@ std::vector<Body> bodies() {
           {"plank", models::box({1.2, 0.24, 0.1}), 0.05}};
 }
 
-/// The largest jump of what is listed of a body that moves by 0.1 µm in each step. With `remembers` false
-/// each step is the first of a scene, so that nothing was listed before.
-double largest_jump(const Body& body, bool is_ground_solid, std::size_t carrying, bool remembers) {
+/// The largest jump of what is listed of a body that moves by 0.1 µm in each step, in all directions.
+double largest_jump(const Body& body, const SceneSettings& settings, bool is_ground_solid) {
   std::mt19937 random(1);
   std::normal_distribution<double> way;
   double largest = 0;
-  OnTerrain stage(settings_with(carrying), body.data, is_ground_solid);
+  OnTerrain stage(settings, body.data, is_ground_solid);
   Vector3d place(0.0125, 0.0375, body.height);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Vector3d::UnitZ()).toRotationMatrix();
   std::vector<Contact> before;
   for (int step = 0; step < 150; ++step) {
     place += 1e-7 * Vector3d(way(random), way(random), way(random)).normalized();
-    const ReportHandle report =
-        remembers ? stage.step_at(place, turn)
-                  : OnTerrain(settings_with(carrying), body.data, is_ground_solid).step_at(place, turn);
-    REQUIRE(report->contacts().size() <= carrying);
+    const Eigen::Matrix3d tremble =
+        Eigen::AngleAxisd(1e-7 * way(random), Vector3d(way(random), way(random), way(random)).normalized())
+            .toRotationMatrix();
+    const ReportHandle report = stage.step_at(place, tremble * turn);
     REQUIRE(!report->contacts().empty());
     if (!before.empty()) largest = std::max(largest, jump_of(report->contacts(), before));
     before = copy_of(report->contacts());
@@ -147,14 +146,21 @@ double largest_jump(const Body& body, bool is_ground_solid, std::size_t carrying
 }  // namespace
 
 TEST_CASE("carrying: what is listed of a body at rest moves by less than a millimetre as it trembles") {
+  double largest_of_limit = 0;
   for (const Body& body : bodies())
     for (const bool is_ground_solid : {false, true})
-      for (const std::size_t carrying : {3U, 4U, 8U}) {
-        INFO(body.name << (is_ground_solid ? " on solid ground" : " on a terrain") << ", " << carrying);
-        const double jump = largest_jump(body, is_ground_solid, carrying, true);
-        UNSCOPED_INFO("jumps by " << jump);
-        CHECK(jump < 1e-3);
+      for (const std::size_t count : {3U, 4U, 8U}) {
+        SceneSettings limited = settings_with(0);
+        limited.max_contacts_per_pair = count;
+        const double with_carrying = largest_jump(body, settings_with(count), is_ground_solid);
+        const double with_limit = largest_jump(body, limited, is_ground_solid);
+        largest_of_limit = std::max(largest_of_limit, with_limit);
+        UNSCOPED_INFO(body.name << (is_ground_solid ? " on solid ground, " : " on a terrain, ") << count
+                                << " contacts: " << 1000 * with_carrying << " mm, with a limit "
+                                << 1000 * with_limit << " mm");
+        CHECK(with_carrying < 1e-3);
       }
+  CHECK(largest_of_limit > 0.05);  // what this is for
 }
 
 TEST_CASE("carrying: four contacts span a box that lies on a terrain") {
@@ -183,7 +189,7 @@ TEST_CASE("carrying: what is listed are contacts of the whole report, and all el
     const ReportHandle many = most.step_at(place);
     CHECK(inconsistency_of(*few) == "");
     REQUIRE(few->contacts().size() == 4);
-    CHECK(all->contacts().size() > many->contacts().size());
+    CHECK(all->contacts().size() >= many->contacts().size());
     CHECK(few->pairs()[0].phase == all->pairs()[0].phase);
     CHECK(few->pairs()[0].inside == all->pairs()[0].inside);
     CHECK(few->pairs()[0].distance.lower == all->pairs()[0].distance.lower);
