@@ -9,21 +9,22 @@
 namespace graze {
 namespace {
 
-// Parts of the band. A contact that is listed leads as long as it is this much less deep than the deepest at
-// most; and of contacts that are as deep as each other to within the second, the outermost leads.
+/// A contact that was listed leads while it is at most this part of the band less deep than the deepest.
 constexpr double part_to_lead = 1.0 / 4;
+
+/// Contacts that differ by at most this part of the band are equally deep. The outermost of these leads.
 constexpr double part_of_even = 1.0 / 64;
 
 /// The cosine of 26°: pushes that differ by more do not carry together.
 constexpr double least_cosine = 0.898794;
 
-/// So many contacts push as the first leader does before half of the others go to other directions.
+/// So many contacts push as the first leader does. Half of what is left goes to other directions.
 constexpr std::size_t least_of_first = 4;
 
-/// A contact that was listed stays if it is this far from those chosen, in parts of the farthest.
+/// A contact that was listed is taken if it gains this part of what the best one gains.
 constexpr double part_to_stay = 3.0 / 5;
 
-/// What overhangs the outline of those chosen by less than this part of its extent stands on them.
+/// What is outside the outline of those chosen by less than this part of its extent stands on them.
 constexpr double part_of_extent = 1.0 / 16;
 
 /// A point that is this near to the line of an edge, as an angle, is on the edge.
@@ -152,6 +153,7 @@ void CarryingChoice::keep_band(double band) {
   for (const Candidate& each : candidates_) deepest = std::min(deepest, each.separation);
   std::erase_if(candidates_, [&](const Candidate& each) { return each.separation > deepest + band; });
   for (Candidate& each : candidates_) {
+    // The fourth power, so that what is near the end of the band does not win by being far out.
     const double left = band > 0 ? std::max(0.0, 1 - (each.separation - deepest) / band) : 1;
     each.worth = left * left * left * left;
   }
@@ -229,7 +231,7 @@ void CarryingChoice::spread(std::size_t most) {
   while (chosen_ < most) {
     find_outline();
     for (Candidate& each : candidates_) each.distance = distance_to_outline(each.place, outline_);
-    Candidate* const next = best(overhang);
+    Candidate* const next = find_next(overhang);
     if (next == nullptr) break;
     if (places_.size() == 1) overhang = part_of_extent * next->distance;
     add(*next);
@@ -239,7 +241,7 @@ void CarryingChoice::spread(std::size_t most) {
     for (const Place& place : places_) each.distance = std::min(each.distance, (each.place - place).norm());
   }
   while (chosen_ < most) {
-    Candidate* const next = best(0);
+    Candidate* const next = find_next(0);
     if (next == nullptr) break;
     add(*next);
     for (Candidate& each : candidates_)
@@ -248,7 +250,7 @@ void CarryingChoice::spread(std::size_t most) {
 }
 
 /// The candidate that gains most, or one that was listed and gains nearly as much; null if none gains enough.
-CarryingChoice::Candidate* CarryingChoice::best(double least_gain) {
+CarryingChoice::Candidate* CarryingChoice::find_next(double least_gain) {
   Candidate* best = nullptr;
   Candidate* listed = nullptr;
   for (Candidate& each : candidates_) {
@@ -265,10 +267,10 @@ CarryingChoice::Candidate* CarryingChoice::best(double least_gain) {
 void CarryingChoice::add(Candidate& candidate) {
   candidate.is_chosen = true;
   ++chosen_;
-  const auto comes_before = [](const Place& left, const Place& right) {
+  const auto is_left_of = [](const Place& left, const Place& right) {
     return left.x() != right.x() ? left.x() < right.x() : left.y() < right.y();
   };
-  const auto at = std::lower_bound(places_.begin(), places_.end(), candidate.place, comes_before);
+  const auto at = std::lower_bound(places_.begin(), places_.end(), candidate.place, is_left_of);
   if (at == places_.end() || *at != candidate.place) places_.insert(at, candidate.place);
 }
 

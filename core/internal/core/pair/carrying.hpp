@@ -58,7 +58,7 @@ class GRAZE_API CarryingChoice {
   void add_other_directions(std::span<const Contact> contacts, const CarryingRule& rule);
   void cover(std::span<const Contact> contacts, const Candidate& leader);
   void spread(std::size_t most);
-  [[nodiscard]] Candidate* best(double least_gain);
+  [[nodiscard]] Candidate* find_next(double least_gain);
   void add(Candidate& candidate);
   void find_outline();
 
