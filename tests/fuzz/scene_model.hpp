@@ -111,9 +111,11 @@ class SceneModel {
   void check_rows(const FrameReport& report, const std::map<BodyPair, Fresh>& fresh);
   void check_row(const FrameReport& report, const PairReport& row, const BodyPair& pair,
                  const Fresh* fresh) const;
-  void check_values(const FrameReport& report, const PairReport& row, const Fresh& fresh) const;
+  void check_values(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                    const Fresh& fresh) const;
   /// Of a scene that chooses contacts to carry a pair.
-  void check_chosen(const FrameReport& report, const PairReport& row, const Fresh& fresh) const;
+  void check_chosen(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                    const Fresh& fresh) const;
   [[nodiscard]] bool is_gone(const BodyPair& pair) const;
   [[nodiscard]] bool is_frozen(const BodyPair& pair) const;
   [[nodiscard]] bool must_be_listed(const BodyPair& pair, const Fresh& fresh) const;

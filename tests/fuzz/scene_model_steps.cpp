@@ -216,7 +216,7 @@ void SceneModel::check_row(const FrameReport& report, const PairReport& row, con
   expect(!row.stale, "a row of objects that can be read is stale");
   if (fresh == nullptr)
     return expect(row.phase == PairPhase::ended && was, "a row of a pair that is filtered out");
-  check_values(report, row, *fresh);
+  check_values(report, row, pair, *fresh);
   if (scene_.settings().accuracy.mode() == AccuracyMode::paper) return;
   if (is_undone(row))
     return expect(row.phase == (was ? PairPhase::touching : PairPhase::near),
@@ -230,7 +230,8 @@ void SceneModel::check_row(const FrameReport& report, const PairReport& row, con
       "a pair that is not near is listed");
 }
 
-void SceneModel::check_values(const FrameReport& report, const PairReport& row, const Fresh& fresh) const {
+void SceneModel::check_values(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                              const Fresh& fresh) const {
   const Accuracy& accuracy = scene_.settings().accuracy;
   const DistanceBounds& truth = fresh.row->distance;
   // The truth lies between two neighbouring doubles, or is one.
@@ -242,25 +243,31 @@ void SceneModel::check_values(const FrameReport& report, const PairReport& row, 
     return expect(row.distance.upper - row.distance.lower <= accuracy.tolerance() + rounding,
                   "bounds further apart than the tolerance");
   }
-  if (chooses_carrying()) return check_chosen(report, row, fresh);
+  if (chooses_carrying()) return check_chosen(report, row, pair, fresh);
   if (has_other_limits(report)) return;
   const std::string mine = timeless(report, row);
   const std::string other = timeless(*fresh.report, *fresh.row);
   if (mine != other) finding("a row of the scene:\n" + mine + "\nand of one built afresh:\n" + other);
 }
 
-void SceneModel::check_chosen(const FrameReport& report, const PairReport& row, const Fresh& fresh) const {
+void SceneModel::check_chosen(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                              const Fresh& fresh) const {
   const std::string mine = without_contacts(report, row);
   const std::string other = without_contacts(*fresh.report, *fresh.row);
   if (mine != other) finding("a row of the scene:\n" + mine + "\nand of one built afresh:\n" + other);
   const auto chosen = report.contacts(row);
   const auto all = fresh.report->contacts(*fresh.row);
-  for (const Contact& contact : chosen)
+  const double least = depth_of(all) + scene_.settings().carrying_band.value_or(threshold_of(pair));
+  for (const Contact& contact : chosen) {
     expect(std::any_of(all.begin(), all.end(), [&](const Contact& one) { return are_same(one, contact); }),
            "a contact was chosen that is none");
+    expect(!carries(contact) || contact.separation() <= least,
+           "a contact was chosen that is not deep enough");
+    expect(carries(contact) || std::none_of(all.begin(), all.end(), carries),
+           "an edge that pierces was chosen to carry");
+  }
   if (scene_.settings().max_contacts) return;
   expect(all.empty() == chosen.empty(), "none of the contacts of a pair was chosen");
-  expect(depth_of(chosen) == depth_of(all), "the deepest contact was not chosen");
 }
 
 }  // namespace graze::fuzz
