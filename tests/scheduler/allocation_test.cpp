@@ -424,6 +424,38 @@ TEST_CASE("no allocation: groups of faces that are ignored and watched in turn")
   check_none_thrown();
 }
 
+TEST_CASE("no allocation: hidden faces in pairs that come and go") {
+  if (is_skipped()) return;
+  const auto detail = GENERATE(ContactDetail::closest, ContactDetail::vertices, ContactDetail::nearest);
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(static_cast<int>(detail), threads);
+  SceneSettings settings = settings_of(0.125, 0.5, detail);
+  settings.threads = threads;
+  Scene scene(settings);
+  const auto mesh = mesh_of(models::sheet(8, 8, 1, 1));
+  ObjectSettings half_hidden = motion_of(Motion::rigid);
+  for (std::uint32_t face = 0; face < mesh->face_count(); ++face)
+    half_hidden.face_groups.push_back(static_cast<std::uint8_t>(face / 32));
+  half_hidden.hidden_groups = {1};
+  (void)scene.add(mesh, half_hidden);
+  const ObjectId high = scene.add(mesh, half_hidden);
+  const ObjectId plain = scene.add(mesh, motion_of(Motion::rigid));
+  std::size_t contacts = 0;
+  const auto play = [&](std::size_t frames) {
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+      scene.set_pose(high, lift_pose(frame % 3 == 0 ? 2 : 0.0625));
+      scene.set_pose(plain, lift_pose(frame % 4 == 0 ? -3 : -0.0625));
+      contacts += scene.step()->contacts().size();
+    }
+  };
+  play(60);
+  AllocationCount::begin();
+  play(60);
+  AllocationCount::end();
+  CHECK(contacts > 1000);
+  check_none_thrown();
+}
+
 TEST_CASE("a reader that holds eight reports at random makes no step take memory") {
   if (is_skipped()) return;
   const auto threads = GENERATE(1U, 2U);
