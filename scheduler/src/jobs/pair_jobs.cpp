@@ -124,6 +124,7 @@ PairQuery PairJobs::query_of(const PairJob& job, std::optional<FeatureFilter>& f
   if (!is_about_vertices(query.detail) && job.task == PairJob::Task::detect) {
     query.a_is_solid = job.a->settings.solid;
     query.b_is_solid = job.b->settings.solid;
+    query.wants_way_out = settings_.ways_out && query.mode != AccuracyMode::paper;
   }
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
@@ -517,6 +518,8 @@ void PairJobs::reserve_workers() {
   for (Worker& worker : workers_) {
     worker.reserve(room_);
     if (is_for_solids_) worker.detector.reserve_for_solids(room_);
+    if (settings_.ways_out && !is_about_vertices(settings_.detail))
+      worker.detector.reserve_for_ways_out(room_);
     if (limit > 0) worker.detector.reserve_for_limit(limit, room_);
     if (chooses_carrying()) worker.carrying.reserve(room_.contacts);
   }
