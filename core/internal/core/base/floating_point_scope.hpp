@@ -2,6 +2,10 @@
 
 #include <cfenv>
 
+#if defined(__SSE2_MATH__)
+#include <xmmintrin.h>
+#endif
+
 namespace graze {
 
 /// Rounding to nearest, no flushing of denormals and no traps while it lives; what the caller had is
@@ -20,5 +24,26 @@ class FloatingPointScope {
  private:
   std::fenv_t before_{};
 };
+
+/// Whether the calling thread computes as in a FloatingPointScope already. It may say no where it does.
+inline bool is_in_default_mode() {
+#if defined(__SSE2_MATH__)
+  constexpr unsigned exception_flags = 0x3F;
+  constexpr unsigned defaults = 0x1F80;
+  return (_mm_getcsr() & ~exception_flags) == defaults;
+#else
+  return false;
+#endif
+}
+
+/// Calls a function in a FloatingPointScope, or as it is where the caller is in that mode already: a scope
+/// takes as long as some short calls. Then the function may leave exception flags behind.
+template <typename Compute>
+auto compute_in_default_mode(const Compute& compute) {
+  if (is_in_default_mode()) [[likely]]
+    return compute();
+  const FloatingPointScope scope;
+  return compute();
+}
 
 }  // namespace graze
