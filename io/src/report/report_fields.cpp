@@ -49,7 +49,14 @@ void write_setting(JsonText& json, std::string_view key, const Value& value) {
 }
 template <typename Value>
 void write_setting(JsonText& json, std::string_view key, const std::optional<Value>& value) {
-  if (value) write_setting(json, key, *value);
+  if (value) write_value(json.key(key), *value);
+}
+void write_setting(JsonText& json, std::string_view key, bool is_on) {
+  if (is_on) json.key(key).flag(true);
+}
+/// A number that is 0 where it is off.
+void write_setting(JsonText& json, std::string_view key, std::size_t most) {
+  if (most > 0) json.key(key).whole(most);
 }
 
 }  // namespace
@@ -59,6 +66,10 @@ void write_settings(JsonText& json, const SceneSettings& settings) {
   for_each_reported_setting(
       [&](const auto& field) { write_setting(json, key_of(field), settings.*field.member); });
   json.close('}');
+}
+
+bool is_written(const WayOut& way) {
+  return way.fullness != 0 || !way.point.isZero(0);
 }
 
 void write_statistics(JsonText& json, const StepStatistics& statistics, bool include_times) {

@@ -22,8 +22,11 @@ constexpr std::string_view key_of(const SettingsField<member>& field) {
   return times_among<member, &SceneSettings::time_budget>() == 1 ? "time_budget_us" : field.name;
 }
 
-/// Writes the settings that shape an answer.
+/// Writes the settings that shape an answer. Those that are off are left out.
 void write_settings(JsonText& json, const SceneSettings& settings);
+
+/// Whether anything of a way out is not 0, so that files have it.
+[[nodiscard]] bool is_written(const WayOut& way);
 
 /// Writes all statistics of a step; without times also no StepStatistics::thread_bytes.
 void write_statistics(JsonText& json, const StepStatistics& statistics, bool include_times);

@@ -78,8 +78,14 @@ ReportedContact read_contact(const json& value) {
   read.contact.normal = read_point(value.at("normal"));
   read.contact.side_a = named<Side>(value.at("side").at(0));
   read.contact.side_b = named<Side>(value.at("side").at(1));
+  read.contact.sunk = value.value("sunk", false);
   if (value.contains("since")) read.contact.since = read_whole<std::uint64_t>(value.at("since"));
   return read;
+}
+
+WayOut read_way_out(const json& value) {
+  return {read_point(value.at("direction")), read_point(value.at("point")), read_real(value.at("fullness")),
+          read_real(value.at("thickness")), read_real(value.at("extent"))};
 }
 
 ReportedPair read_pair(const json& value) {
@@ -97,6 +103,7 @@ ReportedPair read_pair(const json& value) {
   pair.witness.feature_b = read_feature(witness.at("b"), pair.witness_edge_b);
   pair.witness.point_a = read_point(witness.at("point_a"));
   pair.witness.point_b = read_point(witness.at("point_b"));
+  if (value.contains("way_out")) pair.way_out = read_way_out(value.at("way_out"));
   if (value.contains("contact_count")) {
     pair.contact_count = read_whole<std::uint64_t>(value.at("contact_count"));
     return pair;
@@ -175,6 +182,13 @@ void read_setting(const json& settings, std::string_view key, Value& value) {
 template <typename Value>
 void read_setting(const json& settings, std::string_view key, std::optional<Value>& value) {
   if (settings.contains(key)) read_value(settings.at(key), value.emplace());
+}
+// A setting that is off is not in the file.
+void read_setting(const json& settings, std::string_view key, bool& is_on) {
+  if (settings.contains(key)) is_on = settings.at(key).get<bool>();
+}
+void read_setting(const json& settings, std::string_view key, std::size_t& most) {
+  if (settings.contains(key)) read_value(settings.at(key), most);
 }
 
 SceneSettings read_settings(const json& value) {

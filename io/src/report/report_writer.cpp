@@ -48,6 +48,7 @@ void write_contact(JsonText& json, const Contact& contact, std::uint64_t since, 
   json.key("point_a").point(contact.point_a).key("point_b").point(contact.point_b);
   json.key("normal").point(contact.normal);
   json.key("side").open('[').text(to_string(contact.side_a)).text(to_string(contact.side_b)).close(']');
+  if (contact.sunk) json.key("sunk").flag(true);
   json.key("since").whole(since).close('}');
 }
 
@@ -57,6 +58,12 @@ void write_witness(JsonText& json, const Witness& witness, const Mesh& mesh_a, c
   json.key("b");
   write_feature(json, witness.feature_b, mesh_b);
   json.key("point_a").point(witness.point_a).key("point_b").point(witness.point_b).close('}');
+}
+
+void write_way_out(JsonText& json, const WayOut& way) {
+  json.key("way_out").open('{').key("direction").point(way.direction).key("point").point(way.point);
+  json.key("fullness").real(way.fullness).key("thickness").real(way.thickness);
+  json.key("extent").real(way.extent).close('}');
 }
 
 ReportWriter::Options checked_options(const ReportWriter::Options& options) {
@@ -105,6 +112,7 @@ void ReportWriter::State::write_pair(std::uint64_t frame, const FrameReport& rep
   json.key("distance").open('[').real(pair.distance.lower).real(pair.distance.upper).close(']');
   json.key("witness");
   write_witness(json, pair.witness, mesh_a, mesh_b);
+  if (is_written(pair.way_out)) write_way_out(json, pair.way_out);
   if (options.include_contacts) {
     json.key("contacts").open('[');
     for (const Contact& contact : report.contacts(pair))

@@ -128,8 +128,10 @@ void read_field(const JsonPath& json, bool& truth) {
   truth = json.truth();
 }
 void read_field(const JsonPath& json, std::vector<std::uint8_t>& groups) {
-  for (std::size_t i = 0; i < json.array_size("write a number for each face, such as [0, 0, 1]"); ++i)
-    groups.push_back(read_face_group(json.item(i)));
+  const bool are_hidden = json.key() == field_name<ObjectSettings, &ObjectSettings::hidden_groups>();
+  const std::string_view remedy = are_hidden ? "write the groups that are hidden, such as [1, 2]"
+                                             : "write a number for each face, such as [0, 0, 1]";
+  for (std::size_t i = 0; i < json.array_size(remedy); ++i) groups.push_back(read_face_group(json.item(i)));
 }
 
 /// Calls `visit` with the key and the member of each field of ObjectSettings that an entry may have.
@@ -207,6 +209,15 @@ void read_setting(const JsonPath& json, Accuracy& accuracy) {
 }
 void read_setting(const JsonPath& json, std::optional<std::size_t>& most) {
   most = json.whole_number(1, any_number);
+}
+void read_setting(const JsonPath& json, std::size_t& most) {
+  most = json.whole_number(0, any_number);
+}
+void read_setting(const JsonPath& json, std::optional<double>& length) {
+  length = json.number_not_negative();
+}
+void read_setting(const JsonPath& json, bool& truth) {
+  truth = json.truth();
 }
 
 /// Calls `visit` with each setting that scene files have. Threads, the arena, budgets and region distances

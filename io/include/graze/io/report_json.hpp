@@ -111,6 +111,8 @@ struct ReportedPair {
   EdgeVertices witness_edge_a{};
   /// The vertices of feature b of the witness, if it is an edge.
   EdgeVertices witness_edge_b{};
+  /// How b leaves a. All of it is 0 if the file says nothing of it.
+  WayOut way_out;
   /// The contacts of the pair, sorted by kind, feature a, feature b. Empty if the report has no contacts, see
   /// ReportReader::has_contacts().
   std::vector<ReportedContact> contacts;
@@ -159,8 +161,8 @@ class GRAZE_API ReportReader {
 
   /// Returns the objects of the header.
   [[nodiscard]] std::span<const ReportedObject> objects() const;
-  /// Returns the settings of the header: distances, detail, accuracy, budgets and limits. Other settings are
-  /// defaults.
+  /// Returns the settings of the header: distances, detail, accuracy, budgets, limits, ways out and contacts
+  /// that carry. Other settings are defaults.
   [[nodiscard]] const SceneSettings& settings() const;
   /// Returns ReportWriter::Options::every: the file has each so many-th frame.
   [[nodiscard]] std::uint64_t every() const;
