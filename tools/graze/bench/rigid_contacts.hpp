@@ -34,6 +34,8 @@ struct RigidContact {
   double on_b[3] = {};
   double push[3] = {};    ///< of length 1: b moves along it to leave a
   double separation = 0;  ///< negative inside
+  /// Tells the contacts of two bodies apart, and stays from call to call as long as the place does. Not 0.
+  std::uint64_t key = 0;
 };
 
 /// Finds the contacts of all bodies, but for those of two fixed ones.

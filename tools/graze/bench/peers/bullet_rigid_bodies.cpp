@@ -149,12 +149,16 @@ class BulletRigidBodies final : public RigidContactFinder {
     world_.addCollisionObject(object.get(), group, mask);
     objects_.push_back(std::move(object));
   }
-  void add(const btPersistentManifold& manifold, std::vector<RigidContact>& contacts) const {
+  void add(btPersistentManifold& manifold, std::vector<RigidContact>& contacts) {
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
-      const btManifoldPoint& point = manifold.getContactPoint(i);
+      btManifoldPoint& point = manifold.getContactPoint(i);
+      // Bullet keeps this pointer with the point, and does not use it.
+      if (point.m_userPersistentData == nullptr)
+        point.m_userPersistentData = reinterpret_cast<void*>(++keys_);
       RigidContact& contact = contacts.emplace_back();
       contact.a = static_cast<std::uint32_t>(manifold.getBody0()->getUserIndex());
       contact.b = static_cast<std::uint32_t>(manifold.getBody1()->getUserIndex());
+      contact.key = reinterpret_cast<std::uintptr_t>(point.m_userPersistentData);
       contact.separation = point.getDistance() + distance_;
       const btVector3 push = -point.m_normalWorldOnB;
       const double inset = kind_.has_grown_points ? distance_ / 2 : 0;
@@ -173,6 +177,7 @@ class BulletRigidBodies final : public RigidContactFinder {
   btCollisionWorld world_;
   std::map<const RigidShape*, BulletShape> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
+  std::uintptr_t keys_ = 0;  ///< given to points so far
 };
 
 }  // namespace

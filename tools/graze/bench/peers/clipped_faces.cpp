@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -17,23 +18,37 @@ namespace graze::bench {
 namespace {
 
 using Eigen::Vector3d;
-using Polygon = std::vector<Vector3d>;
+/// A corner of a clipped polygon. Its number is the same as long as the same planes make it.
+struct Corner {
+  Vector3d point;
+  std::uint64_t number = 0;
+};
+using Polygon = std::vector<Corner>;
 
 constexpr double face_preference = 5e-4;  // m: edges have to separate by so much more than faces
 
-/// Cuts away what is in front of a plane.
-void clip(Polygon& polygon, const Vector3d& normal, double offset, Polygon& clipped) {
+/// Cuts away what is in front of a plane. What it adds where it enters the polygon has the number `plane`,
+/// and where it leaves it one more.
+void clip(Polygon& polygon, const Vector3d& normal, double offset, std::uint64_t plane, Polygon& clipped) {
   clipped.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector3d& from = polygon[i];
-    const Vector3d& to = polygon[(i + 1) % polygon.size()];
-    const double height_from = normal.dot(from) - offset;
-    const double height_to = normal.dot(to) - offset;
+    const Corner& from = polygon[i];
+    const Corner& to = polygon[(i + 1) % polygon.size()];
+    const double height_from = normal.dot(from.point) - offset;
+    const double height_to = normal.dot(to.point) - offset;
     if (height_from <= 0) clipped.push_back(from);
     if (height_from * height_to < 0)
-      clipped.push_back(from + height_from / (height_from - height_to) * (to - from));
+      clipped.push_back({from.point + height_from / (height_from - height_to) * (to.point - from.point),
+                         height_from < 0 ? plane : plane + 1});
   }
   polygon.swap(clipped);
+}
+
+/// A number that tells contacts of two bodies apart, from a few small ones.
+std::uint64_t key_of(std::initializer_list<std::uint64_t> numbers) {
+  std::uint64_t key = 1;
+  for (const std::uint64_t number : numbers) key = key << 12U | number;
+  return key;
 }
 
 /// Finds contacts of two convex bodies by their best separating axis: the face of one that the other's face
@@ -55,55 +70,59 @@ class Clipper {
         add_faces(b, axes->b.face, a, true);
     }
     const bool has_edges = std::isfinite(axes->edges.separation);
-    if (contacts_.size() == before && has_edges) add_edges(axes->edges, a.body, b.body);
+    if (contacts_.size() == before && has_edges) add_edges(axes->edges, a, b);
   }
 
  private:
   void add_faces(const PlacedHull& reference, std::uint32_t face, const PlacedHull& other, bool is_b) {
     const Vector3d normal = reference.normals[face];
-    const auto corners_of = [](const PlacedHull& hull, std::uint32_t index) -> const auto& {
-      return hull.hull->faces[index].corners;
-    };
+    const std::uint32_t other_face = other.face_along(-normal);
     polygon_.clear();
-    for (const std::uint32_t corner : corners_of(other, other.face_along(-normal)))
-      polygon_.push_back(other.points[corner]);
-    const std::vector<std::uint32_t>& corners = corners_of(reference, face);
+    for (const std::uint32_t corner : other.hull->faces[other_face].corners)
+      polygon_.push_back({other.points[corner], corner});
+    const std::vector<std::uint32_t>& corners = reference.hull->faces[face].corners;
     for (std::size_t i = 0; i < corners.size() && !polygon_.empty(); ++i) {
       const Vector3d& from = reference.points[corners[i]];
       const Vector3d side = (reference.points[corners[(i + 1) % corners.size()]] - from).cross(normal);
-      clip(polygon_, side, side.dot(from), clipped_);
+      clip(polygon_, side, side.dot(from), 1024 + 2 * i, clipped_);
     }
-    for (const Vector3d& point : polygon_) {
+    for (const auto& [point, number] : polygon_) {
       const double separation = normal.dot(point) - reference.offsets[face];
       if (separation >= distance_) continue;
       const Vector3d on_face = point - separation * normal;
+      const std::uint64_t key = key_of({reference.part, other.part, face, other_face, number});
       if (is_b)
-        add(other.body, reference.body, point, on_face, -normal, separation);
+        add({other.body, reference.body, key, separation}, point, on_face, -normal);
       else
-        add(reference.body, other.body, on_face, point, normal, separation);
+        add({reference.body, other.body, key, separation}, on_face, point, normal);
     }
   }
 
-  void add_edges(const EdgeAxis& edges, std::uint32_t a, std::uint32_t b) {
+  void add_edges(const EdgeAxis& edges, const PlacedHull& a, const PlacedHull& b) {
     const Vector3d way = edges.point_b - edges.point_a;
     const Vector3d cross = edges.along_a.cross(edges.along_b);
     const double square = cross.squaredNorm();
     const Vector3d on_a = edges.point_a + way.cross(edges.along_b).dot(cross) / square * edges.along_a;
     const Vector3d on_b = edges.point_b + way.cross(edges.along_a).dot(cross) / square * edges.along_b;
-    add(a, b, on_a, on_b, edges.normal, edges.separation);
+    add({a.body, b.body, key_of({a.part, b.part}), edges.separation}, on_a, on_b, edges.normal);
   }
 
-  void add(std::uint32_t a, std::uint32_t b, const Vector3d& on_a, const Vector3d& on_b, const Vector3d& push,
-           double separation) {
+  struct Found {
+    std::uint32_t a, b;
+    std::uint64_t key;
+    double separation;
+  };
+  void add(const Found& found, const Vector3d& on_a, const Vector3d& on_b, const Vector3d& push) {
     RigidContact& contact = contacts_.emplace_back();
-    contact.a = a;
-    contact.b = b;
+    contact.a = found.a;
+    contact.b = found.b;
+    contact.key = found.key;
+    contact.separation = found.separation;
     for (int i = 0; i < 3; ++i) {
       contact.on_a[i] = on_a[i];
       contact.on_b[i] = on_b[i];
       contact.push[i] = push[i];
     }
-    contact.separation = separation;
   }
 
   double distance_;
@@ -122,6 +141,7 @@ class ClippedFaces final : public RigidContactFinder {
         PlacedHull& part = parts_.emplace_back();
         part.hull = &hull;
         part.body = body;
+        part.part = static_cast<std::uint32_t>(&hull - hulls.data());
         part.half = Eigen::Map<const Vector3d>(shape.half);
       }
     }
