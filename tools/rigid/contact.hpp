@@ -17,14 +17,17 @@ struct Contact {
   Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
   Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< of length 1: b moves along it to leave a
   double separation = 0;                           ///< m, negative inside
+  /// Tells the contacts of two bodies apart, and is the same from step to step. A contact begins with the
+  /// impulse that the one of the same key had in the last step. 0 is no key.
+  std::uint64_t key = 0;
 };
 
 /// Finds contacts of bodies: by graze, or by another library.
 class ContactSource {
  public:
   virtual ~ContactSource() = default;
-  /// Replaces the contacts by those that the bodies have where they are now. Their order is the order in
-  /// which the solver takes them.
+  /// Replaces the contacts by those that the bodies have where they are now. The solver takes them in their
+  /// order. It works best if contacts of bodies that lie further up come later.
   virtual void find(std::span<const Body> bodies, std::vector<Contact>& contacts) = 0;
 };
 

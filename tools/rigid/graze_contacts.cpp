@@ -11,6 +11,14 @@ SceneSettings with_nearest(SceneSettings settings) {
   return settings;
 }
 
+/// Packs the two features of a contact into a number that is not 0.
+std::uint64_t key_of(const graze::Contact& contact) {
+  const auto packed = [](const Feature& feature) {
+    return (static_cast<std::uint64_t>(feature.kind) + 1) << 30 | feature.index;
+  };
+  return packed(contact.feature_a) << 32 | packed(contact.feature_b);
+}
+
 }  // namespace
 
 GrazeContacts::GrazeContacts(SceneSettings settings) : scene_(with_nearest(std::move(settings))) {}
@@ -35,7 +43,8 @@ void GrazeContacts::add_contacts(const PairReport& pair, std::vector<Contact>& c
   bool has_depth = false;
   for (const graze::Contact& contact : report_->contacts(pair)) {
     if (contact.kind == ContactKind::EF && contact.distance == 0) continue;
-    contacts.push_back({a, b, contact.point_a, contact.point_b, contact.push(), contact.separation()});
+    contacts.push_back(
+        {a, b, contact.point_a, contact.point_b, contact.push(), contact.separation(), key_of(contact)});
     has_depth = has_depth || contact.separation() < 0;
   }
   const WayOut& way = pair.way_out;

@@ -16,9 +16,12 @@ struct SolverSettings {
   double recovery_speed = 1;  ///< m/s, how fast what is nearer than the gap is pushed out at most
 };
 
-/// Moves rigid bodies by constraints on their positions, with one pass over the contacts in each of many
-/// small substeps. See Müller, Macklin, Chentanez, Jeschke and Kim, Detailed Rigid Body Simulation with
-/// Extended Position Based Dynamics, 2020. Nothing bounces, and nothing but friction slows a body down.
+/// Moves rigid bodies by impulses at their contacts, in many small substeps with one pass over the contacts
+/// each. The points of a contact are carried along by their bodies, so each substep knows the separation
+/// without another search. See Macklin, Storey, Lu, Terdiman, Chentanez, Jeschke and Müller, Small Steps in
+/// Physics Simulation, 2019, and Catto, Solver2D, 2024.
+///
+/// Nothing bounces, and nothing but contacts and friction slows a body down.
 class Solver {
  public:
   explicit Solver(const SolverSettings& settings = {}) : settings_(settings) {}
@@ -30,41 +33,39 @@ class Solver {
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
 
  private:
+  /// What a contact has pushed in the last substep: impulses on b, in kg m/s.
+  struct Impulse {
+    double pressure = 0;  ///< along the push, never below 0
+    Eigen::Vector3d drag = Eigen::Vector3d::Zero();
+  };
   /// A contact whose two points are carried along by their bodies.
   struct Constraint {
     Body* a = nullptr;
     Body* b = nullptr;
-    Eigen::Vector3d push;
-    Eigen::Vector3d own_a;         ///< the point of a in the coordinates of a
-    Eigen::Vector3d own_b;         ///< the point of b in the coordinates of b
-    double offset = 0;             ///< m, the separation less what the two points are apart along the push
-    Eigen::Vector3d apart_before;  ///< from the point of a to that of b, before the substep
-    double opening = 0;            ///< m/s along the push, before contacts are solved
-    double pressure = 0;           ///< kg m, the impulse of positions along the push in the substep
+    Eigen::Vector3d push = Eigen::Vector3d::Zero();
+    Eigen::Vector3d own_a = Eigen::Vector3d::Zero();  ///< the point of a in the coordinates of a
+    Eigen::Vector3d own_b = Eigen::Vector3d::Zero();  ///< the point of b in the coordinates of b
+    double offset = 0;  ///< m, the separation less what the two points are apart along the push
+    Impulse impulse;
 
-    [[nodiscard]] Eigen::Vector3d arm_a() const { return a->turn * own_a; }
-    [[nodiscard]] Eigen::Vector3d arm_b() const { return b->turn * own_b; }
-    [[nodiscard]] Eigen::Vector3d apart() const;
-    [[nodiscard]] double opening_speed() const;
+    [[nodiscard]] double separation() const;
+    [[nodiscard]] Eigen::Vector3d relative_velocity() const;
+    /// How far an impulse along a direction of length 1 speeds the points apart, in 1/kg.
     [[nodiscard]] double yielding(const Eigen::Vector3d& along) const;
-    void shift(const Eigen::Vector3d& impulse) const;
-  };
-  struct Place {
-    Eigen::Vector3d position;
-    Eigen::Quaterniond turn;
+    void apply(const Eigen::Vector3d& impulse_on_b) const;
   };
 
   void prepare(std::vector<Body>& bodies);
   void substep(std::vector<Body>& bodies, double time_step);
-  void predict(std::vector<Body>& bodies, double time_step);
-  void solve_separation(Constraint& constraint, double time_step) const;
-  void solve_friction(const Constraint& constraint) const;
-  void update_velocities(std::vector<Body>& bodies, double time_step) const;
+  void solve(double time_step, bool pushes_out);
+  void solve_pressure(Constraint& constraint, double time_step, bool pushes_out) const;
+  void solve_drag(Constraint& constraint) const;
 
   SolverSettings settings_;
   std::vector<Contact> contacts_;
-  std::vector<Constraint> constraints_;
-  std::vector<Place> places_;  ///< where the bodies were before the substep
+  std::vector<Contact> last_contacts_;
+  std::vector<Constraint> constraints_;  ///< one for each contact
+  std::vector<Impulse> last_impulses_;
 };
 
 }  // namespace graze::rigid
