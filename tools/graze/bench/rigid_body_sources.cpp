@@ -44,7 +44,7 @@ class FoundContacts final : public rigid::ContactSource {
     for (const RigidContact& contact : found_)
       contacts.push_back({contact.a, contact.b, Eigen::Map<const Eigen::Vector3d>(contact.on_a),
                           Eigen::Map<const Eigen::Vector3d>(contact.on_b),
-                          Eigen::Map<const Eigen::Vector3d>(contact.push), contact.separation});
+                          Eigen::Map<const Eigen::Vector3d>(contact.push), contact.separation, contact.key});
   }
 
  private:

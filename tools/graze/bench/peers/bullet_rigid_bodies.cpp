@@ -46,17 +46,19 @@ BulletShape box_of(const RigidShape& shape, double grown) {
   return box;
 }
 
-/// Moves the planes of a hull's faces outward.
+/// Moves the planes of a hull's faces outward. The planes are found 100 times as large: Bullet takes those of
+/// smaller hulls for rounding errors.
 std::unique_ptr<btConvexHullShape> grown_hull(const std::vector<double>& points, double grown) {
+  constexpr btScalar scale = 100;
   btAlignedObjectArray<btVector3> corners;
-  for (std::size_t i = 0; i < points.size(); i += 3) corners.push_back(vector_of(points.data() + i));
+  for (std::size_t i = 0; i < points.size(); i += 3) corners.push_back(scale * vector_of(points.data() + i));
   btAlignedObjectArray<btVector3> planes;
   btGeometryUtil::getPlaneEquationsFromVertices(corners, planes);
-  for (int i = 0; i < planes.size(); ++i) planes[i][3] -= static_cast<btScalar>(grown);
+  for (int i = 0; i < planes.size(); ++i) planes[i][3] -= scale * static_cast<btScalar>(grown);
   corners.clear();
   btGeometryUtil::getVerticesFromPlaneEquations(planes, corners);
   auto hull = std::make_unique<btConvexHullShape>();
-  for (int i = 0; i < corners.size(); ++i) hull->addPoint(corners[i], false);
+  for (int i = 0; i < corners.size(); ++i) hull->addPoint(corners[i] / scale, false);
   hull->recalcLocalAabb();
   hull->setMargin(0);
   hull->initializePolyhedralFeatures();  // so that Bullet clips faces: otherwise it finds one point a step
