@@ -78,13 +78,15 @@ enum class ContactDetail : std::uint8_t {
   /// that pierces a face. Each pair of features is listed once. Distances are between surfaces.
   features,
   /// The closest point on the other surface of each vertex that is nearer to it than the threshold. Exact
-  /// ties go to the smallest kind, then feature. Every pair of edges of `features` that is locally closest is
-  /// listed too, and every edge that pierces a face. Where none of these is below the threshold or pierces,
-  /// but the fold of a quad is, the nearest such contact of `features` is listed. There are fewer contacts
-  /// than in `features`, and enough to push objects apart. Distances are between surfaces.
+  /// ties go to the smallest kind, then feature. Every pair of edges of `features` that is locally closest, or
+  /// that bounds a patch, is listed too, and every edge that pierces a face. Where none of these is below the
+  /// threshold or pierces, but the fold of a quad is, the nearest such contact of `features` is listed. There
+  /// are fewer contacts than in `features`, and enough to push objects apart. Distances are between surfaces.
   ///
   /// Two edges are locally closest if, on no face beside either of them, the way from the closest point,
-  /// square to the edge, leads nearer to the other point. Edges that cross are.
+  /// square to the edge, leads nearer to the other point. Edges that cross are. Two edges bound a patch if
+  /// both are creases of their meshes at rest, and the way between the closest points lies within 10.2° of
+  /// the normal cones of both. docs/answers.md has the rules.
   nearest,
 };
 

@@ -11,11 +11,13 @@ bool CloseFeatures::is_contact(const FeaturePairKey& key, const SquaredRange& sq
 void CloseFeatures::add_if_contact(const FeaturePairKey& key, const SquaredRange& squared) {
   pair_.check_time();
   if (!is_contact(key, squared)) return;
-  if (touching_ != nullptr && is_edge_through_face(key)) touching_->pierced = true;
   std::uint32_t& slot = scratch_.recent_keys.slot(key);
   if (slot < keys_.size() && keys_[slot] == key) return;
   slot = static_cast<std::uint32_t>(keys_.size());
   keys_.push_back(key);
+  if (!is_edge_through_face(key)) return;
+  piercing_.add(key);
+  if (touching_ != nullptr) touching_->pierced = true;
 }
 
 void CloseFeatures::add(const LeafOf& leaf_a, const LeafOf& leaf_b) {

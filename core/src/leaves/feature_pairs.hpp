@@ -6,6 +6,7 @@
 #include "closest_features/feature_pair_key.hpp"
 #include "core/pair/near_list.hpp"
 #include "leaves/leaf_feature_pairs.hpp"
+#include "leaves/piercing_edges.hpp"
 #include "leaves/touching_edges.hpp"
 #include "pair/near_listing.hpp"
 
@@ -15,15 +16,16 @@ namespace graze {
 /// than a threshold and every edge that pierces a face. A key may be met in several pairs of leaves.
 class CloseFeatures {
  public:
-  /// Keys are appended to `keys`; all are there after `finish`. So are the edges that touch in `touching`,
-  /// which may be null.
+  /// Keys are appended to `keys`, and edges that pierce to `piercing`. All are there after `finish`. So are
+  /// the edges that touch in `touching`, which may be null.
   CloseFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
-                std::vector<FeaturePairKey>& keys, const NearListing& listing = {},
+                std::vector<FeaturePairKey>& keys, PiercingEdges& piercing, const NearListing& listing = {},
                 TouchingEdges* touching = nullptr)
       : pair_(pair),
         threshold_(threshold),
         scratch_(scratch),
         keys_(keys),
+        piercing_(piercing),
         listing_(listing),
         touching_(touching) {}
 
@@ -46,6 +48,7 @@ class CloseFeatures {
   double threshold_;
   LeafScratch& scratch_;
   std::vector<FeaturePairKey>& keys_;
+  PiercingEdges& piercing_;
   NearListing listing_;
   TouchingEdges* touching_;
 };

@@ -1,6 +1,6 @@
 #include "leaves/nearest_features.hpp"
 
-#include "closest_features/locally_closest.hpp"
+#include "closest_features/listed_edges.hpp"
 #include "leaves/below_threshold.hpp"
 #include "leaves/leaf_feature_pairs.hpp"
 
@@ -33,13 +33,14 @@ void NearestFeatures::take(const FeaturePairKey& key, const SquaredRange& square
   const FeatureKind kind_a = key.a().feature.kind;
   const FeatureKind kind_b = key.b().feature.kind;
   if (kind_a == FeatureKind::vertex)
-    vertices_.offer(pair_, {{key, squared}, VertexOfPair::of_a(key.index_a())});
+    found_.vertices.offer(pair_, {{key, squared}, VertexOfPair::of_a(key.index_a())});
   if (kind_b == FeatureKind::vertex)
-    vertices_.offer(pair_, {{key, squared}, VertexOfPair::of_b(key.index_b())});
+    found_.vertices.offer(pair_, {{key, squared}, VertexOfPair::of_b(key.index_b())});
   if (kind_a == FeatureKind::vertex || kind_b == FeatureKind::vertex) return;
   if (is_edge_through_face(key)) {
     if (touching_ != nullptr) touching_->pierced = true;
-    keys_.push_back(key);
+    found_.piercing.add(key);
+    found_.keys.push_back(key);
   } else if (is_closer_than(pair_, key, squared, threshold_)) {
     take_near(key, squared);
   }
@@ -47,12 +48,26 @@ void NearestFeatures::take(const FeaturePairKey& key, const SquaredRange& square
 
 /// Takes two edges, or features of which one is a fold, that are below the threshold.
 void NearestFeatures::take_near(const FeaturePairKey& key, const SquaredRange& squared) {
-  if (key.kind() == ContactKind::EE) {
-    if (are_locally_closest(pair_, key.index_a(), key.index_b())) keys_.push_back(key);
-  } else if (!fold_) {
-    fold_ = {key, squared};
-  } else {
-    keep_nearer(pair_, *fold_, {key, squared});
+  if (key.kind() == ContactKind::EE) return take_edges(key);
+  if (found_.fold)
+    keep_nearer(pair_, *found_.fold, {key, squared});
+  else
+    found_.fold = {key, squared};
+}
+
+void NearestFeatures::take_edges(const FeaturePairKey& key) {
+  switch (listed_edges(pair_, key.index_a(), key.index_b())) {
+    case EdgesListed::never:
+      break;
+    case EdgesListed::always:
+      found_.keys.push_back(key);
+      break;
+    case EdgesListed::if_sunk:
+      found_.edges_if_sunk.push_back({key, true});
+      break;
+    case EdgesListed::if_not_sunk:
+      found_.edges_if_sunk.push_back({key, false});
+      break;
   }
 }
 

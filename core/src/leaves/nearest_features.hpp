@@ -8,29 +8,40 @@
 #include "core/pair/near_list.hpp"
 #include "leaves/leaf_scratch.hpp"
 #include "leaves/nearest_of_vertices.hpp"
+#include "leaves/piercing_edges.hpp"
 #include "leaves/touching_edges.hpp"
 #include "pair/near_listing.hpp"
 
 namespace graze {
 
-/// Finds the keys of `ContactDetail::nearest` between leaves of two surfaces. Edges that pierce faces, and
-/// edges that are locally closest below a threshold, are appended to `keys`. What may be nearest to a vertex
-/// is offered to `vertices`, which are complete when all leaves have been added. The fold of a quad and what
-/// is nearest to it are a contact only where there is no other. `fold` takes the nearest of those below the
-/// threshold.
+/// Two edges that are a contact only if they are sunk, or only if they are not.
+struct EdgesIfSunk {
+  FeaturePairKey key;
+  bool if_sunk = false;
+};
+
+/// Where NearestFeatures puts what it finds.
+struct NearestFound {
+  std::vector<FeaturePairKey>& keys;        ///< edges that pierce faces, and edges below the threshold
+  std::vector<EdgesIfSunk>& edges_if_sunk;  ///< further edges below the threshold
+  PiercingEdges& piercing;                  ///< the edges that pierce
+  /// The nearest where one feature is the fold of a quad, of those below the threshold. It is a contact only
+  /// where there is no other.
+  std::optional<NearKey>& fold;
+  /// What may be nearest to each vertex. It is complete when all leaves have been added.
+  NearestOfVertices& vertices;
+};
+
+/// Finds the keys of `ContactDetail::nearest` between leaves of two surfaces.
 class NearestFeatures {
  public:
-  /// All keys have come after `finish`. So have the edges that touch in `touching`, which may be null.
-  NearestFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch,
-                  NearestOfVertices& vertices, std::optional<NearKey>& fold,
-                  std::vector<FeaturePairKey>& keys, const NearListing& listing = {},
-                  TouchingEdges* touching = nullptr)
+  /// All has been found after `finish`. So have the edges that touch in `touching`, which may be null.
+  NearestFeatures(const SurfacePair& pair, double threshold, LeafScratch& scratch, const NearestFound& found,
+                  const NearListing& listing = {}, TouchingEdges* touching = nullptr)
       : pair_(pair),
         threshold_(threshold),
         scratch_(scratch),
-        vertices_(vertices),
-        fold_(fold),
-        keys_(keys),
+        found_(found),
         listing_(listing),
         touching_(touching) {}
 
@@ -46,13 +57,12 @@ class NearestFeatures {
   void with_names(const Use& use);
   void take(const FeaturePairKey& key, const SquaredRange& squared);
   void take_near(const FeaturePairKey& key, const SquaredRange& squared);
+  void take_edges(const FeaturePairKey& key);
 
   const SurfacePair& pair_;
   double threshold_;
   LeafScratch& scratch_;
-  NearestOfVertices& vertices_;
-  std::optional<NearKey>& fold_;
-  std::vector<FeaturePairKey>& keys_;
+  NearestFound found_;
   NearListing listing_;
   TouchingEdges* touching_;
 };

@@ -6,7 +6,6 @@
 #include "core/base/bytes_of.hpp"
 #include "core/base/growth_policy.hpp"
 #include "core/mesh/pair_room.hpp"
-#include "core/pair/contact_rank.hpp"
 
 namespace graze {
 namespace {
@@ -28,9 +27,8 @@ double rounding_of(const SurfacePair& pair, double distance) {
 
 }  // namespace
 
-void NearestKeys::begin(std::size_t most, ContactDetail detail) {
+void NearestKeys::begin(std::size_t most) {
   most_ = most;
-  detail_ = detail;
   found_.clear();
   limit_ = least_ = std::numeric_limits<double>::infinity();
   is_cut_ = false;
@@ -38,7 +36,6 @@ void NearestKeys::begin(std::size_t most, ContactDetail detail) {
 }
 
 double NearestKeys::limit(const SurfacePair& pair) {
-  if (detail_ == ContactDetail::nearest) return std::numeric_limits<double>::infinity();
   const std::lock_guard lock(mutex_);
   return limit_ + rounding_of(pair, limit_);
 }
@@ -53,11 +50,11 @@ void NearestKeys::add(const SurfacePair& pair, std::span<const FeaturePairKey> k
   ClosestSet nearest(pair, Ties::lowest, nearest_);
   const std::size_t room = room_for(most_);
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (scratch.contacts[i].distance <= may_be_nearest) nearest.offer(keys[i]);
-    const double rank = contact_rank(detail_, scratch.contacts[i]);
-    if (rank > limit_) continue;
+    const double distance = scratch.contacts[i].distance;
+    if (distance <= may_be_nearest) nearest.offer(keys[i]);
+    if (distance > limit_) continue;
     if (found_.size() == room) keep_nearest(pair);
-    if (rank <= limit_) found_.push_back({rank, keys[i]});
+    if (distance <= limit_) found_.push_back({distance, keys[i]});
   }
 }
 
@@ -67,9 +64,9 @@ void NearestKeys::keep_nearest(const SurfacePair& pair) {
   is_cut_ = true;
   const auto last = found_.begin() + static_cast<std::ptrdiff_t>(most_) - 1;
   std::nth_element(found_.begin(), last, found_.end(), [](const Found& left, const Found& right) {
-    return left.rank != right.rank ? left.rank < right.rank : left.key < right.key;
+    return left.distance != right.distance ? left.distance < right.distance : left.key < right.key;
   });
-  limit_ = last->rank;
+  limit_ = last->distance;
   found_.erase(last + 1, found_.end());
 }
 

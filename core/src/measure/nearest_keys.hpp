@@ -25,24 +25,22 @@ struct NearestKeysScratch {
   void reserve(const PairRoom& /*room*/) {}  // by PairDetector::reserve_for_limit, if there is one
 };
 
-/// Keeps the contacts of lowest rank of a pair of surfaces, so many at most: the nearest, or with
-/// ContactDetail::nearest the deepest. They may come in any order and several times. They are compared by
-/// their `contact_rank` as they are reported, and at equal rank by their keys. The result depends neither on
-/// the order nor on the thread that a contact comes from.
+/// Keeps the nearest contacts of a pair of surfaces, so many at most. They may come in any order and several
+/// times. They are compared by their distances as they are reported, and at equal distance by their keys. The
+/// result depends neither on the order nor on the thread that a contact comes from.
 ///
-/// The nearest key of a pair of features stands for all its keys, as in `keep_nearest_of_each`. A key that
-/// has a higher rank than as many others as are kept stays out whatever comes later. So do all that are above
-/// it, and dropping it at once loses nothing.
+/// The nearest key of a pair of features stands for all its keys, as in `keep_nearest_of_each`. A key that is
+/// further than as many others as are kept stays out whatever comes later. So do all that are further, and
+/// dropping it at once loses nothing.
 class NearestKeys {
  public:
   /// Forgets all; of the next pair at most so many are kept, at least one.
-  void begin(std::size_t most, ContactDetail detail);
+  void begin(std::size_t most);
   /// Takes sorted keys, each once, of each pair of features the nearest. Any number of threads at once.
   void add(const SurfacePair& pair, std::span<const FeaturePairKey> keys, MeasureScratch& measure,
            NearestKeysScratch& scratch);
   /// The distance from which on contacts are not kept. It is a little more than that of the furthest one
-  /// kept, by as much as reported distances are rounded. It is infinite where the deepest are kept, which may
-  /// be far. Any thread may ask; it shrinks meanwhile.
+  /// kept, by as much as reported distances are rounded. Any thread may ask; it shrinks meanwhile.
   [[nodiscard]] double limit(const SurfacePair& pair);
 
   // When all have been added:
@@ -60,7 +58,7 @@ class NearestKeys {
 
  private:
   struct Found {
-    double rank;
+    double distance;
     FeaturePairKey key;
   };
   void keep_nearest(const SurfacePair& pair);
@@ -68,9 +66,8 @@ class NearestKeys {
 
   std::mutex mutex_;  ///< guards all that follows while keys are added
   std::size_t most_ = 0;
-  ContactDetail detail_ = ContactDetail::features;
   std::vector<Found> found_;                                ///< up to twice as many as are kept
-  double limit_ = std::numeric_limits<double>::infinity();  ///< contacts of a higher rank are left out
+  double limit_ = std::numeric_limits<double>::infinity();  ///< further contacts are left out
   bool is_cut_ = false;
   Closest nearest_;
   double least_ = std::numeric_limits<double>::infinity();  ///< of the distances as reported

@@ -9,6 +9,7 @@
 #include "core/base/bytes_of.hpp"
 #include "core/base/floating_point_scope.hpp"
 #include "mesh/block_order.hpp"
+#include "mesh/creases.hpp"
 #include "mesh/vertex_fans.hpp"
 
 namespace graze {
@@ -249,6 +250,13 @@ const IndexedMesh::Rows& IndexedMesh::fans() const {
   });
 }
 
+const IndexedMesh::Creases& IndexedMesh::creases() const {
+  return creases_.get([this] {
+    const FloatingPointScope scope;
+    return Creases{find_creases(*this)};
+  });
+}
+
 const IndexedMesh::Blocks& IndexedMesh::blocks() const {
   return blocks_.get([this] {
     const FloatingPointScope scope;
@@ -272,7 +280,10 @@ void IndexedMesh::prepare_for(Use use) const {
     static_cast<void>(faces_of_vertices());
   }
   if (use == Use::normals) static_cast<void>(faces_of_edges());
-  if (use == Use::sides_of_edges) static_cast<void>(corners_across_edges());
+  if (use == Use::sides_of_edges) {
+    static_cast<void>(corners_across_edges());
+    static_cast<void>(creases());
+  }
   if (use == Use::neighbours) static_cast<void>(neighbours());
   if (use == Use::poses) static_cast<void>(rest_reach());
 }
@@ -291,7 +302,8 @@ std::size_t IndexedMesh::byte_count() const {
   return sizeof(IndexedMesh) + bytes_of(rest_) + bytes_of(corners_) + bytes_of(face_begin_) +
          bytes_of(face_edges_) + bytes_of(edges_) + bytes_of(used_) + regions_.byte_count() +
          long_regions_.byte_count() +
-         bytes_made(neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_, blocks_, rest_reach_);
+         bytes_made(neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_, creases_, blocks_,
+                    rest_reach_);
 }
 
 }  // namespace graze

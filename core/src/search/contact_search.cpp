@@ -22,10 +22,11 @@ constexpr std::chrono::nanoseconds to_find_one{5};
 
 /// Uses the near list of an earlier query where it still has all that can be in contact.
 SearchProgress ContactSearch::begin(SearchWorker& worker) {
-  if (is_limited()) nearest_keys_.begin(pair_.query.contact_limit, pair_.query.detail);
+  if (is_limited()) nearest_keys_.begin(pair_.query.contact_limit);
   lowest_.reset();
   list_slack_ = 0;
   touching_.clear();
+  sunk_edges_.clear();
   fold_.reset();
   if (pair_.query.detail != ContactDetail::regions) {
     const NearList* const near = pair_.front->list_for(*pair_.a, *pair_.b, pair_.query.threshold);
@@ -103,6 +104,9 @@ void ContactSearch::reserve_as(const ContactSearch& other) {
   graze::reserve_as(first.of_vertices, other_first.of_vertices);
   graze::reserve_as(first.touching, other_first.touching);
   graze::reserve_as(touching_, other.touching_);
+  graze::reserve_as(first.piercing, other_first.piercing);
+  graze::reserve_as(first.edges_if_sunk, other_first.edges_if_sunk);
+  sunk_edges_.reserve_as(other.sunk_edges_);
   // The two lists of keys are swapped with each other.
   const std::size_t keys = std::max(other.keys_.capacity(), other_first.keys.capacity());
   keys_.reserve(keys);
@@ -115,6 +119,9 @@ void ContactSearch::reserve(const PairRoom& room) {
   FoundContacts& first = slices_.first().contacts;
   for (auto* const keys : {&keys_, &first.keys}) keys->reserve(keys_of_contact * room.contacts);
   first.near.reserve(keys_of_contact * room.contacts);
+  first.piercing.reserve(room.contacts);
+  first.edges_if_sunk.reserve(room.contacts);
+  sunk_edges_.reserve(room.contacts);
   stretches_.reserve(1);
 }
 
@@ -129,8 +136,8 @@ void ContactSearch::reserve_for_limit(std::size_t most, const PairRoom& room) {
 }
 
 std::size_t ContactSearch::byte_count() const {
-  return bytes_of(keys_) + bytes_of(touching_) + bytes_of(stretches_) + bytes_of(runs_) +
-         nearest_keys_.byte_count();
+  return bytes_of(keys_) + bytes_of(touching_) + sunk_edges_.byte_count() + bytes_of(stretches_) +
+         bytes_of(runs_) + nearest_keys_.byte_count();
 }
 
 // ---- Contacts between leaves
@@ -197,7 +204,7 @@ void ContactSearch::run_contacts(SearchSlice& slice, SearchWorker& worker) {
     return keep_nearest(slice, worker);
   }
   CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys,
-                         listing_in(slice), touching_in(slice));
+                         slice.contacts.piercing, listing_in(slice), touching_in(slice));
   test_leaves(slice, worker, features);
 }
 

@@ -16,7 +16,7 @@
 #include "search/search_slices.hpp"
 #include "search/search_worker.hpp"
 #include "search/searched_pair.hpp"
-#include "search/solid_search.hpp"
+#include "search/sunk_edges.hpp"
 #include "vertices/near_vertices.hpp"
 
 namespace graze {
@@ -107,16 +107,18 @@ class ContactSearch {
   SearchProgress begin_nearest(SearchWorker& worker);
   void find_nearest_fold(SearchWorker& worker);
   SearchProgress finish_at_fold(SearchWorker& worker);
+  void find_sunk_edges(SearchWorker& worker);
   void run_nearest(SearchSlice& slice, SearchWorker& worker);
 
-  // A limit of contacts. Slices hand their keys over to one list of the nearest:
-  [[nodiscard]] bool is_limited() const { return pair_.query.contact_limit > 0; }
-  [[nodiscard]] bool is_limited_later() const { return is_limited() && SolidSearch::chooses(pair_.query); }
+  // A limit of contacts. Slices hand their keys over to one list of the nearest. The detail `nearest` keeps
+  // the deepest instead, and which they are is known only when all have been measured:
+  [[nodiscard]] bool is_limited() const {
+    return pair_.query.contact_limit > 0 && pair_.query.detail != ContactDetail::nearest;
+  }
   [[nodiscard]] double threshold_now(SearchWorker& worker);
   void hand_over(SearchSlice& slice, SearchWorker& worker);
   void hand_over_if_many(SearchSlice& slice, SearchWorker& worker);
   SearchProgress finish_nearest(SearchWorker& worker);
-  void add_keys_of_vertices(SearchWorker& worker);
 
   // Sorted keys, and contacts:
   void bin_keys(SearchSlice& slice, SearchWorker& worker);
@@ -141,6 +143,7 @@ class ContactSearch {
   bool is_from_front_ = false;   ///< the pairs of leaves come from the last query's front, not from a walk
   double list_slack_ = 0;        ///< `PairQuery::list_slack` where a new near list is made, otherwise 0
   TouchingEdges touching_;       ///< of all slices, where the pair has a solid
+  SunkEdges sunk_edges_;         ///< by the edges that pierce of all slices
   std::optional<NearKey> fold_;  ///< the nearest where one feature is a fold, for `ContactDetail::nearest`
   std::vector<FeaturePairKey> keys_;
   NearestKeys nearest_keys_;                           ///< of all slices, where contacts are limited

@@ -37,6 +37,7 @@ SearchProgress ContactSearch::finish_keys(SearchWorker& worker) {
   if (pair_.query.has_solid())
     for (const SearchSlice& slice : slices_.all()) touching_.add(slice.contacts.touching);
   find_nearest_fold(worker);
+  find_sunk_edges(worker);
   if (is_limited()) return finish_nearest(worker);
   if (slices_.size() > 1) return begin_ordering();
   keys_.clear();
@@ -55,19 +56,8 @@ SearchProgress ContactSearch::finish_nearest(SearchWorker& worker) {
   nearest_keys_.finish(worker.pair, keys_, worker.scratch.lowest);
   pair_.answer->cut = nearest_keys_.is_cut();
   if (!keys_.empty()) lowest_ = worker.scratch.lowest.keys.front();
-  if (is_limited_later()) add_keys_of_vertices(worker);
   stretches_.assign(1, {0, keys_.size(), {}});
   return begin_measuring(worker);
-}
-
-/// Puts the keys of vertices, which the slices have kept, before those of edges.
-void ContactSearch::add_keys_of_vertices(SearchWorker& worker) {
-  std::vector<FeaturePairKey>& of_vertices = worker.scratch.solid.keys;
-  of_vertices.clear();
-  for (const SearchSlice& slice : slices_.all())
-    of_vertices.insert(of_vertices.end(), slice.contacts.keys.begin(), slice.contacts.keys.end());
-  of_vertices.resize(sort_keys(of_vertices, worker));
-  keys_.insert(keys_.begin(), of_vertices.begin(), of_vertices.end());
 }
 
 /// How near contacts are that may be among those that are kept.
@@ -76,19 +66,13 @@ double ContactSearch::threshold_now(SearchWorker& worker) {
                       : pair_.query.threshold;
 }
 
-/// Gives a slice's keys to the list of all slices, so that it need not keep them. It keeps those of vertices
-/// where a solid is yet to say how deep they are.
+/// Gives a slice's keys to the list of all slices, so that it need not keep them.
 void ContactSearch::hand_over(SearchSlice& slice, SearchWorker& worker) {
   auto& keys = slice.contacts.keys;
   if (keys.empty()) return;
   keys.resize(sort_keys(keys, worker));
-  auto rest = keys.begin();
-  if (is_limited_later())
-    rest = std::find_if(keys.begin(), keys.end(),
-                        [](const FeaturePairKey& key) { return key.kind() > ContactKind::VF; });
-  nearest_keys_.add(worker.pair, std::span(rest, keys.end()), worker.scratch.measure,
-                    worker.scratch.nearest_keys);
-  keys.erase(rest, keys.end());
+  nearest_keys_.add(worker.pair, keys, worker.scratch.measure, worker.scratch.nearest_keys);
+  keys.clear();
 }
 
 void ContactSearch::hand_over_if_many(SearchSlice& slice, SearchWorker& worker) {
@@ -200,13 +184,14 @@ std::span<Contact> ContactSearch::contacts_of(const SearchSlice& slice) const {
 void ContactSearch::run_measured(SearchSlice& slice, SearchWorker& worker) {
   const std::span<Contact> contacts = contacts_of(slice);
   measure(worker.pair, keys_of(slice), contacts, worker.scratch.measure);
+  sunk_edges_.mark(contacts);
   slice.contacts.nearest = std::numeric_limits<double>::infinity();
   for (const Contact& contact : contacts)
     slice.contacts.nearest = std::min(slice.contacts.nearest, contact.distance);
 }
 
 SearchProgress ContactSearch::finish_measuring(SearchWorker& worker) {
-  FeaturePairKey lowest = is_limited() && !is_limited_later() ? *lowest_ : lowest_measured(worker);
+  FeaturePairKey lowest = is_limited() ? *lowest_ : lowest_measured(worker);
   if (lowest_) lowest = lower_of(worker, lowest, *lowest_);
   if (fold_) lowest = lower_of(worker, lowest, fold_->key);
   set_distance(*pair_.answer, worker.pair, lowest);

@@ -61,8 +61,8 @@ void ContactSearch::run_listed(SearchSlice& slice, SearchWorker& worker) {
     test_listed(slice, worker, features);
     return keep_nearest(slice, worker);
   }
-  CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys, {},
-                         touching_in(slice));
+  CloseFeatures features(worker.pair, pair_.query.threshold, worker.scratch.features, slice.contacts.keys,
+                         slice.contacts.piercing, {}, touching_in(slice));
   test_listed(slice, worker, features);
 }
 

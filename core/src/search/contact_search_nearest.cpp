@@ -16,9 +16,11 @@ constexpr std::size_t most_that_choose = 64;
 
 NearestFeatures ContactSearch::nearest_features_in(SearchSlice& slice, SearchWorker& worker) {
   worker.scratch.nearest_of_vertices.clear();
-  return {
-      worker.pair,         pair_.query.threshold, worker.scratch.features, worker.scratch.nearest_of_vertices,
-      slice.contacts.fold, slice.contacts.keys,   listing_in(slice),       touching_in(slice)};
+  FoundContacts& contacts = slice.contacts;
+  const NearestFound found{contacts.keys, contacts.edges_if_sunk, contacts.piercing, contacts.fold,
+                           worker.scratch.nearest_of_vertices};
+  return {worker.pair, pair_.query.threshold, worker.scratch.features,
+          found,       listing_in(slice),     touching_in(slice)};
 }
 
 /// Whether the nearest of each vertex is yet to be chosen out of what several slices have found.
@@ -56,10 +58,19 @@ SearchProgress ContactSearch::finish_at_fold(SearchWorker& worker) {
   return SearchProgress::answered;
 }
 
+/// Once all edges that pierce have been found. Several slices of the detail `nearest` have settled their
+/// edges already.
+void ContactSearch::find_sunk_edges(SearchWorker& worker) {
+  if (!lists_piercings(pair_.query.detail) || stage_ == Stage::nearest) return;
+  sunk_edges_.gather(slices_.all());
+  if (slices_.size() == 1) sunk_edges_.settle(slices_.first().contacts, worker);
+}
+
 /// Gives each of the first slices a range of all vertices: those of a, then those of b.
 SearchProgress ContactSearch::begin_nearest(SearchWorker& worker) {
   if (stage_ == Stage::listed) ++worker.meter.counters().pairs_by_list;
   stage_ = Stage::nearest;
+  sunk_edges_.gather(slices_.all());
   const std::size_t vertices = std::size_t{pair_.a->mesh().vertex_count()} + pair_.b->mesh().vertex_count();
   const std::size_t parts = std::min(slices_.size(), most_that_choose);
   for (std::size_t i = 0; i < slices_.size(); ++i) {
@@ -69,7 +80,7 @@ SearchProgress ContactSearch::begin_nearest(SearchWorker& worker) {
   return SearchProgress::slices;
 }
 
-/// Reads what all slices have found of its vertices, and appends to its own keys.
+/// Reads what all slices have found of its vertices, and appends to its own keys. So it does with its edges.
 void ContactSearch::run_nearest(SearchSlice& slice, SearchWorker& worker) {
   const std::size_t of_a = pair_.a->mesh().vertex_count();
   const auto vertex_at = [&](std::size_t i) {
@@ -79,6 +90,7 @@ void ContactSearch::run_nearest(SearchSlice& slice, SearchWorker& worker) {
   const auto comes_before = [](const VertexNearest& nearest, VertexOfPair vertex) {
     return nearest.vertex < vertex;
   };
+  sunk_edges_.settle(slice.contacts, worker);
   if (slice.begin == slice.end) return;
   const VertexOfPair begin = vertex_at(slice.begin);
   const VertexOfPair end = vertex_at(slice.end);

@@ -15,7 +15,7 @@ SearchProgress ContactSearch::find_as_in_paper(SearchWorker& worker) {
   const PaperFound found = graze::find_as_in_paper(worker.pair, query, scratch.paper, worker.meter, keys_);
   if (!found.complete) return SearchProgress::gave_up;
   if (is_limited()) {
-    nearest_keys_.begin(query.contact_limit, query.detail);
+    nearest_keys_.begin(query.contact_limit);
     nearest_keys_.add(worker.pair, keys_, scratch.measure, scratch.nearest_keys);
     nearest_keys_.finish(worker.pair, keys_, scratch.lowest);
     answer.cut = nearest_keys_.is_cut();

@@ -17,6 +17,21 @@
 
 namespace graze {
 
+/// Working memory for edges of which it is found out whether they are sunk.
+struct SettledEdges {
+  std::vector<Contact> contacts;
+  std::vector<FeaturePairKey> keys;
+
+  template <typename Self>
+  static auto parts(Self& self) {
+    return std::tie(self.contacts, self.keys);
+  }
+  void reserve(const PairRoom& room) {
+    contacts.reserve(room.contacts);
+    keys.reserve(room.contacts);
+  }
+};
+
 /// Working memory of one thread.
 struct SearchScratch {
   LeafPairScratch leaf_pairs;
@@ -31,13 +46,14 @@ struct SearchScratch {
   KeyOrder order;
   MeasureScratch measure;
   NearestKeysScratch nearest_keys;
+  SettledEdges settled_edges;
   SolidScratch solid;
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_vertices,
                     self.nearest_of_leaves, self.paper, self.lowest, self.parallel, self.binning, self.order,
-                    self.measure, self.nearest_keys, self.solid);
+                    self.measure, self.nearest_keys, self.settled_edges, self.solid);
   }
 };
 

@@ -37,6 +37,8 @@ SearchSlice& SearchSlices::add() {
   slice.contacts.fold.reset();
   slice.contacts.of_vertices.clear();
   slice.contacts.touching.clear();
+  slice.contacts.piercing.clear();
+  slice.contacts.edges_if_sunk.clear();
   slice.contacts.near_is_too_long = false;
   slice.closest.clear();
   return slice;

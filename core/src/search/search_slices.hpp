@@ -9,7 +9,9 @@
 #include "closest_features/feature_pair_key.hpp"
 #include "closest_features/key_bins.hpp"
 #include "core/mesh/pair_room.hpp"
+#include "leaves/nearest_features.hpp"
 #include "leaves/nearest_of_vertices.hpp"
+#include "leaves/piercing_edges.hpp"
 #include "leaves/touching_edges.hpp"
 #include "search/search_worker.hpp"
 #include "search/searched_pair.hpp"
@@ -23,8 +25,10 @@ struct FoundContacts {
   std::vector<FeaturePair> near;
   bool near_is_too_long = false;  ///< and was forgotten
   std::vector<FeaturePairKey> keys;
-  std::vector<BinRun> runs;     ///< of `keys`, where there are many slices
-  TouchingEdges touching;       ///< collected where the pair has a solid
+  std::vector<BinRun> runs;                ///< of `keys`, where there are many slices
+  TouchingEdges touching;                  ///< collected where the pair has a solid
+  PiercingEdges piercing;                  ///< collected for details that list them
+  std::vector<EdgesIfSunk> edges_if_sunk;  ///< for `ContactDetail::nearest`
   std::optional<NearKey> fold;  ///< the nearest where one feature is a fold, for `ContactDetail::nearest`
   std::vector<VertexNearest> of_vertices;  ///< what is nearest to each vertex, by vertices
   std::size_t first = 0;                   ///< the index of the first contact of a range of keys

@@ -22,11 +22,10 @@ SearchProgress SolidSearch::complete() {
     return SearchProgress::no_contact;
   }
   if (has_some()) answer.in_contact = true;
-  if (answer.listed && chooses(pair_.query)) {
+  if (answer.listed && pair_.query.detail == ContactDetail::nearest) {
     add_contacts_inside();
     set_sides();
     turn_pushes();
-    keep_deepest();
   }
   return SearchProgress::answered;
 }

@@ -11,8 +11,7 @@
 namespace graze {
 
 /// Completes the answer about a pair with a solid, on one thread: which vertices of one object are inside the
-/// other, the contacts of `ContactDetail::nearest` there, the sides of its contacts, and which of these are
-/// kept where their number is limited.
+/// other, the contacts of `ContactDetail::nearest` there, and the sides of its contacts.
 class SolidSearch {
  public:
   /// `touching` lists the edges that touch. It is null where the search has not found them; then they are
@@ -20,10 +19,6 @@ class SolidSearch {
   SolidSearch(SearchedPair& pair, SearchWorker& worker, const TouchingEdges* touching)
       : pair_(pair), worker_(worker), scratch_(worker.scratch.solid), touching_(touching) {}
 
-  /// Whether it chooses the contacts that are kept. How deep vertices are is not known before.
-  [[nodiscard]] static bool chooses(const PairQuery& query) {
-    return query.has_solid() && query.detail == ContactDetail::nearest;
-  }
   /// Makes the reach infinite if something is inside, of surfaces that are no nearer than the threshold. What
   /// is inside is in contact, and needs a distance. Returns false if the budget is spent.
   [[nodiscard]] bool widen_reach();
@@ -45,7 +40,6 @@ class SolidSearch {
   void set_sides() const;
   void turn_pushes() const;
   [[nodiscard]] bool leads_in(const Contact& contact) const;
-  void keep_deepest() const;
 
   SearchedPair& pair_;
   SearchWorker& worker_;

@@ -8,7 +8,6 @@
 
 #include "closest_features/piercing.hpp"
 #include "core/base/growth_policy.hpp"
-#include "core/pair/contact_rank.hpp"
 #include "measure/measure_batch.hpp"
 #include "search/solid_search.hpp"
 #include "solid/nearest_on_surface.hpp"
@@ -19,13 +18,6 @@ namespace {
 
 auto key_of(const Contact& contact) {
   return std::tie(contact.kind, contact.feature_a, contact.feature_b);
-}
-
-/// The order in which contacts of a limited answer are kept.
-bool is_kept_before(const Contact& left, const Contact& right) {
-  const double rank_left = contact_rank(ContactDetail::nearest, left);
-  const double rank_right = contact_rank(ContactDetail::nearest, right);
-  return rank_left != rank_right ? rank_left < rank_right : key_of(left) < key_of(right);
 }
 
 }  // namespace
@@ -112,19 +104,6 @@ bool SolidSearch::leads_in(const Contact& contact) const {
   if (!vertices.has_inside_out() && in_front == Side::front && behind == Side::back) return false;
   const auto pierced = pierced_piece(other, edge_piece(edge.index), solid, face.index, worker_.pair.count);
   return pierced && normal_leads_in(solid, *pierced, contact.point_a, worker_.pair.count);
-}
-
-/// Leaves out the contacts beyond the limit: the deepest are kept, and edges that pierce go first.
-void SolidSearch::keep_deepest() const {
-  auto& contacts = pair_.answer->contacts;
-  const std::size_t limit = pair_.query.contact_limit;
-  if (limit == 0 || contacts.size() <= limit) return;
-  pair_.answer->cut = true;
-  const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(limit);
-  std::nth_element(contacts.begin(), end, contacts.end(), is_kept_before);
-  contacts.erase(end, contacts.end());
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& left, const Contact& right) { return key_of(left) < key_of(right); });
 }
 
 }  // namespace graze

@@ -118,8 +118,8 @@ struct SceneSettings {
   /// kind and features. With ContactDetail::nearest it keeps the deepest: by Contact::separation() in place
   /// of the distance, and edges that pierce come last. A pair that loses contacts has
   /// PairReport::contacts_cut true and PairReport::complete false. Its phase, distance and witness are those
-  /// of all its contacts. Memory follows the number of contacts kept, with a solid also that of its vertices
-  /// in contact.
+  /// of all its contacts. Memory follows the number of contacts kept, but with ContactDetail::nearest that of
+  /// all contacts of a pair.
   std::optional<std::size_t> max_contacts = std::nullopt;
   /// The most contacts that a report lists for each pair. It is at least 1. No value means no limit. The
   /// report keeps the nearest contacts of the pair: by reported distance, then by kind and features. With

@@ -65,6 +65,9 @@ class GRAZE_API IndexedMesh {
   [[nodiscard]] std::span<const std::uint32_t> edge_across(std::uint32_t edge) const {
     return corners_across_edges().row(edge);
   }
+  /// Whether an edge is a crease at rest: a border, an edge of three faces or more, or one at which the
+  /// surface bends by more than 5.07°. See find_creases().
+  [[nodiscard]] bool is_crease(std::uint32_t edge) const { return creases().edges[edge]; }
   /// The vertices around `vertex` as a fan of triangles. Each two that follow one another make a triangle
   /// with `vertex`, in the sense of its face. `vertex` itself stands between two that make none, which gives
   /// a triangle without area. A quad counts as two triangles. Triangles that have no area at any position
@@ -85,7 +88,7 @@ class GRAZE_API IndexedMesh {
     blocks,             ///< `block_order`, `stretch_groups`
     normals_of_points,  ///< `vertex_fans`, `vertex_faces`
     normals,            ///< these and `edge_faces`
-    sides_of_edges,     ///< `edge_across`
+    sides_of_edges,     ///< `edge_across`, `is_crease`
     neighbours,         ///< `vertex_neighbours`
     poses,              ///< `rest_reach`
   };
@@ -121,6 +124,10 @@ class GRAZE_API IndexedMesh {
     }
     [[nodiscard]] std::size_t byte_count() const { return bytes_of(values) + bytes_of(begin); }
   };
+  struct Creases {
+    std::vector<bool> edges;
+    [[nodiscard]] std::size_t byte_count() const { return edges.capacity() / 8; }
+  };
   struct Blocks {
     std::vector<std::uint32_t> order;
     Rows stretch_groups;
@@ -143,6 +150,7 @@ class GRAZE_API IndexedMesh {
   [[nodiscard]] const Rows& faces_of_edges() const;
   [[nodiscard]] const Rows& corners_across_edges() const;
   [[nodiscard]] const Rows& fans() const;
+  [[nodiscard]] const Creases& creases() const;
   [[nodiscard]] const Blocks& blocks() const;
 
   std::vector<Eigen::Vector3d> rest_;
@@ -157,6 +165,7 @@ class GRAZE_API IndexedMesh {
   RegionTree regions_;
   LongRegions long_regions_;
   MadeOnce<Rows> neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_;
+  MadeOnce<Creases> creases_;
   MadeOnce<Blocks> blocks_;
   MadeOnce<RestReach> rest_reach_;
 };

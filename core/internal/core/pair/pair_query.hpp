@@ -32,7 +32,8 @@ struct PairQuery {
   /// A front of more pairs of leaves than this is not kept, nor a list of more pairs of features.
   std::size_t front_limit = std::numeric_limits<std::size_t>::max();
   /// The most contacts that an answer keeps: those of the lowest contact_rank(), and of equal ones those with
-  /// the lowest keys. 0: all. Where more are found, no features are listed for the next steps.
+  /// the lowest keys. 0: all. Where more are found, no features are listed for the next steps, but with
+  /// ContactDetail::nearest.
   std::size_t contact_limit = 0;
   /// Whether the surfaces are solids, so that it matters what is inside of them. This does not go with
   /// details about vertices, nor with AccuracyMode::paper.

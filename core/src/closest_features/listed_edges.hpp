@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include "closest_features/feature_pair_key.hpp"
+
+namespace graze {
+
+/// Whether `ContactDetail::nearest` lists two edges. That two edges are sunk is known only when all edges
+/// that pierce have been found.
+enum class EdgesListed : std::uint8_t { never, if_not_sunk, if_sunk, always };
+
+/// Whether two edges are listed whose closest points lie inside both.
+///
+/// They are if they are locally closest: on no triangle beside either edge does the way from its point,
+/// square to the edge, lead nearer to the other point. Edges that cross are locally closest. An edge that is
+/// no crease does not count where both its triangles lie square to the way between the points.
+///
+/// They are, too, if both are creases and the way u from a to b is close to the normal cones: no triangle
+/// beside the edge of a leads along u by more than τ = 10.2°, and none beside the edge of b along −u. Where
+/// the edges are sunk, u is the opposite. A triangle counts only if its face may be looked at with the other
+/// edge.
+EdgesListed listed_edges(const SurfacePair& pair, std::uint32_t edge_a, std::uint32_t edge_b);
+
+}  // namespace graze
