@@ -132,7 +132,7 @@ RigidBodyScene pile(bool is_quick) {
 }
 
 RigidBodyScene heap(bool is_quick) {
-  RigidBodyScene scene = on_floor("L shapes, rings and pawns fall", is_quick ? 30 : 360);
+  RigidBodyScene scene = on_floor("L shapes, rings and pawns fall", is_quick ? 60 : 360);
   drop(scene, {l_shape(), ring_shape(), pawn_shape()}, is_quick ? 4 : 36, is_quick ? 1 : 3, 0.7);
   return scene;
 }
