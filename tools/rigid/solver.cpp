@@ -16,12 +16,18 @@ constexpr double recovery = 0.386;  ///< share of what is missing that a substep
 constexpr double stiffness = 0.804;
 constexpr double softness = 0.196;
 
-/// Changes the spin as no torque does: a body whose inertia differs from axis to axis tumbles.
-void tumble(Body& body, double time_step) {
+/// Moves a body by its velocities. The angular momentum stays, so a body whose inertia differs from axis to
+/// axis tumbles.
+void move(Body& body, double time_step) {
+  body.position += time_step * body.velocity;
+  if (body.inverse_mass == 0) {
+    body.rotate(time_step * body.spin);
+    return;
+  }
   const Eigen::Matrix3d inertia = body.inverse_inertia.inverse();
-  const Eigen::Vector3d spin = body.turn.conjugate() * body.spin;
-  const Eigen::Vector3d change = body.inverse_inertia * spin.cross(inertia * spin);
-  body.spin -= time_step * (body.turn * change);
+  const Eigen::Vector3d momentum = body.turn * (inertia * (body.turn.conjugate() * body.spin));
+  body.rotate(time_step * body.spin);
+  body.spin = body.turn * (body.inverse_inertia * (body.turn.conjugate() * momentum));
 }
 
 }  // namespace
@@ -73,18 +79,12 @@ void Solver::prepare(std::vector<Body>& bodies) {
 }
 
 void Solver::substep(std::vector<Body>& bodies, double time_step) {
-  for (Body& body : bodies) {
-    if (body.inverse_mass == 0) continue;
-    body.velocity += time_step * settings_.gravity;
-    tumble(body, time_step);
-  }
+  for (Body& body : bodies)
+    if (body.inverse_mass > 0) body.velocity += time_step * settings_.gravity;
   for (const Constraint& constraint : constraints_)
     constraint.apply(constraint.impulse.pressure * constraint.push + constraint.impulse.drag);
   solve(time_step, true);
-  for (Body& body : bodies) {
-    body.position += time_step * body.velocity;
-    body.rotate(time_step * body.spin);
-  }
+  for (Body& body : bodies) move(body, time_step);
   // What was pushed out does not fly on.
   solve(time_step, false);
 }
