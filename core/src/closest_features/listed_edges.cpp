@@ -51,6 +51,12 @@ class EdgePair {
     });
     return excess <= 0;
   }
+  /// Whether an edge and a corner across from it make a triangle that has an area.
+  [[nodiscard]] bool has_area(const Eigen::Vector3d& corner, const Ends& edge) const {
+    return !is_zero(count_, [&]<typename Number>() {
+      return cross(difference<Number>(corner, edge[0]), difference<Number>(edge[1], edge[0]));
+    });
+  }
   [[nodiscard]] const Ends& a() const { return a_; }
   [[nodiscard]] const Ends& b() const { return b_; }
 
@@ -144,11 +150,24 @@ class EdgeSide {
   /// Whether the surface goes on to both sides of the edge in the plane square to the way. Such an edge
   /// bounds nothing, and any tilt would make it lead nearer.
   [[nodiscard]] bool is_within_flat_surface() const {
-    if (is_crease() || any_across([&](std::uint32_t corner) { return lead(corner) != 0; })) return false;
-    const auto faces = surface().mesh().edge_faces(edge_);
-    return pair_.groups == nullptr || std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
-             return groups().hides(face) || may(face);
-           });
+    const IndexedMesh& mesh = surface().mesh();
+    if (is_crease()) return false;
+    std::size_t triangles = 0;
+    for (const std::uint32_t corner : mesh.edge_across(edge_)) {
+      if (!is_across_in_seen_face(corner)) continue;
+      if (lead(corner) != 0 || !edges_.has_area(surface().position(corner), ends())) return false;
+      ++triangles;
+    }
+    const auto faces = mesh.edge_faces(edge_);
+    return triangles >= 2 &&
+           (pair_.groups == nullptr || std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
+              return groups().hides(face) || may(face);
+            }));
+  }
+  [[nodiscard]] bool is_across_in_seen_face(std::uint32_t corner) const {
+    return !seen_.hides_some || std::any_of(seen_.faces.begin(), seen_.faces.end(), [&](std::uint32_t face) {
+      return is_across_in(surface().mesh(), face, edge_, corner);
+    });
   }
   /// Whether `holds` for a corner across the edge in a face that counts. Without groups all faces count, and
   /// none is asked for.

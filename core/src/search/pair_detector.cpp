@@ -53,6 +53,10 @@ void PairDetector::reserve_for_solids(const PairRoom& room) {
   scratch_->memory.solid.reserve_for_solids(room);
 }
 
+void PairDetector::reserve_for_ways_out(const PairRoom& room) {
+  scratch_->memory.way_out.reserve_for_ways_out(room);
+}
+
 void PairDetector::reserve_for_limit(std::size_t most, const PairRoom& room) {
   scratch_->search.reserve_for_limit(most, room);
   scratch_->memory.nearest_keys.contacts.reserve(room.contacts);
@@ -69,6 +73,7 @@ void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQu
   answer.complete = false;
   answer.cut = false;
   answer.inside = Inside::none;
+  answer.way_out = {};
   answer.contacts.clear();
   answer.region_distances.clear();
   answer.region_distances_left_out = 0;

@@ -124,6 +124,7 @@ PairQuery PairJobs::query_of(const PairJob& job, std::optional<FeatureFilter>& f
   if (!is_about_vertices(query.detail) && job.task == PairJob::Task::detect) {
     query.a_is_solid = job.a->settings.solid;
     query.b_is_solid = job.b->settings.solid;
+    query.wants_way_out = settings_.ways_out && query.mode != AccuracyMode::paper;
   }
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
@@ -132,16 +133,34 @@ PairQuery PairJobs::query_of(const PairJob& job, std::optional<FeatureFilter>& f
   return query;
 }
 
-/// The most contacts that a pair keeps; 0 without a limit.
+/// The most contacts that the search for a pair keeps; 0 without a limit. Those that carry are chosen out of
+/// all.
 std::size_t PairJobs::contact_limit() const {
+  if (chooses_carrying()) return 0;
   const std::size_t limit =
       std::min(settings_.max_contacts.value_or(no_limit), settings_.max_contacts_per_pair.value_or(no_limit));
   return limit == no_limit ? 0 : limit;
 }
 
+bool PairJobs::chooses_carrying() const {
+  return settings_.carrying > 0 && settings_.detail == ContactDetail::nearest;
+}
+
+/// Leaves only those contacts in an answer that carry the pair. They are cut where a lower limit leaves out
+/// what `carrying` would choose.
+void PairJobs::choose_carrying(std::uint32_t index, PairAnswer& answer, Worker& worker) const {
+  const std::size_t limit = settings_.max_contacts_per_pair.value_or(no_limit);
+  const CarryingRule rule{std::min(settings_.carrying, limit),
+                          settings_.carrying_band.value_or(jobs_[index].thresholds.threshold)};
+  if (answer.contacts.empty()) return;
+  const bool has_more = worker.carrying.choose(answer.contacts, last_->of(index), rule);
+  answer.cut = has_more && limit < settings_.carrying;
+}
+
 void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
                    const LastContacts& last, ReportBuilder& report) {
   jobs_ = list.jobs;
+  last_ = &last;
   pair_count_ = list.pair_count;
   rules_version_ = rules_version;
   deadline_ = deadline_of(start, settings_.time_budget);
@@ -286,6 +305,7 @@ void PairJobs::advance_large(std::size_t index, unsigned worker) {
   large.answered = large.pair.advance(own.detector, own.counters);
   if (!large.answered) return;
   PairAnswer& answer = answer_of_large(index);
+  if (chooses_carrying()) choose_carrying(large.job, answer, own);
   if (!make_room_in_report(answer.contacts.size()))
     PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job, large.filter), answer);
   own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
@@ -370,6 +390,7 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
     own.front_bytes -= front.byte_count();
     own.detector.detect(a, b, query, front, answer, own.counters);
     own.front_bytes += front.byte_count();
+    if (chooses_carrying()) choose_carrying(index, answer, own);
     if (!make_room_in_report(answer.contacts.size())) PairDetector::outer_bounds(a, b, query, answer);
     if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, answer);
     remember_answer(job, answer);
@@ -497,7 +518,10 @@ void PairJobs::reserve_workers() {
   for (Worker& worker : workers_) {
     worker.reserve(room_);
     if (is_for_solids_) worker.detector.reserve_for_solids(room_);
+    if (settings_.ways_out && !is_about_vertices(settings_.detail))
+      worker.detector.reserve_for_ways_out(room_);
     if (limit > 0) worker.detector.reserve_for_limit(limit, room_);
+    if (chooses_carrying()) worker.carrying.reserve(room_.contacts);
   }
 }
 
@@ -514,12 +538,14 @@ std::size_t PairJobs::byte_count() const {
 
 std::size_t PairJobs::thread_byte_count() const {
   std::size_t bytes = bytes_of(workers_);
-  for (const Worker& worker : workers_) bytes += worker.detector.byte_count() + bytes_of_lists(worker.answer);
+  for (const Worker& worker : workers_)
+    bytes += worker.detector.byte_count() + worker.carrying.byte_count() + bytes_of_lists(worker.answer);
   return bytes;
 }
 
 void PairJobs::Worker::reserve_as(const Worker& other) {
   detector.reserve_as(other.detector);
+  carrying.reserve_as(other.carrying);
   answer.contacts.reserve(other.answer.contacts.capacity());
   answer.region_distances.reserve(other.answer.region_distances.capacity());
 }

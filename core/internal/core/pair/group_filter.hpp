@@ -35,6 +35,13 @@ class GRAZE_API FeatureFilter {
   [[nodiscard]] bool may_vertices(std::uint32_t a, std::uint32_t b) const {
     return may_sets(a_->of_vertex(a), b_->of_vertex(b));
   }
+  /// Whether a vertex of a, or of b, may be looked at against any feature of the other surface.
+  [[nodiscard]] bool may_vertex_of_a(std::uint32_t vertex) const {
+    return may_sets(a_->of_vertex(vertex), b_->of_region(0));
+  }
+  [[nodiscard]] bool may_vertex_of_b(std::uint32_t vertex) const {
+    return may_sets(a_->of_region(0), b_->of_vertex(vertex));
+  }
   /// Whether any features that the two regions own may be looked at.
   [[nodiscard]] bool may_regions(const RegionPair& regions) const {
     return may_sets(a_->of_region(regions.a), b_->of_region(regions.b));

@@ -40,7 +40,8 @@ struct PairQuery {
   bool a_is_solid = false;
   bool b_is_solid = false;
   [[nodiscard]] bool has_solid() const { return a_is_solid || b_is_solid; }
-  /// Whether the answer says how surfaces that pass through each other leave each other.
+  /// Whether the answer says how surfaces that pass through each other leave each other. This does not go
+  /// with details about vertices, nor with AccuracyMode::paper.
   bool wants_way_out = false;
   /// How many distances of regions are listed at most; 0: none.
   std::size_t region_distance_limit = 0;
