@@ -426,6 +426,38 @@ TEST_CASE("no allocation: groups of faces that are ignored and watched in turn")
   check_none_thrown();
 }
 
+TEST_CASE("no allocation: hidden faces in pairs that come and go") {
+  if (is_skipped()) return;
+  const auto detail = GENERATE(ContactDetail::closest, ContactDetail::vertices, ContactDetail::nearest);
+  const auto threads = GENERATE(1U, 2U);
+  CAPTURE(static_cast<int>(detail), threads);
+  SceneSettings settings = settings_of(0.125, 0.5, detail);
+  settings.threads = threads;
+  Scene scene(settings);
+  const auto mesh = mesh_of(models::sheet(8, 8, 1, 1));
+  ObjectSettings half_hidden = motion_of(Motion::rigid);
+  for (std::uint32_t face = 0; face < mesh->face_count(); ++face)
+    half_hidden.face_groups.push_back(static_cast<std::uint8_t>(face / 32));
+  half_hidden.hidden_groups = {1};
+  (void)scene.add(mesh, half_hidden);
+  const ObjectId high = scene.add(mesh, half_hidden);
+  const ObjectId plain = scene.add(mesh, motion_of(Motion::rigid));
+  std::size_t contacts = 0;
+  const auto play = [&](std::size_t frames) {
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+      scene.set_pose(high, lift_pose(frame % 3 == 0 ? 2 : 0.0625));
+      scene.set_pose(plain, lift_pose(frame % 4 == 0 ? -3 : -0.0625));
+      contacts += scene.step()->contacts().size();
+    }
+  };
+  play(60);
+  AllocationCount::begin();
+  play(60);
+  AllocationCount::end();
+  CHECK(contacts > 1000);
+  check_none_thrown();
+}
+
 TEST_CASE("a reader that holds eight reports at random makes no step take memory") {
   if (is_skipped()) return;
   const auto threads = GENERATE(1U, 2U);
@@ -526,7 +558,8 @@ TEST_CASE("no allocation: bodies that tremble within the bounds that were reserv
   if (is_skipped()) return;
   const auto detail =
       GENERATE(ContactDetail::none, ContactDetail::closest, ContactDetail::features, ContactDetail::nearest);
-  const auto limit = GENERATE(0, 1, 2);
+  const auto limit = GENERATE(0, 1, 2, 3);
+  if (limit == 3 && detail != ContactDetail::nearest) return;
   const auto threads = GENERATE(1U, 2U);
   CAPTURE(static_cast<int>(detail), limit, threads);
   constexpr std::size_t frames = 150;
@@ -535,12 +568,14 @@ TEST_CASE("no allocation: bodies that tremble within the bounds that were reserv
   settings.ways_out = true;
   if (limit == 1) settings.max_contacts = 60;
   if (limit == 2) settings.max_contacts_per_pair = 9;
+  if (limit == 3) settings.carrying = 4;
   const auto seed = static_cast<std::uint64_t>(limit);
   Trembling first(settings, seed);
   first.play(0, frames);
   if (limit != 1) REQUIRE(first.rests > frames / 3);  // pairs that are cut by it are tested in every step
   SceneSettings unlimited = settings;
   unlimited.max_contacts = unlimited.max_contacts_per_pair = std::nullopt;
+  unlimited.carrying = 0;
   Trembling all(unlimited, seed);  // what a limit leaves out needs room, too
   all.play(0, frames);
   Trembling again(settings, seed);

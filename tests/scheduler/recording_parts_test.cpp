@@ -99,6 +99,7 @@ std::vector<std::pair<std::string, SceneSettings>> dependent_settings(ContactDet
   add("work_budget", [](SceneSettings& settings) { settings.work_budget = 60; });
   add("max_contacts", [](SceneSettings& settings) { settings.max_contacts = 20; });
   add("max_contacts_per_pair", [](SceneSettings& settings) { settings.max_contacts_per_pair = 5; });
+  add("carrying", [](SceneSettings& settings) { settings.carrying = 3; });
   add("region_distances", [](SceneSettings& settings) { settings.region_distances = 40; });
   add("time_budget", [](SceneSettings& settings) { settings.time_budget = std::chrono::microseconds(30); });
   add("all", [](SceneSettings& settings) {
@@ -106,6 +107,7 @@ std::vector<std::pair<std::string, SceneSettings>> dependent_settings(ContactDet
     settings.work_budget = 60;
     settings.max_contacts = 20;
     settings.max_contacts_per_pair = 5;
+    settings.carrying = 4;
     settings.region_distances = 40;
   });
   if (is_about_vertices(detail))
@@ -186,6 +188,7 @@ TEST_CASE("recording parts: nothing diverges, whatever accuracy and limits") {
       // Where nothing depends on other steps and pairs, every row is compared bit for bit.
       if (name == "exact" || name == "max_contacts_per_pair" || name == "paper") CHECK(in_part == 0);
       if (name == "region_distances" || name == "all") CHECK(in_part > 0);
+      if (name == "carrying") CHECK((in_part > 0) == (detail == ContactDetail::nearest));
     }
 }
 
@@ -249,6 +252,9 @@ TEST_CASE("recording parts: what must hold is compared, and the rest is counted"
   limited.max_contacts = 20;
   SceneSettings regions = exact;
   regions.region_distances = 40;
+  SceneSettings carrying = exact;
+  carrying.detail = ContactDetail::nearest;
+  carrying.carrying = 8;
 
   CHECK(verdict_of(exact, near_row(0.5, 0.5, 1), near_row(0.5, 0.5, 1)) == RowVerdict::same);
   CHECK(verdict_of(exact, near_row(0.5, 0.5, 1), near_row(0.5, 0.5, 2)) == RowVerdict::differs);
@@ -264,6 +270,16 @@ TEST_CASE("recording parts: what must hold is compared, and the rest is counted"
   CHECK(verdict_of(limited, touching_row(9, true, 1), touching_row(9, true, 2)) == RowVerdict::differs);
   CHECK(verdict_of(limited, touching_row(9, false, 1), touching_row(12, false, 2)) == RowVerdict::differs);
   CHECK(verdict_of(exact, touching_row(9, true, 1), touching_row(12, false, 2)) == RowVerdict::differs);
+
+  CHECK(verdict_of(carrying, touching_row(8, false, 1), touching_row(8, false, 1)) == RowVerdict::same);
+  CHECK(verdict_of(carrying, touching_row(8, false, 1), touching_row(6, false, 2)) == RowVerdict::holds);
+  CHECK(verdict_of(carrying, touching_row(8, false, 1), touching_row(0, false, 2)) == RowVerdict::differs);
+  CHECK(verdict_of(carrying, touching_row(8, false, 1), near_row(0.1, 0.1, 2)) == RowVerdict::differs);
+  RecordedRow nearer = touching_row(8, false, 2);
+  nearer.lower = nearer.upper = 0.05;
+  CHECK(verdict_of(carrying, touching_row(8, false, 1), nearer) == RowVerdict::differs);
+  carrying.detail = ContactDetail::features;
+  CHECK(verdict_of(carrying, touching_row(8, false, 1), touching_row(8, false, 2)) == RowVerdict::differs);
 
   RecordedRow cut_short = near_row(0, 0.4, 1);
   cut_short.complete = false;

@@ -92,6 +92,7 @@ SceneSettings random_settings(unsigned seed) {
   const unsigned turn = seed / details;
   if (turn % 3 == 0) settings.max_contacts_per_pair = 2;
   if (turn % 3 == 1) settings.max_contacts = 5;
+  if (turn % 3 == 2) settings.carrying = 3;
   if (turn % 4 == 0) settings.region_distances = 64;
   return settings;
 }

@@ -107,6 +107,16 @@ std::unique_ptr<PlayedScene> limits() {
   return std::make_unique<BodiesScene>(settings, std::move(bodies));
 }
 
+/// The bodies of the pile as solids, of which the report lists the contacts that carry them.
+std::unique_ptr<PlayedScene> carrying() {
+  std::vector<Body> bodies = bodies_of_pile();
+  for (Body& body : bodies) body.is_solid = true;
+  SceneSettings settings = nearest_settings_of(0.02, 0.1);
+  settings.carrying = 8;
+  settings.carrying_band = 0.03;
+  return std::make_unique<BodiesScene>(settings, std::move(bodies));
+}
+
 models::MeshData scaled(models::MeshData data, double by) {
   for (Vector3d& position : data.positions) position *= by;
   return data;
@@ -273,7 +283,7 @@ class CrowdScene : public PlayedScene {
 }  // namespace
 
 std::vector<std::string_view> played_scene_names() {
-  return {"paths", "pile", "pair", "skinned", "crowd", "nearest", "solids", "limits", "seams"};
+  return {"paths", "pile", "pair", "skinned", "crowd", "nearest", "solids", "limits", "carrying", "seams"};
 }
 
 std::unique_ptr<PlayedScene> make_played_scene(std::string_view name, PairSize pair_size) {
@@ -286,6 +296,7 @@ std::unique_ptr<PlayedScene> make_played_scene(std::string_view name, PairSize p
     return std::make_unique<BodiesScene>(nearest_settings_of(0.05, 0.25), bodies_of_paths());
   if (name == "solids") return solids();
   if (name == "limits") return limits();
+  if (name == "carrying") return carrying();
   if (name == "seams") return make_seam_scene();
   return nullptr;
 }

@@ -26,8 +26,8 @@ class PlayedScene {
 };
 
 /// paths (the paper's first experiment), pile, pair (large ones), skinned, crowd (comes and goes). Then those
-/// with the detail `nearest`: nearest, solids (through and inside each other), limits (of contacts); and
-/// seams (groups of faces, and meshes that are replaced).
+/// with the detail `nearest`: nearest, solids (through and inside each other), limits (of contacts), carrying
+/// (contacts chosen to carry); and seams (groups of faces, and meshes that are replaced).
 std::vector<std::string_view> played_scene_names();
 
 /// How large the surfaces of the scene `pair` are.

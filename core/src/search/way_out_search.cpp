@@ -107,7 +107,7 @@ void WayOutSearch::measure(const Contour& contour) const {
 double WayOutSearch::thickness_along(const Eigen::Vector3d& direction, const Contour& contour) const {
   ExtentAlong extent(direction);
   contour.visit_points([&](const Eigen::Vector3d& point) { extent.add(point); });
-  const GroupFilter* const groups = pair_.query.groups;
+  const FeatureFilter* const groups = pair_.query.groups;
   const SolidScratch& solid = worker_.scratch.solid;
   if (pair_.query.b_is_solid)
     for (const std::uint32_t vertex : solid.a_in_b.inside())

@@ -137,12 +137,12 @@ struct SceneSettings {
   /// `regions`.
   bool ways_out = false;
   /// The most contacts that a report lists for each pair, chosen to carry it. 0 means no limit. It has an
-  /// effect with ContactDetail::nearest only.
+  /// effect with ContactDetail::nearest only. PairReport::contacts_cut does not count what it leaves out.
   ///
-  /// The deepest is among them. The others are those that span most, of the contacts that are less deep than
-  /// the deepest by #carrying_band at most, and whose push is within 26° of its push. A contact that the last
-  /// report listed is kept while it is one of these, so that the list does not jump when a body trembles.
-  /// Edges that pierce carry nothing. They are listed only for a pair that has no other contact.
+  /// One of the deepest leads. The others span most of what is at most #carrying_band less deep and pushes
+  /// within 26° of it. From 6 on, some may push another way. Contacts that the last report listed are
+  /// preferred, so that the list does not jump when a body trembles. Edges that pierce carry nothing, and are
+  /// listed only for a pair that has no other contact. docs/answers.md has the whole rule.
   std::size_t carrying = 0;
   /// How much less deep than the deepest a contact may be that #carrying chooses. It is finite, and 0 or
   /// more. No value means the threshold of the pair.

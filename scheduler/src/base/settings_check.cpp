@@ -53,6 +53,8 @@ std::optional<std::string> problem_of(const SceneSettings& settings) {
   if (settings.max_contacts == 0 || settings.max_contacts_per_pair == 0)
     return "scene: max_contacts and max_contacts_per_pair are at least 1; ContactDetail::none lists no "
            "contacts";
+  if (settings.carrying_band && !is_distance(*settings.carrying_band))
+    return not_a_distance("scene: carrying_band", *settings.carrying_band);
   return std::nullopt;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -81,12 +80,22 @@ std::size_t bytes_of_lists(const PairAnswer& answer) {
   return bytes_of(answer.contacts) + bytes_of(answer.region_distances);
 }
 
+/// Returns what says which features of a pair are looked at, or null if all are, or none. It is in `room` if
+/// faces are hidden, and no groups of the pair were ever ignored.
+const FeatureFilter* filter_of(const PairJob& job, std::optional<FeatureFilter>& room) {
+  room.reset();
+  if (job.groups.version != 0) return job.groups.filter;
+  if (!job.a->hides_some_faces() && !job.b->hides_some_faces()) return nullptr;
+  room.emplace(job.a->face_groups.get(), job.b->face_groups.get());
+  return room->leaves_some() ? &*room : nullptr;
+}
+
 }  // namespace
 
 PairJobs::PairJobs(const SceneSettings& settings, TaskPool& tasks)
     : settings_(settings), tasks_(tasks), answers_(tasks.worker_count()), workers_(tasks.worker_count()) {}
 
-PairQuery PairJobs::query_of(const PairJob& job) const {
+PairQuery PairJobs::query_of(const PairJob& job, std::optional<FeatureFilter>& filter) const {
   PairQuery query;
   query.detail = settings_.detail;
   query.mode = settings_.accuracy.mode();
@@ -94,7 +103,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.epsilon = job.thresholds.epsilon;
   query.threshold = job.thresholds.threshold;
   query.reach = job.thresholds.reach;
-  query.groups = job.groups.filter;
+  query.groups = filter_of(job, filter);
   query.region_distance_reach = query.reach;
   query.region_distance_limit = settings_.region_distances == 0
                                     ? 0
@@ -124,16 +133,34 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   return query;
 }
 
-/// The most contacts that a pair keeps; 0 without a limit.
+/// The most contacts that the search for a pair keeps; 0 without a limit. Those that carry are chosen out of
+/// all.
 std::size_t PairJobs::contact_limit() const {
+  if (chooses_carrying()) return 0;
   const std::size_t limit =
       std::min(settings_.max_contacts.value_or(no_limit), settings_.max_contacts_per_pair.value_or(no_limit));
   return limit == no_limit ? 0 : limit;
 }
 
+bool PairJobs::chooses_carrying() const {
+  return settings_.carrying > 0 && settings_.detail == ContactDetail::nearest;
+}
+
+/// Leaves only those contacts in an answer that carry the pair. They are cut where a lower limit leaves out
+/// what `carrying` would choose.
+void PairJobs::choose_carrying(std::uint32_t index, PairAnswer& answer, Worker& worker) const {
+  const std::size_t limit = settings_.max_contacts_per_pair.value_or(no_limit);
+  const CarryingRule rule{std::min(settings_.carrying, limit),
+                          settings_.carrying_band.value_or(jobs_[index].thresholds.threshold)};
+  if (answer.contacts.empty()) return;
+  const bool has_more = worker.carrying.choose(answer.contacts, last_->of(index), rule);
+  answer.cut = has_more && limit < settings_.carrying;
+}
+
 void PairJobs::run(const PairList& list, std::uint64_t rules_version, Clock::time_point start,
                    const LastContacts& last, ReportBuilder& report) {
   jobs_ = list.jobs;
+  last_ = &last;
   pair_count_ = list.pair_count;
   rules_version_ = rules_version;
   deadline_ = deadline_of(start, settings_.time_budget);
@@ -255,7 +282,7 @@ void PairJobs::begin_large(std::size_t index, unsigned worker) {
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
   const Surface& a = job.a->surface();
   const Surface& b = job.b->surface();
-  PairQuery query = query_of(job);
+  PairQuery query = query_of(job, large.filter);
   query.deadline = deadline_now();
   query.time_after_contact = after_each_contact;
   PairAnswer& answer = answer_of_large(index);
@@ -278,8 +305,9 @@ void PairJobs::advance_large(std::size_t index, unsigned worker) {
   large.answered = large.pair.advance(own.detector, own.counters);
   if (!large.answered) return;
   PairAnswer& answer = answer_of_large(index);
+  if (chooses_carrying()) choose_carrying(large.job, answer, own);
   if (!make_room_in_report(answer.contacts.size()))
-    PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job), answer);
+    PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job, large.filter), answer);
   own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
   remember_answer(job, answer);
   refer_to(large.job, answer, worker);
@@ -345,7 +373,8 @@ bool PairJobs::is_late() const {
 void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit) {
   const PairJob& job = jobs_[index];
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
-  PairQuery query = query_of(job);
+  std::optional<FeatureFilter> filter;
+  PairQuery query = query_of(job, filter);
   query.work_limit = work_limit;
   query.deadline = deadline_now();
   query.time_after_contact = after_each_contact;
@@ -361,6 +390,7 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
     own.front_bytes -= front.byte_count();
     own.detector.detect(a, b, query, front, answer, own.counters);
     own.front_bytes += front.byte_count();
+    if (chooses_carrying()) choose_carrying(index, answer, own);
     if (!make_room_in_report(answer.contacts.size())) PairDetector::outer_bounds(a, b, query, answer);
     if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, answer);
     remember_answer(job, answer);
@@ -491,6 +521,7 @@ void PairJobs::reserve_workers() {
     if (settings_.ways_out && !is_about_vertices(settings_.detail))
       worker.detector.reserve_for_ways_out(room_);
     if (limit > 0) worker.detector.reserve_for_limit(limit, room_);
+    if (chooses_carrying()) worker.carrying.reserve(room_.contacts);
   }
 }
 
@@ -507,12 +538,14 @@ std::size_t PairJobs::byte_count() const {
 
 std::size_t PairJobs::thread_byte_count() const {
   std::size_t bytes = bytes_of(workers_);
-  for (const Worker& worker : workers_) bytes += worker.detector.byte_count() + bytes_of_lists(worker.answer);
+  for (const Worker& worker : workers_)
+    bytes += worker.detector.byte_count() + worker.carrying.byte_count() + bytes_of_lists(worker.answer);
   return bytes;
 }
 
 void PairJobs::Worker::reserve_as(const Worker& other) {
   detector.reserve_as(other.detector);
+  carrying.reserve_as(other.carrying);
   answer.contacts.reserve(other.answer.contacts.capacity());
   answer.region_distances.reserve(other.answer.region_distances.capacity());
 }

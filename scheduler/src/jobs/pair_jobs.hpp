@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/task_pool.hpp"
 #include "core/mesh/pair_room.hpp"
+#include "core/pair/carrying.hpp"
+#include "core/pair/group_filter.hpp"
 #include "core/pair/pair_answer.hpp"
 #include "core/pair/pair_counters.hpp"
 #include "core/pair/pair_query.hpp"
@@ -61,6 +64,7 @@ class PairJobs {
   struct Worker {
     PairDetector detector;
     PairCounters counters;
+    CarryingChoice carrying;
     PairAnswer answer;                ///< the answer of the current job
     std::deque<PairAnswer> too_long;  ///< unexpectedly long answers of this step, which are not copied
     /// The bytes by which fronts have grown since the scene began. Only the sum over all workers means
@@ -72,6 +76,7 @@ class PairJobs {
   };
   struct LargeJob {
     std::uint32_t job = 0;
+    std::optional<FeatureFilter> filter;  ///< what its query refers to, where faces are hidden
     LargePair pair;
     bool answered = false;
     std::size_t front_bytes = 0;  ///< the bytes of the front when the job began
@@ -82,8 +87,11 @@ class PairJobs {
     std::uint32_t slice;
   };
 
-  [[nodiscard]] PairQuery query_of(const PairJob& job) const;
+  /// The query refers to `filter` if faces of the pair are hidden, and no groups were ever ignored.
+  [[nodiscard]] PairQuery query_of(const PairJob& job, std::optional<FeatureFilter>& filter) const;
   [[nodiscard]] std::size_t contact_limit() const;
+  [[nodiscard]] bool chooses_carrying() const;
+  void choose_carrying(std::uint32_t index, PairAnswer& answer, Worker& worker) const;
   [[nodiscard]] static bool is_large(const PairJob& job);
   void run_group(std::span<const std::uint32_t> jobs);
   void run_rounds_of_slices();
@@ -111,6 +119,7 @@ class PairJobs {
   const SceneSettings& settings_;
   TaskPool& tasks_;
   std::span<const PairJob> jobs_;
+  const LastContacts* last_ = nullptr;
   std::size_t pair_count_ = 0;  ///< the number of all pairs, those at rest included
   std::uint64_t rules_version_ = 0;
   Clock::time_point deadline_ =

@@ -20,8 +20,8 @@ enum class RowVerdict : std::uint8_t {
 /// A replay that knows the whole history of the scene has the recorded rows, bit for bit. One that begins
 /// amid a run, or has some of the objects alone, does not know the steps before and the other pairs. Then
 /// bounds of `Accuracy::within`, what a budget leaves out, the share of a pair in `max_contacts` and in
-/// `region_distances`, phases and ages may be others, and nothing has diverged. The same holds after a step
-/// that a time budget cut short, since a replay has none.
+/// `region_distances`, the contacts that `carrying` chooses, phases and ages may be others, and nothing has
+/// diverged. The same holds after a step that a time budget cut short, since a replay has none.
 class RowComparison {
  public:
   RowComparison(const SceneSettings& settings, bool knows_history)
@@ -36,6 +36,7 @@ class RowComparison {
   [[nodiscard]] RowVerdict compare_in_both(const RecordedRow& recorded, const RecordedRow& replayed) const;
   [[nodiscard]] RowVerdict compare_answers(const RecordedRow& recorded, const RecordedRow& replayed) const;
   [[nodiscard]] bool must_be_listed(const RecordedRow& row, double least_range) const;
+  [[nodiscard]] bool chooses_by_history() const;
   [[nodiscard]] bool has_loose_bounds(const RecordedRow& row) const;
 
   const SceneSettings& settings_;

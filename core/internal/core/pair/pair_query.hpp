@@ -12,7 +12,7 @@
 
 namespace graze {
 
-class GroupFilter;
+class FeatureFilter;
 
 /// The question about one pair of objects.
 struct PairQuery {
@@ -51,7 +51,7 @@ struct PairQuery {
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
   /// Says which features are looked at; null where all are. It leaves some. Fronts that are used were made
   /// with the same groups, ignored in the same way.
-  const GroupFilter* groups = nullptr;
+  const FeatureFilter* groups = nullptr;
   /// Region pairs that may be tested; beyond it the answer is not complete.
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
   static constexpr std::chrono::steady_clock::time_point no_deadline =
