@@ -128,6 +128,7 @@ std::optional<Contour> contour(const Shape& a, const Shape& b, const FacePairs& 
       weighted += (p + q) / 2 * (q - p).norm();
       length_of_all += (q - p).norm();
     }
+  result.length = length_of_all;
   if (length_of_all == 0) return result;
   result.middle = weighted / length_of_all;
   double all = 0;

@@ -116,7 +116,7 @@ ClosestPoints closest_of_faces(const PlacedFeature& a, const PlacedFeature& b) {
 }
 
 /// The feature of lower dimension is a's.
-ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
+[[gnu::always_inline]] inline ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
   if (a.is(FeatureKind::face)) return closest_of_faces(a, b);
   if (a.is(FeatureKind::edge))
     return b.is(FeatureKind::edge) ? closest_of_segments(a.edge(), b.edge()) : closest_to_face(a.edge(), b);
@@ -125,7 +125,7 @@ ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
   return {a.vertex(), b.vertex(), b.vertex() - a.vertex(), true};
 }
 
-ClosestPoints closest_points(const PlacedFeature& a, const PlacedFeature& b) {
+[[gnu::always_inline]] inline ClosestPoints closest_points(const PlacedFeature& a, const PlacedFeature& b) {
   return a.feature.kind <= b.feature.kind ? closest_in_order(a, b) : closest_in_order(b, a).swapped();
 }
 
@@ -253,14 +253,16 @@ ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a, const Fea
                          const Mesh& mesh_b, PositionView positions_b, const Feature& feature_b) {
   const PlacedFeature a = placed_feature(mesh_a, positions_a, feature_a);
   const PlacedFeature b = placed_feature(mesh_b, positions_b, feature_b);
-  return compute_in_default_mode([&] { return geometry_by_sides(a, b); });
+  const BriefFloatingPointScope scope;
+  return geometry_by_sides(a, b);
 }
 
 ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a, const Mesh& mesh_b,
                          PositionView positions_b, const Contact& contact) {
   const PlacedFeature a = placed_feature(mesh_a, positions_a, contact.feature_a);
   const PlacedFeature b = placed_feature(mesh_b, positions_b, contact.feature_b);
-  return compute_in_default_mode([&] { return continued_geometry(a, b, contact); });
+  const BriefFloatingPointScope scope;
+  return continued_geometry(a, b, contact);
 }
 
 }  // namespace graze

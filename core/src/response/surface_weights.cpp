@@ -79,21 +79,18 @@ SurfaceWeights face_weights(const PlacedMesh& placed, std::uint32_t face, const 
   return result;
 }
 
-SurfaceWeights weights_of(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& point) {
-  if (feature.kind == FeatureKind::vertex) return {1, {feature.index}, {1}};
-  if (feature.kind == FeatureKind::face) return face_weights(placed, feature.index, point);
-  const auto [start, end] = placed.mesh.edge(feature.index);
-  const double of_end = closest_on_segment(point, {placed.point(start), placed.point(end)}).parameter;
-  return {2, {start, end}, {1 - of_end, of_end}};
-}
-
 }  // namespace
 
 SurfaceWeights weights(const Mesh& mesh, PositionView positions, const Feature& feature,
                        const Eigen::Vector3d& point) {
   const PlacedMesh placed{indexed(mesh), positions};
   check_feature(placed, feature, "weights");
-  return compute_in_default_mode([&] { return weights_of(placed, feature, point); });
+  const BriefFloatingPointScope scope;
+  if (feature.kind == FeatureKind::vertex) return {1, {feature.index}, {1}};
+  if (feature.kind == FeatureKind::face) return face_weights(placed, feature.index, point);
+  const auto [start, end] = placed.mesh.edge(feature.index);
+  const double of_end = closest_on_segment(point, {placed.point(start), placed.point(end)}).parameter;
+  return {2, {start, end}, {1 - of_end, of_end}};
 }
 
 }  // namespace graze

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cfenv>
+#include <optional>
 
 #if defined(__SSE2_MATH__)
 #include <xmmintrin.h>
@@ -36,14 +37,17 @@ inline bool is_in_default_mode() {
 #endif
 }
 
-/// Calls a function in a FloatingPointScope, or as it is where the caller is in that mode already: a scope
-/// takes as long as some short calls. Then the function may leave exception flags behind.
-template <typename Compute>
-auto compute_in_default_mode(const Compute& compute) {
-  if (is_in_default_mode()) [[likely]]
-    return compute();
-  const FloatingPointScope scope;
-  return compute();
-}
+/// A FloatingPointScope for calls that take less time than one. It leaves all as it is where the caller
+/// computes in that mode already, and may leave exception flags behind then.
+class BriefFloatingPointScope {
+ public:
+  BriefFloatingPointScope() {
+    if (!is_in_default_mode()) [[unlikely]]
+      scope_.emplace();
+  }
+
+ private:
+  std::optional<FloatingPointScope> scope_;
+};
 
 }  // namespace graze

@@ -2,6 +2,7 @@
 // closest alone. Soft bodies gain few, and a crate on a crate has few in all.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <set>
@@ -64,6 +65,14 @@ void count(examples::World& world, double contact_distance, ContactCounts& count
   }
 }
 
+/// A closed box about the origin.
+Shape box_shape(const Eigen::Vector3d& half) {
+  const examples::Shape box = examples::box(2 * half);
+  Shape shape{box.points, {}};
+  for (const auto& triangle : box.triangles) shape.faces.emplace_back(triangle.begin(), triangle.end());
+  return shape;
+}
+
 examples::WorldSettings settings_of_world(double contact_distance) {
   examples::WorldSettings settings;
   settings.contact_distance = contact_distance;
@@ -112,43 +121,68 @@ examples::Shape hills(int cells, double width) {
 
 }  // namespace
 
-TEST_CASE("counts of nearest: soft balls on soft balls gain few contacts") {
-  examples::World world(settings_of_world(0.015));
-  world.add(examples::fixed_body(examples::bowl(0.3, 0.1, 24, 8)));
-  for (int i = 0; i < 8; ++i)
-    add_ball(world, 0.1, 12, {0.13 * std::cos(i * 0.8), 0.13 * std::sin(i * 0.8), 0.11 * i - 0.1});
-  const ContactCounts counts = counts_of(world, 0.015);
-  counts.print("soft balls in a bowl");
-}
-
 TEST_CASE("counts of nearest: soft balls on a terrain gain few contacts") {
   examples::World world(settings_of_world(0.015));
   world.add(examples::fixed_body(hills(16, 1)));
-  for (int i = 0; i < 6; ++i) add_ball(world, 0.1, 12, {0.22 * (i % 3) - 0.22, 0.24 * (i / 3) - 0.12, 0.2});
+  for (int i = 0; i < 2; ++i) add_ball(world, 0.1, 32, {0.22 * i - 0.15, 0.2 * i - 0.12, 0.15});
   const ContactCounts counts = counts_of(world, 0.015);
+  CHECK(counts.all > 200);
+  CHECK(counts.gained > 0);
+  CHECK(counts.percent() < 10);
   counts.print("soft balls on a terrain");
 }
 
-TEST_CASE("counts of nearest: fine balls gain next to no contacts") {
-  examples::World world(settings_of_world(0.008));
-  world.add(examples::fixed_body(examples::ball(0.3, 96, 47)));
-  for (int i = 0; i < 2; ++i) add_ball(world, 0.1, 80, {0.02 * i, 0.01, 0.42 + 0.22 * i});
-  const ContactCounts counts = counts_of(world, 0.008);
-  counts.print("fine balls");
+TEST_CASE("counts of nearest: fine bodies gain next to no contacts") {
+  examples::World world(settings_of_world(0.01));
+  world.add(examples::fixed_body(examples::ball(0.3, 80, 53)));
+  world.add(examples::cloth(moved(examples::sheet(0.6, 20), {0.02, 0, 0.31}), 0.3));
+  const ContactCounts counts = counts_of(world, 0.01);
+  CHECK(counts.all > 200);
+  CHECK(counts.percent() < 1);
+  counts.print("a cloth on a fine ball");
 }
 
 TEST_CASE("counts of nearest: soft balls on crates gain at most a quarter") {
   examples::World world(settings_of_world(0.015));
-  world.add(examples::fixed_body(examples::floor_box(3, 0.5)));
   for (int i = 0; i < 6; ++i) {
-    const Eigen::Vector3d at(0.24 * (i % 3) - 0.24, 0.26 * (i / 3) - 0.13, 0.06);
+    const Eigen::Vector3d at(0.24 * (i % 3) - 0.24, 0.26 * static_cast<double>(i / 3) - 0.13, 0.06);
     examples::Shape crate = examples::box({0.15, 0.15, 0.12});
     for (Eigen::Vector3d& p : crate.points) p = at + Eigen::AngleAxisd(0.3 * i, Eigen::Vector3d::UnitZ()) * p;
     world.add(examples::fixed_body(crate));
     add_ball(world, 0.1, 12, at + Eigen::Vector3d(0.03 * i - 0.07, 0.04, 0.19));
   }
   const ContactCounts counts = counts_of(world, 0.015);
+  CHECK(counts.all > 100);
+  CHECK(counts.gained > 0);
+  CHECK(counts.percent() < 25);
   counts.print("soft balls on crates");
+}
+
+TEST_CASE("counts of nearest: a crate on a crate has at most 16 pairs of edges") {
+  const Shape crate = box_shape({0.25, 0.25, 0.25});
+  std::size_t most = 0;
+  for (const double yaw : {0.0, 0.047, 0.4, 0.785, 1.2})
+    for (const double tilt : {0.0, 1e-6, 1e-3})
+      for (const double gap : {0.005, 0.001, -0.001, -0.01}) {
+        Scene scene(settings_of(0.02, 0.02, ContactDetail::nearest));
+        scene.add(mesh_of(crate), motion_of(Motion::rigid));
+        const ObjectId upper = scene.add(mesh_of(crate), motion_of(Motion::rigid));
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        pose.linear() = (Eigen::AngleAxisd(tilt, Eigen::Vector3d(0.8, 0.6, 0)) *
+                         Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()))
+                            .toRotationMatrix();
+        pose.translation() = Eigen::Vector3d(0.03, 0.02, 0.5 + gap);
+        scene.set_pose(upper, pose);
+        const ReportHandle report = scene.step();
+        const auto edges = static_cast<std::size_t>(
+            std::count_if(report->contacts().begin(), report->contacts().end(),
+                          [](const Contact& contact) { return contact.kind == ContactKind::EE; }));
+        INFO("yaw " << yaw << ", tilt " << tilt << ", gap " << gap);
+        CHECK(edges <= 16);
+        most = std::max(most, edges);
+      }
+  CHECK(most >= 8);
+  std::cout << "a crate on a crate has at most " << most << " pairs of edges\n";
 }
 
 }  // namespace graze::tests
