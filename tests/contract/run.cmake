@@ -1,7 +1,7 @@
 # Installs graze into a prefix of its own. Builds and runs against it the contract's program, and one that hands graze
-# many types, by its CMake package for several instruction sets, and one that responds to contacts; and the contract's program by pkg-config. `static` is
-# the build under test, as users build it, and once more graze as a subproject. `shared` is core and scheduler alone,
-# of which it is asked only that they work.
+# many types, by its CMake package for several instruction sets, and one that responds to contacts, and one whose boxes
+# stand on boxes; and the contract's program by pkg-config. `static` is the build under test, as users build it, and once
+# more graze as a subproject. `shared` is core and scheduler alone, of which it is asked only that they work.
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
@@ -46,6 +46,7 @@ foreach(flags ${flag_sets})
   build_and_run(${INPUTS} inputs ${flags})
 endforeach()
 build_and_run(${RESPONSE} response plain)
+build_and_run(${STANDING} standing plain)
 
 if(KIND STREQUAL "shared")  # installed without io: a program that needs it is told why it is not there
   file(WRITE ${WORK}/without_io/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(without_io CXX)\n\

@@ -8,12 +8,10 @@
 #include <iostream>
 #include <limits>
 
-#include "core/comparison.hpp"
-#include "core/pair/pair_answer.hpp"
+#include "core/placed_shape.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/exact_distance.hpp"
-#include "support/mesh_of.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -23,22 +21,6 @@ using Eigen::Vector3d;
 using oracle::Shape;
 
 constexpr std::uint64_t seed_count = 600;
-
-/// A shape with its mesh.
-struct Placed {
-  explicit Placed(Shape given) : shape(std::move(given)), mesh(mesh_of(shape)) {}
-  Shape shape;
-  std::shared_ptr<const Mesh> mesh;
-};
-
-ContactGeometry evaluate(const Placed& a, const Feature& feature_a, const Placed& b,
-                         const Feature& feature_b) {
-  return graze::evaluate(*a.mesh, a.shape.positions, feature_a, *b.mesh, b.shape.positions, feature_b);
-}
-
-Placed moved(const Placed& placed, const Vector3d& offset) {
-  return Placed(mapped(placed.shape, 1, offset));
-}
 
 /// One feature as a surface of its own: vertices and edges become faces that repeat a corner.
 Shape alone(const Placed& of, const Feature& feature) {
@@ -153,10 +135,6 @@ void check_weights(const Placed& of, const Feature& feature, const Vector3d& poi
   }
   CHECK(std::abs(total - 1) < 1e-12);
   CHECK((sum - point).norm() < 1e-12);
-}
-
-PairAnswer contacts_of(const Placed& a, const Placed& b, ContactDetail detail) {
-  return detect(surface_of(a.shape), surface_of(b.shape), query_of(detail, 0.5));
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ SceneSettings made_settings(ByteReader& bytes) {
   if (bytes.once_in(4)) settings.max_contacts = 1 + bytes.below(8);
   if (bytes.once_in(4)) settings.work_budget = bytes.below(32);
   if (bytes.once_in(4)) settings.region_distances = bytes.below(32);
+  settings.ways_out = bytes.flag();
+  if (bytes.once_in(4)) settings.carrying = 1 + bytes.below(4);
+  if (bytes.once_in(8)) settings.carrying_band = bytes.below(8) / 16.0;
   return settings;
 }
 
@@ -248,6 +251,7 @@ void RecordMaker::fill(AddRecord& record) {
   record.settings.kind = bytes_.below(3);
   record.settings.solid = record.mesh == 2 ? bytes_.flag() : wrong();
   record.settings.face_groups = groups(record.mesh);
+  if (bytes_.once_in(4)) record.settings.hidden_groups = {static_cast<std::uint8_t>(bytes_.below(3))};
   known_.push_back({record.object, record.serial, record.mesh, record.settings.motion});
 }
 

@@ -95,6 +95,24 @@ std::vector<std::string> mesh_texts(MeshFormat format) {
   return texts;
 }
 
+std::string read(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Gives the first pair of a report a way out, and its first contact what edges that are sunk have.
+std::string with_sunk_pair(std::string report) {
+  const auto insert_before = [&](const std::string& key, const std::string& more) {
+    const std::size_t at = report.find(key);
+    if (at != std::string::npos) report.insert(at, more);
+  };
+  insert_before(
+      "\"contacts\":[",
+      R"("way_out":{"direction":[0,0,1],"point":[1,2,3],"fullness":0.5,"thickness":0.25,"extent":2},)");
+  insert_before("\"since\":", R"("sunk":true,)");
+  return report;
+}
+
 /// Writes seeds with the reports about a few moving objects, at every detail.
 void write_reports(Seeds& seeds) {
   for (const ContactDetail detail : enumerators<ContactDetail>) {
@@ -106,6 +124,8 @@ void write_reports(Seeds& seeds) {
     if (detail == ContactDetail::closest) settings.work_budget = 3;
     if (detail == ContactDetail::nearest) settings.max_contacts = 4;
     if (detail == ContactDetail::features) settings.max_contacts_per_pair = 2;
+    if (detail == ContactDetail::nearest) settings.carrying = 3;
+    settings.ways_out = detail == ContactDetail::nearest;
     settings.threads = 1;
     Scene scene(settings);
     std::vector<io::SceneObject> objects;
@@ -115,7 +135,8 @@ void write_reports(Seeds& seeds) {
       objects.push_back({scene.add(mesh, {.name = name}), name, mesh});
     }
     const std::string ending = detail == ContactDetail::closest ? ".gz" : "";
-    io::ReportWriter writer(seeds.next_path(ending), objects, settings,
+    const std::filesystem::path path = seeds.next_path(ending);
+    io::ReportWriter writer(path, objects, settings,
                             {.include_times = detail == ContactDetail::none,
                              .include_contacts = detail != ContactDetail::vertices});
     std::vector<Eigen::Vector3d> positions(3, Eigen::Vector3d(0, 0.125, 0));
@@ -125,6 +146,7 @@ void write_reports(Seeds& seeds) {
       positions[1].x() = std::numeric_limits<double>::infinity();
     }
     writer.close();
+    if (detail == ContactDetail::features) seeds.add(with_sunk_pair(read(path)));
   }
 }
 
@@ -146,6 +168,9 @@ void write_recordings(Seeds& seeds) {
     if (detail == ContactDetail::none) settings.region_distances = 16;
     if (detail == ContactDetail::nearest) settings.max_contacts = 4;
     if (detail == ContactDetail::features) settings.max_contacts_per_pair = 2;
+    settings.ways_out = true;
+    settings.carrying = 2;
+    settings.carrying_band = 0.125;
     std::vector<Eigen::Vector3d> bound(4, Eigen::Vector3d(0, 0.125, 0));
     const std::vector<Eigen::Vector3f> copied(3, Eigen::Vector3f(0.5F, 0, 0));
     Scene scene(settings);
@@ -153,7 +178,8 @@ void write_recordings(Seeds& seeds) {
     const ObjectId first = scene.add(report_mesh(3, 2), {.name = "first"});
     const ObjectId second = scene.add(report_mesh(4, 2), {.margin = 0.5, .kind = 2});
     const ObjectId third = scene.add(report_mesh(5, 2), {.motion = Motion::rigid});
-    const ObjectId fourth = scene.add(solid_mesh(1), {.solid = true, .face_groups = {0, 1, 1, 0}});
+    const ObjectId fourth =
+        scene.add(solid_mesh(1), {.solid = true, .face_groups = {0, 1, 1, 0}, .hidden_groups = {1}});
     scene.set_rule(0, 2, {0.5, 3, {}});
     scene.ignore(first, 0, fourth, 1);
     scene.bind_positions(second, bound);
@@ -171,11 +197,6 @@ void write_recordings(Seeds& seeds) {
     (void)scene.step();
     recorder.close();
   }
-}
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 /// A binary file of two faces whose header begins with "solid", and texts of one and two solids.

@@ -78,6 +78,7 @@ FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::Scen
     pair.inside = read.inside;
     pair.distance = read.distance;
     pair.witness = read.witness;
+    pair.way_out = read.way_out;
     for (const io::ReportedContact& contact : read.contacts) contacts.push_back(contact.contact);
     builder.add(pair, read.contacts.size(), {});
   }
@@ -91,8 +92,8 @@ FrameReport report_of(const io::ReportedFrame& frame, const std::vector<io::Scen
   return report;
 }
 
-/// Everything that was read, every double by its bits, but for an object's id and for NaN, which has one
-/// spelling.
+/// Everything that was read, every double by its bits, but for an object's id, for NaN, which has one
+/// spelling, and for a way out that no report has.
 class Written {
  public:
   explicit Written(const Report& report) {
@@ -126,6 +127,9 @@ class Written {
     if (value) add(*value);
   }
   void add(const Feature& feature) { add(feature.kind, feature.index); }
+  void add(const WayOut& way) {
+    if (io::is_written(way)) add(way.direction, way.point, way.fullness, way.thickness, way.extent);
+  }
   template <typename First, typename... More>
   requires(sizeof...(More) > 0) void add(const First& first, const More&... more) {
     add(first);
@@ -138,10 +142,11 @@ class Written {
       add(pair.a, pair.b, pair.phase, pair.complete, pair.contacts_cut, pair.stale, pair.inside);
       add(pair.distance.lower, pair.distance.upper);
       add(pair.witness.feature_a, pair.witness.feature_b, pair.witness.point_a, pair.witness.point_b);
+      add(pair.way_out);
       for (const io::ReportedContact& read : pair.contacts) {
         const Contact& contact = read.contact;
         add(contact.kind, contact.feature_a, contact.feature_b, contact.distance, contact.side_a,
-            contact.side_b);
+            contact.side_b, contact.sunk);
         add(contact.point_a, contact.point_b, contact.normal, contact.since);
       }
     }

@@ -72,6 +72,13 @@ std::vector<std::uint8_t> read_face_groups(ByteReader& reader, const Mesh& mesh)
   return groups;
 }
 
+/// Mostly none, and now and then one that no face has.
+std::vector<std::uint8_t> read_hidden_groups(ByteReader& reader) {
+  std::vector<std::uint8_t> groups;
+  if (reader.once_in(4)) groups.assign(1 + reader.below(2), static_cast<std::uint8_t>(reader.below(4)));
+  return groups;
+}
+
 ObjectSettings read_object_settings(ByteReader& reader) {
   ObjectSettings settings;
   const std::uint32_t motion = reader.below(4);
@@ -144,6 +151,7 @@ void add(ByteReader& reader, SceneModel& model) {
     auto mesh = read_mesh(reader);
     ObjectSettings settings = read_object_settings(reader);
     settings.face_groups = read_face_groups(reader, *mesh);
+    settings.hidden_groups = read_hidden_groups(reader);
     model.add(std::move(mesh), settings);
   }
 }
@@ -179,6 +187,9 @@ SceneSettings read_scene_settings(ByteReader& reader) {
     settings.accuracy = Accuracy::paper({2, 1, reader.below(64) / 64.0});
   if (reader.once_in(8)) settings.max_contacts_per_pair = 1 + reader.below(8);
   if (reader.once_in(8)) settings.max_contacts = 1 + reader.below(32);
+  settings.ways_out = reader.flag();
+  if (reader.once_in(4)) settings.carrying = 1 + reader.below(6);
+  if (reader.once_in(8)) settings.carrying_band = reader.below(64) / 64.0;
   if (reader.once_in(16)) settings.work_budget = reader.below(64);
   if (reader.once_in(32)) settings.time_budget = std::chrono::microseconds(0);
   return settings;

@@ -105,10 +105,17 @@ class SceneModel {
   /// Whether contacts are left to other pairs than in a scene built afresh. Rows of frozen objects and rows
   /// without an answer are not in that one.
   [[nodiscard]] bool has_other_limits(const FrameReport& report) const;
+  /// Whether contacts are chosen to carry their pair. The choice goes by the last step too, which a scene
+  /// built afresh does not know.
+  [[nodiscard]] bool chooses_carrying() const;
   void check_rows(const FrameReport& report, const std::map<BodyPair, Fresh>& fresh);
   void check_row(const FrameReport& report, const PairReport& row, const BodyPair& pair,
                  const Fresh* fresh) const;
-  void check_values(const FrameReport& report, const PairReport& row, const Fresh& fresh) const;
+  void check_values(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                    const Fresh& fresh) const;
+  /// Of a scene that chooses contacts to carry a pair.
+  void check_chosen(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                    const Fresh& fresh) const;
   [[nodiscard]] bool is_gone(const BodyPair& pair) const;
   [[nodiscard]] bool is_frozen(const BodyPair& pair) const;
   [[nodiscard]] bool must_be_listed(const BodyPair& pair, const Fresh& fresh) const;

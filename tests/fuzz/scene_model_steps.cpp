@@ -27,6 +27,32 @@ std::string timeless(const FrameReport& report, PairReport row) {
   return tests::text_of(report, row);
 }
 
+/// Every bit of a row but for what says which contacts are listed.
+std::string without_contacts(const FrameReport& report, PairReport row) {
+  row.contact_count = 0;
+  row.contacts_cut = false;
+  row.complete = true;
+  return timeless(report, row);
+}
+
+bool are_same(const Contact& a, const Contact& b) {
+  return a.kind == b.kind && a.feature_a == b.feature_a && a.feature_b == b.feature_b &&
+         a.point_a == b.point_a && a.point_b == b.point_b && a.normal == b.normal &&
+         a.distance == b.distance && a.side_a == b.side_a && a.side_b == b.side_b && a.sunk == b.sunk;
+}
+
+bool carries(const Contact& contact) {
+  return contact.kind != ContactKind::EF || contact.distance != 0;
+}
+
+/// The least separation of contacts that carry, or infinity where there are none.
+double depth_of(std::span<const Contact> contacts) {
+  double depth = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : contacts)
+    if (carries(contact)) depth = std::min(depth, contact.separation());
+  return depth;
+}
+
 }  // namespace
 
 bool SceneModel::is_gone(const BodyPair& pair) const {
@@ -56,6 +82,11 @@ std::map<SceneModel::BodyPair, SceneModel::Fresh> SceneModel::build_afresh() con
   settings.threads = 1;
   settings.time_budget.reset();
   settings.work_budget.reset();
+  if (chooses_carrying()) {
+    settings.carrying = 0;
+    settings.max_contacts.reset();
+    settings.max_contacts_per_pair.reset();
+  }
   Scene afresh(settings);
   std::vector<ObjectId> ids(bodies_.size());
   std::map<ObjectId, std::size_t> body_of;
@@ -106,9 +137,17 @@ void SceneModel::check_limits(const FrameReport& report) const {
   const SceneSettings& settings = scene_.settings();
   expect(report.contacts().size() <= settings.max_contacts.value_or(report.contacts().size()),
          "more contacts than the limit");
-  for (const PairReport& row : report.pairs())
+  for (const PairReport& row : report.pairs()) {
     expect(row.contact_count <= settings.max_contacts_per_pair.value_or(row.contact_count),
            "more contacts of a pair than the limit");
+    expect(!chooses_carrying() || row.contact_count <= settings.carrying,
+           "more contacts than may carry a pair");
+    expect(settings.ways_out || row.way_out.fullness == 0, "a way out that nobody asked for");
+  }
+}
+
+bool SceneModel::chooses_carrying() const {
+  return scene_.settings().carrying > 0 && scene_.settings().detail == ContactDetail::nearest;
 }
 
 bool SceneModel::has_other_limits(const FrameReport& report) const {
@@ -177,7 +216,7 @@ void SceneModel::check_row(const FrameReport& report, const PairReport& row, con
   expect(!row.stale, "a row of objects that can be read is stale");
   if (fresh == nullptr)
     return expect(row.phase == PairPhase::ended && was, "a row of a pair that is filtered out");
-  check_values(report, row, *fresh);
+  check_values(report, row, pair, *fresh);
   if (scene_.settings().accuracy.mode() == AccuracyMode::paper) return;
   if (is_undone(row))
     return expect(row.phase == (was ? PairPhase::touching : PairPhase::near),
@@ -191,7 +230,8 @@ void SceneModel::check_row(const FrameReport& report, const PairReport& row, con
       "a pair that is not near is listed");
 }
 
-void SceneModel::check_values(const FrameReport& report, const PairReport& row, const Fresh& fresh) const {
+void SceneModel::check_values(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                              const Fresh& fresh) const {
   const Accuracy& accuracy = scene_.settings().accuracy;
   const DistanceBounds& truth = fresh.row->distance;
   // The truth lies between two neighbouring doubles, or is one.
@@ -203,10 +243,31 @@ void SceneModel::check_values(const FrameReport& report, const PairReport& row, 
     return expect(row.distance.upper - row.distance.lower <= accuracy.tolerance() + rounding,
                   "bounds further apart than the tolerance");
   }
+  if (chooses_carrying()) return check_chosen(report, row, pair, fresh);
   if (has_other_limits(report)) return;
   const std::string mine = timeless(report, row);
   const std::string other = timeless(*fresh.report, *fresh.row);
   if (mine != other) finding("a row of the scene:\n" + mine + "\nand of one built afresh:\n" + other);
+}
+
+void SceneModel::check_chosen(const FrameReport& report, const PairReport& row, const BodyPair& pair,
+                              const Fresh& fresh) const {
+  const std::string mine = without_contacts(report, row);
+  const std::string other = without_contacts(*fresh.report, *fresh.row);
+  if (mine != other) finding("a row of the scene:\n" + mine + "\nand of one built afresh:\n" + other);
+  const auto chosen = report.contacts(row);
+  const auto all = fresh.report->contacts(*fresh.row);
+  const double least = depth_of(all) + scene_.settings().carrying_band.value_or(threshold_of(pair));
+  for (const Contact& contact : chosen) {
+    expect(std::any_of(all.begin(), all.end(), [&](const Contact& one) { return are_same(one, contact); }),
+           "a contact was chosen that is none");
+    expect(!carries(contact) || contact.separation() <= least,
+           "a contact was chosen that is not deep enough");
+    expect(carries(contact) || std::none_of(all.begin(), all.end(), carries),
+           "an edge that pierces was chosen to carry");
+  }
+  if (scene_.settings().max_contacts) return;
+  expect(all.empty() == chosen.empty(), "none of the contacts of a pair was chosen");
 }
 
 }  // namespace graze::fuzz

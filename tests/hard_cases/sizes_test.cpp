@@ -73,8 +73,8 @@ struct PebbleOverPlanet {
     const ReportHandle report = scene.step();
     const Crop near = crop(planet, place, 0.1);
     const bool regions = detail == ContactDetail::regions;  // those of the part are others
-    const Expected expected =
-        expected_of(near.shape, stone, threshold, regions ? ContactDetail::vertices : detail);
+    const Expected expected = expected_of(near.shape, stone, threshold,
+                                          regions ? ContactDetail::vertices : detail, near.shape, pebble);
     const PairReport& row = only_pair(*report);
     CHECK(row.distance.lower == expected.distance.distance_down);
     CHECK(row.distance.upper == expected.distance.distance_up);

@@ -109,6 +109,24 @@ TEST_CASE("a glTF file that unfolds to far more than it holds is refused by its 
       Contains(limit));
 }
 
+TEST_CASE("a glTF file counts the numbers of a mesh once, and those of each node that shows it") {
+  constexpr std::size_t vertices = 60000;
+  GltfBuffer buffer;
+  const auto p = add_triangles(buffer, vertices / 3);
+  const TemporaryFolder folder;
+  for (const std::size_t targets : {0U, 1U}) {
+    const std::string morphed = targets == 0 ? "" : R"(,"targets":[{"POSITION":)" + p + "}]";
+    const std::size_t of_mesh = 3 * vertices * (1 + targets) + vertices;
+    const std::size_t of_node = 3 * vertices * (2 + targets) + vertices + 100;
+    const std::size_t shown = ((std::size_t{1} << 26U) - of_mesh) / of_node;
+    const auto path =
+        folder.write("counted.gltf", buffer.gltf(R"("nodes":[)" + repeated(R"({"mesh":0})", 200) +
+                                                 R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+                                                 p + "}" + morphed + "}]}]"));
+    CHECK_THAT(refusal_of(path), Catch::Matchers::StartsWith("nodes[" + std::to_string(shown) + "]: "));
+  }
+}
+
 TEST_CASE("binary glTF 1 is refused whatever lengths it announces") {
   std::string bytes = "glTF";
   for (const std::uint32_t word : {1U, 48U, 20U, 0U}) append(bytes, word);

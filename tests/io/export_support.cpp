@@ -5,6 +5,7 @@
 #include <graze/recording.hpp>
 #include <limits>
 
+#include "io/marked_report.hpp"
 #include "support/catch.hpp"
 
 namespace graze::tests {
@@ -93,6 +94,7 @@ void ExportScene::replay() {
     frames_.push_back(std::move(snapshot));
   }
   REQUIRE(frames_.size() == frame_count);
+  for (const io::SceneSnapshot& snapshot : frames_) mark_report(*snapshot.report);
   REQUIRE(frames_[5].report->contacts().size() > 1);
 }
 

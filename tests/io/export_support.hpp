@@ -9,7 +9,7 @@
 namespace graze::tests {
 
 /// A recording of a sheet of quads and triangles, a spike that comes down on it, and a block that is removed
-/// while it touches. The names have commas, quotes and a line end.
+/// while it touches. The names have commas, quotes and a line end. mark_report() has marked all reports.
 class ExportScene {
  public:
   static constexpr std::size_t frame_count = 12;

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "io/export_support.hpp"
+#include "io/marked_report.hpp"
 #include "support/catch.hpp"
 
 namespace {
@@ -103,6 +104,7 @@ void check_contact(Cells cells, const io::SceneSnapshot& snapshot, const PairRep
   CHECK(cells.whole() == contact.since - 1);
   CHECK(cells.is(contact.separation()));
   CHECK(cells.are(contact.push()));
+  CHECK(cells.text() == (contact.sunk ? "true" : "false"));
   CHECK(cells.are_done());
 }
 
@@ -120,6 +122,16 @@ void check_row(Cells cells, const io::SceneSnapshot& snapshot, const PairReport&
   CHECK(cells.text() == (pair.contacts_cut ? "true" : "false"));
   CHECK(cells.text() == (pair.stale ? "true" : "false"));
   CHECK(cells.text() == to_string(pair.inside));
+  const WayOut& way = pair.way_out;
+  if (way.point == Vector3d::Zero()) {
+    for (int i = 0; i < 9; ++i) CHECK(cells.text().empty());
+  } else {
+    CHECK(cells.are(way.direction));
+    CHECK(cells.are(way.point));
+    CHECK(cells.is(way.fullness));
+    CHECK(cells.is(way.thickness));
+    CHECK(cells.is(way.extent));
+  }
   CHECK(cells.are_done());
 }
 
@@ -198,6 +210,7 @@ void check_vtp_contacts(const std::filesystem::path& path, const io::SceneSnapsh
       expected["PointData/kind"].push_back(static_cast<double>(contact.kind));
       expected["PointData/sides"].push_back(static_cast<double>(contact.side_a));
       expected["PointData/sides"].push_back(static_cast<double>(contact.side_b));
+      expected["PointData/sunk"].push_back(contact.sunk ? 1 : 0);
       expected["PointData/object_a"].push_back(pair.a.index);
       expected["PointData/object_b"].push_back(pair.b.index);
       expected["PointData/features"].push_back(contact.feature_a.index);
@@ -217,19 +230,33 @@ void check_vtp_lines(const std::filesystem::path& path, const io::SceneSnapshot&
   std::vector<double> distances;
   std::vector<double> levels;
   std::vector<double> insides;
+  std::vector<double> lines;
+  std::vector<double> fullnesses;
+  std::vector<double> extents;
+  const auto add = [&](const Vector3d& from, const Vector3d& to, double distance, double level, double line) {
+    append(points, from);
+    append(points, to);
+    distances.push_back(distance);
+    levels.push_back(level);
+    lines.push_back(line);
+    fullnesses.push_back(0);
+    extents.push_back(0);
+  };
   for (const PairReport& pair : snapshot.report->pairs()) {
-    insides.resize(insides.size() + 1 + pair.region_distance_count, static_cast<double>(pair.inside));
-    append(points, pair.witness.point_a);
-    append(points, pair.witness.point_b);
-    distances.push_back(pair.distance.upper);
-    levels.push_back(0);
-    for (const RegionDistance& region : snapshot.report->region_distances(pair)) {
-      append(points, region.point_a);
-      append(points, region.point_b);
-      distances.push_back(region.distance);
-      levels.push_back(region.level);
+    add(pair.witness.point_a, pair.witness.point_b, pair.distance.upper, 0, 0);
+    for (const RegionDistance& region : snapshot.report->region_distances(pair))
+      add(region.point_a, region.point_b, region.distance, region.level, 1);
+    const WayOut& way = pair.way_out;
+    if (way.direction != Vector3d::Zero()) {
+      add(way.point, way.point + way.thickness * way.direction, way.thickness, 0, 2);
+      fullnesses.back() = way.fullness;
+      extents.back() = way.extent;
     }
+    insides.resize(levels.size(), static_cast<double>(pair.inside));
   }
+  CHECK(Printed(arrays["CellData/line"]).numbers == lines);
+  CHECK(Printed(arrays["CellData/fullness"]).numbers == fullnesses);
+  CHECK(Printed(arrays["CellData/extent"]).numbers == extents);
   CHECK(Printed(arrays["Points/Points"]).numbers == points);
   CHECK(Printed(arrays["CellData/distance"]).numbers == distances);
   CHECK(Printed(arrays["CellData/level"]).numbers == levels);
@@ -273,18 +300,22 @@ TEST_CASE("export: the tables are the reports, to the last bit and in any locale
   std::locale::global(before);
   const Rows contact_rows = read_csv(scene.path("contacts.csv"));
   const Rows distance_rows = read_csv(scene.path("distances.csv"));
-  CHECK(contact_rows.at(0).size() == 28);
-  CHECK(distance_rows.at(0).size() == 24);
+  CHECK(contact_rows.at(0).size() == 29);
+  CHECK(distance_rows.at(0).size() == 33);
   CHECK(contacts.row_count() + 1 == contact_rows.size());
   CHECK(distances.row_count() + 1 == distance_rows.size());
   std::size_t next_contact = 1;
   std::size_t next_row = 1;
-  for (const io::SceneSnapshot& snapshot : scene.frames())
+  std::size_t sunk = 0;
+  for (const io::SceneSnapshot& snapshot : scene.frames()) {
+    sunk += sunk_count(*snapshot.report);
     for (const PairReport& pair : snapshot.report->pairs()) {
       check_row(Cells(distance_rows.at(next_row++)), snapshot, pair);
       for (const Contact& contact : snapshot.report->contacts(pair))
         check_contact(Cells(contact_rows.at(next_contact++)), snapshot, pair, contact);
     }
+  }
+  CHECK(sunk > 0);
   CHECK(next_contact == contact_rows.size());
   CHECK(next_row == distance_rows.size());
 }

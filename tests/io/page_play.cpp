@@ -4,6 +4,8 @@
 #include <functional>
 #include <limits>
 
+#include "io/marked_report.hpp"
+
 namespace graze::tests {
 namespace {
 
@@ -118,7 +120,7 @@ PlayedScene play() {
       scene.remove(played.objects[1].id);
     }
     move_objects(played, scene, frame);
-    played.reports.push_back(*scene.step(3 * frame));
+    played.reports.push_back(marked_report(*scene.step(3 * frame)));
   }
   return played;
 }

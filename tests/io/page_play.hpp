@@ -21,7 +21,8 @@ struct PlayedObject {
   std::vector<std::array<double, 12>> poses;            ///< of another one
 };
 
-/// A small scene of deformable, rigid and fixed objects that come and go, with all its reports.
+/// A small scene of deformable, rigid and fixed objects that come and go, with all its reports, which
+/// mark_report() has marked.
 struct PlayedScene {
   SceneSettings settings;
   std::vector<PlayedObject> objects;

@@ -4,6 +4,7 @@
 #include <graze/io/page.hpp>
 #include <map>
 
+#include "io/marked_report.hpp"
 #include "page_decoder.hpp"
 #include "page_play.hpp"
 #include "tools/temporary_folder.hpp"
@@ -47,6 +48,14 @@ class DecodedReport {
   [[nodiscard]] std::uint64_t real_bits(const std::string& array, std::size_t index) const {
     return bits(list<double>(reals_, array).at(index));
   }
+  /// The row of a pair's way out, or nothing where it has none.
+  [[nodiscard]] std::optional<std::size_t> way_of(std::size_t pair) const {
+    if (!table_.has("way_pair")) return std::nullopt;
+    const auto& pairs = list<std::uint32_t>(words_, "way_pair");
+    const auto found = std::ranges::lower_bound(pairs, pair);
+    if (found == pairs.end() || *found != pair) return std::nullopt;
+    return static_cast<std::size_t>(found - pairs.begin());
+  }
   [[nodiscard]] const nlohmann::json& header() const { return table_.header(); }
   [[nodiscard]] std::size_t index() const { return index_; }
 
@@ -88,8 +97,9 @@ void compare_feature(Differences& differences, const DecodedReport& decoded, con
 void compare_contact(Differences& differences, const DecodedReport& decoded, std::size_t row,
                      const graze::Contact& contact, std::uint64_t since) {
   differences.expect(decoded.byte("contact_kind", row) == static_cast<int>(contact.kind));
-  differences.expect(decoded.byte("contact_sides", row) ==
-                     static_cast<int>(contact.side_a) + 4 * static_cast<int>(contact.side_b));
+  differences.expect(decoded.byte("contact_sides", row) == static_cast<int>(contact.side_a) +
+                                                               4 * static_cast<int>(contact.side_b) +
+                                                               (contact.sunk ? 16 : 0));
   compare_feature(differences, decoded, "contact_features", 4 * row, contact.feature_a);
   compare_feature(differences, decoded, "contact_features", 4 * row + 2, contact.feature_b);
   compare_point(differences, decoded, "contact_points", 6 * row, contact.point_a);
@@ -108,6 +118,19 @@ void compare_region(Differences& differences, const DecodedReport& decoded, std:
   compare_point(differences, decoded, "region_points", 6 * row, region.point_a);
   compare_point(differences, decoded, "region_points", 6 * row + 3, region.point_b);
   differences.expect(decoded.real_bits("region_distance", row) == bits(region.distance));
+}
+
+/// A pair has a row among the ways out, unless all of its own is 0.
+void compare_way_out(Differences& differences, const DecodedReport& decoded, std::size_t pair,
+                     const graze::WayOut& way) {
+  const std::optional<std::size_t> row = decoded.way_of(pair);
+  differences.expect(row.has_value() == (way.fullness != 0 || way.point != Vector3d::Zero()));
+  if (!row) return;
+  compare_point(differences, decoded, "way_direction", 3 * *row, way.direction);
+  compare_point(differences, decoded, "way_point", 3 * *row, way.point);
+  differences.expect(decoded.real_bits("way_fullness", *row) == bits(way.fullness));
+  differences.expect(decoded.real_bits("way_thickness", *row) == bits(way.thickness));
+  differences.expect(decoded.real_bits("way_extent", *row) == bits(way.extent));
 }
 
 std::uint32_t index_of(const PlayedScene& scene, graze::ObjectId id) {
@@ -130,6 +153,7 @@ void compare_pair(Differences& differences, const DecodedReport& decoded, std::s
   compare_feature(differences, decoded, "witness_features", 4 * row + 2, pair.witness.feature_b);
   compare_point(differences, decoded, "witness_points", 6 * row, pair.witness.point_a);
   compare_point(differences, decoded, "witness_points", 6 * row + 3, pair.witness.point_b);
+  compare_way_out(differences, decoded, row, pair.way_out);
   const std::size_t contacts = decoded.word("pair_contact_begin", row);
   REQUIRE(decoded.word("pair_contact_end", row) - contacts == pair.contact_count);
   for (std::size_t i = 0; i < pair.contact_count; ++i) {
@@ -204,7 +228,7 @@ void compare_motion(const DecodedPage& page, const PlayedScene& scene, std::uint
 
 void compare_head(const DecodedPage& page, const PlayedScene& scene, std::uint64_t every) {
   const nlohmann::json& head = page.head();
-  CHECK(head.at("version") == 1);
+  CHECK(head.at("version") == 2);
   CHECK(head.at("title") == "a </script> title");
   CHECK(head.at("source") == "scene.json");
   CHECK(head.at("settings").at("contact_distance") == 0.03);
@@ -308,7 +332,9 @@ TEST_CASE("page: the played scene has what a page must show") {
   std::size_t contacts = 0;
   std::size_t regions = 0;
   std::size_t crossing = 0;
+  std::size_t sunk = 0;
   for (const graze::FrameReport& report : scene.reports) {
+    sunk += sunk_count(report);
     for (const graze::PairReport& pair : report.pairs()) crossing += pair.inside == graze::Inside::crossing;
     contacts += report.contacts().size();
     regions += report.region_distances().size();
@@ -316,6 +342,7 @@ TEST_CASE("page: the played scene has what a page must show") {
   CHECK(contacts > 100);
   CHECK(regions > 1000);
   CHECK(crossing > 10);
+  CHECK(sunk > 10);
   CHECK(scene.reports[5].diagnostics().size() == 1);
 }
 
@@ -406,6 +433,37 @@ TEST_CASE("page: frames that did not change share their rows, and take no positi
   CHECK(std::ranges::count(moved, 20) == 1);
   for (std::uint64_t frame = 21; frame <= 24; ++frame) CHECK(std::ranges::count(moved, frame) == 0);
   CHECK(decoded.track_frames(2, 1) == std::vector<std::uint64_t>{32});  // fixed: once in each block
+}
+
+TEST_CASE("page: a way out has numbers in its own frame alone, and none has no bytes") {
+  const TemporaryFolder folder;
+  const PlayedScene& scene = played_scene();
+  // What a step says, once without ways out, and then with them.
+  graze::FrameReport plain = scene.reports[15];
+  for (const graze::PairReport& pair : plain.pairs()) const_cast<graze::PairReport&>(pair).way_out = {};
+  io::PageWriter page(folder / "view.html", page_template, options_of(scene));
+  for (const PlayedObject& object : scene.objects) {
+    page.add_object(object.id, object.page);
+    if (object.page.motion == graze::Motion::deformable)
+      page.set_positions(object.id, object.positions[0]);
+    else
+      page.set_pose(object.id, object.poses[0]);
+  }
+  constexpr std::uint64_t block_frames = 32;
+  for (std::uint64_t frame = 0; frame < 2 * block_frames; ++frame)
+    page.frame(frame, frame == 3 ? scene.reports[15] : plain);
+  page.close();
+  const DecodedPage decoded(folder / "view.html");
+  std::vector<std::uint64_t> frames;
+  for (std::uint64_t frame = 0; frame < decoded.frame_count(); ++frame) {
+    const DecodedReport report(decoded, frame);
+    for (std::size_t row = report.pair_begin(); row < report.pair_end(); ++row)
+      if (report.way_of(row) && (frames.empty() || frames.back() != frame)) frames.push_back(frame);
+  }
+  CHECK(frames == std::vector<std::uint64_t>{3});
+  CHECK(decoded.report(0).first->has("way_pair"));
+  REQUIRE(decoded.report(decoded.frame_count() - 1).first != decoded.report(0).first);
+  CHECK_FALSE(decoded.report(decoded.frame_count() - 1).first->has("way_pair"));
 }
 
 TEST_CASE("page: a diagnostic has the frame of the page and the index of the object") {

@@ -2,6 +2,7 @@
 
 #include <cfenv>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -128,6 +129,85 @@ Played play_in_mode(const Prepared& prepared, unsigned threads, const Mode& mode
   return {reports, seen == std::vector(seen.size(), mode)};
 }
 
+/// A surface at positions of any kind, between two steps.
+template <typename Point>
+struct Between {
+  std::shared_ptr<const Mesh> mesh;
+  std::vector<Point> positions;
+};
+
+template <typename Point>
+Between<Point> scaled(const models::MeshData& data, double factor, const Eigen::Vector3d& offset) {
+  Between<Point> result{mesh_of(data), {}};
+  for (const Eigen::Vector3d& position : data.positions)
+    result.positions.push_back((factor * (position + offset)).template cast<typename Point::Scalar>());
+  return result;
+}
+
+void add_to(std::vector<double>& numbers, const ContactGeometry& geometry) {
+  for (const Eigen::Vector3d& vector : {geometry.point_a, geometry.point_b, geometry.normal, geometry.push})
+    numbers.insert(numbers.end(), vector.data(), vector.data() + 3);
+  numbers.insert(numbers.end(),
+                 {geometry.distance, geometry.separation, double(geometry.side_a), double(geometry.side_b),
+                  double(geometry.sunk), double(geometry.is_interior)});
+}
+
+/// All that is computed between two steps, of many pairs of features: positions, both forms of evaluate() and
+/// weights.
+template <typename Point>
+std::vector<double> computed_between(const Between<Point>& a, const Between<Point>& b) {
+  std::vector<double> numbers;
+  const PositionView view = a.positions;
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const Eigen::Vector3d position = view[i];
+    numbers.insert(numbers.end(), position.data(), position.data() + 3);
+  }
+  const auto feature = [](const Mesh& mesh, std::uint32_t number) -> Feature {
+    const std::array counts{mesh.vertex_count(), mesh.edge_count(), mesh.face_count()};
+    return {static_cast<FeatureKind>(number % 3), number * 7 % counts[number % 3]};
+  };
+  Contact contact;
+  contact.normal = {0, 0, 1};
+  for (std::uint32_t i = 0; i < 30; ++i)
+    for (std::uint32_t j = 0; j < 30; ++j) {
+      contact.feature_a = feature(*a.mesh, i);
+      contact.feature_b = feature(*b.mesh, j);
+      add_to(numbers,
+             evaluate(*a.mesh, a.positions, contact.feature_a, *b.mesh, b.positions, contact.feature_b));
+      const ContactGeometry moved = evaluate(*a.mesh, a.positions, *b.mesh, b.positions, contact);
+      add_to(numbers, moved);
+      const SurfaceWeights shares = weights(*a.mesh, a.positions, contact.feature_a, moved.point_b);
+      numbers.insert(numbers.end(), shares.weight.begin(), shares.weight.end());
+    }
+  return numbers;
+}
+
+/// Whether numbers are the same, by their bits.
+bool are_same_bits(const std::vector<double>& numbers, const std::vector<double>& others) {
+  return numbers.size() == others.size() &&
+         std::memcmp(numbers.data(), others.data(), numbers.size() * sizeof(double)) == 0;
+}
+
+template <typename Point>
+void check_between_steps(double factor) {
+  CAPTURE(factor, sizeof(Point));
+  const auto a = scaled<Point>(models::torus(8, 6, 0.5, 0.2), factor, {0, 0, 0});
+  const auto b = scaled<Point>(models::box({0.7, 0.5, 0.9}), factor, {0.4, 0.1, 0.2});
+  const std::vector<double> expected = computed_between(a, b);
+  for (const Mode& mode : modes()) {
+    INFO("rounding " << mode.rounding << (mode.flush ? ", flushing" : ""));
+    std::vector<double> numbers;
+    Mode after;
+    {
+      const ModeScope scope(mode);
+      numbers = computed_between(a, b);
+      after = current_mode();
+    }
+    CHECK(are_same_bits(numbers, expected));
+    CHECK(after == mode);
+  }
+}
+
 /// The distance of a contact whose positions are of the size of the smallest denormals; -1 for none.
 double denormal_distance(const Positions& positions) {
   NeedleOverPlate pair(tests::settings_of(0x1p-1060, 1));
@@ -221,6 +301,56 @@ TEST_CASE("flush-to-zero and each rounding mode: denormal settings are taken as 
     REQUIRE(apart->pairs().size() == 1);
     CHECK(apart->pairs()[0].phase == PairPhase::ended);
     CHECK(scene->step()->pairs()[0].phase == PairPhase::near);
+  }
+}
+
+TEST_CASE("flush-to-zero and each rounding mode: positions, evaluate and weights have the same bits") {
+  check_between_steps<Eigen::Vector3d>(1);
+  check_between_steps<Eigen::Vector3d>(0x1p-260);  // squares of areas are denormal
+  check_between_steps<Eigen::Vector3f>(1);
+  check_between_steps<Eigen::Vector3f>(0x1p-132);  // positions are denormal floats
+}
+
+TEST_CASE("flush-to-zero and each rounding mode: poses of denormal floats are taken as they are") {
+  constexpr float height = 0x1p-140F;
+  Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
+  pose.translation().z() = height;
+  for (const Mode& mode : modes())
+    for (const bool as_matrix : {false, true}) {
+      INFO("rounding " << mode.rounding << (mode.flush ? ", flushing" : "") << ", a matrix: " << as_matrix);
+      Scene scene(settings_of(0x1p-138, 1));
+      scene.add(plate_mesh(), motion_of(Motion::rigid));
+      const ObjectId needle = scene.add(needle_mesh(), motion_of(Motion::rigid));
+      {
+        const ModeScope scope(mode);
+        if (as_matrix)
+          scene.set_pose(needle, pose.matrix());
+        else
+          scene.set_pose(needle, pose);
+      }
+      const ReportHandle report = scene.step();
+      REQUIRE(report->pairs().size() == 1);
+      CHECK(report->pairs()[0].distance.upper == 0x1p-140);
+    }
+}
+
+TEST_CASE("flush-to-zero and each rounding mode: a contact at a denormal distance keeps its sign") {
+  Contact contact;
+  contact.kind = ContactKind::VF;
+  contact.feature_b.kind = FeatureKind::face;
+  contact.side_b = Side::back;
+  contact.normal = {0, 0, 1};
+  contact.distance = 0x1p-1070;
+  for (const Mode& mode : modes()) {
+    double separation = 0;
+    Eigen::Vector3d push;
+    {
+      const ModeScope scope(mode);
+      separation = contact.separation();
+      push = contact.push();
+    }
+    CHECK(separation == -0x1p-1070);
+    CHECK(push == Eigen::Vector3d(0, 0, -1));
   }
 }
 

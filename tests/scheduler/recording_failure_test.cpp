@@ -294,6 +294,49 @@ TEST_CASE("recording: a ring writes the file of a diagnostic when memory is ther
   }).join();
 }
 
+TEST_CASE(
+    "recording: close() without memory for the file of a diagnostic writes it when it is called again") {
+  const TemporaryFolder folder;
+  std::uint64_t failed = 0;
+  std::thread([&] {
+    FailingAllocator::exempt_this_thread();
+    for (std::uint64_t place = 0;; ++place) {
+      INFO("allocation " << place);
+      const std::filesystem::path told = folder.path() / ("told" + std::to_string(place) + ".graze");
+      NeedleOverPlate stage(one_thread_settings());
+      Recorder recorder(stage.scene, RingSettings{.on_diagnostic = told});
+      stage.step_at(0.5);
+      wait_for_writer(recorder, 1);
+      stage.scene.set_positions(ObjectId{77, 1}, PositionView());
+      FailingAllocator::begin(0, Lack::from_then_on);
+      (void)stage.scene.step();
+      (void)recorder.write(folder.path() / "waits.graze");  // until the writer has tried
+      (void)FailingAllocator::end();
+      bool lacked = false;
+      FailingAllocator::begin(place, Lack::once);
+      std::thread([&] {
+        try {
+          recorder.close();
+        } catch (const std::bad_alloc&) {
+          lacked = true;
+        }
+      }).join();
+      (void)FailingAllocator::end();
+      if (!lacked) break;
+      ++failed;
+      recorder.close();
+      const Recording recording(told);
+      CHECK(recording.is_finished());
+      CHECK(recording.frame_count() == 1);
+      CHECK(recording.dropped_at_end() == 1);
+      std::filesystem::remove(told);
+      recorder.close();
+      CHECK_FALSE(std::filesystem::exists(told));  // it is written once
+    }
+  }).join();
+  CHECK(failed > 2);
+}
+
 TEST_CASE("recording: a ring has a mesh that comes again long after its last object went") {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "run.graze";

@@ -27,9 +27,12 @@ std::string row_text(const FrameReport& report, const PairReport& pair, std::str
   write(out, pair.witness.feature_b);
   write(out, pair.witness.point_a);
   write(out, pair.witness.point_b);
+  out << " way out " << pair.way_out.fullness << " " << pair.way_out.thickness << " " << pair.way_out.extent;
+  write(out, pair.way_out.direction);
+  write(out, pair.way_out.point);
   for (const Contact& contact : report.contacts(pair)) {
     out << "\n  " << to_string(contact.kind) << " " << contact.distance << " " << to_string(contact.side_a)
-        << " " << to_string(contact.side_b);
+        << " " << to_string(contact.side_b) << (contact.sunk ? " sunk" : "");
     write(out, contact.feature_a);
     write(out, contact.feature_b);
     write(out, contact.point_a);
@@ -43,11 +46,27 @@ bool in_contact(const PairReport& pair) {
   return pair.phase == PairPhase::began || pair.phase == PairPhase::touching;
 }
 
+/// Whether the numbers of a way out go together. What passes through each other is not apart.
+bool is_consistent(const WayOut& way, const DistanceBounds& distance) {
+  const bool has_direction = way.direction != Eigen::Vector3d::Zero();
+  if (!way.point.allFinite() || !(way.fullness >= 0) || !(way.fullness <= 1 + 1e-9)) return false;
+  if (has_direction != (way.fullness >= 0.1) || (way.fullness > 0 && distance.lower > 0)) return false;
+  if (!has_direction) return way.thickness == 0 && way.extent == 0;
+  return std::abs(way.direction.norm() - 1) < 1e-9 && way.thickness >= 0 && way.extent >= 0 &&
+         std::isfinite(way.thickness) && std::isfinite(way.extent);
+}
+
+bool is_sunk_edge_pair(const Contact& contact) {
+  return contact.kind == ContactKind::EE && contact.distance > 0 && contact.side_a == Side::back &&
+         contact.side_b == Side::back;
+}
+
 std::string problem_of(const FrameReport& report, const PairReport& pair) {
   if (!(pair.distance.lower >= 0) || !(pair.distance.lower <= pair.distance.upper) ||
       !std::isfinite(pair.distance.upper))
     return "bounds";
   if (!pair.witness.point_a.allFinite() || !pair.witness.point_b.allFinite()) return "witness";
+  if (!is_consistent(pair.way_out, pair.distance)) return "way out";
   const auto contacts = report.contacts(pair);
   if (!contacts.empty() && (!in_contact(pair) || (!pair.complete && !pair.contacts_cut)))
     return "contacts without being in contact";
@@ -57,6 +76,7 @@ std::string problem_of(const FrameReport& report, const PairReport& pair) {
     if (!std::isfinite(contact.distance) || !contact.point_a.allFinite() || !contact.point_b.allFinite() ||
         !(std::abs(contact.normal.norm() - 1) < 1e-12))
       return "numbers of a contact";
+    if (contact.sunk && !is_sunk_edge_pair(contact)) return "what is sunk";
     const auto key = [](const Contact& c) { return std::tie(c.kind, c.feature_a, c.feature_b); };
     if (i > 0 && !(key(contacts[i - 1]) < key(contact))) return "order of contacts";
   }

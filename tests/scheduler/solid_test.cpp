@@ -62,8 +62,9 @@ std::string name_of(Containment containment) {
 
 /// Holds what brute force says of a pair. The scene has to outlive it.
 struct SolidTruth {
-  explicit SolidTruth(const RandomSolids& scene)
-      : solid(oracle::solid_pair(scene.a, scene.b, scene.solids, scene.threshold)),
+  explicit SolidTruth(const RandomSolids& scene) : SolidTruth(scene, scene.a, scene.b) {}
+  SolidTruth(const RandomSolids& scene, const Shape& rest_a, const Shape& rest_b)
+      : solid(oracle::solid_pair(scene.a, scene.b, scene.solids, scene.threshold, rest_a, rest_b)),
         distance(oracle::surface_distance(scene.a, scene.b)),
         tolerance(scene.a, scene.b),
         is_touching_as_surfaces(distance.pierced || is_within(distance, scene.threshold)),
@@ -144,6 +145,10 @@ struct TwoObjects {
     SceneSettings settings = settings_of(given.threshold, range, detail);
     settings.threads = threads;
     return settings;
+  }
+  void set_positions(const RandomSolids& given) {
+    scene.set_positions(a, given.a.positions);
+    scene.set_positions(b, given.b.positions);
   }
   [[nodiscard]] const PairReport* row(const FrameReport& report) const { return find_pair(report, a, b); }
 
@@ -245,6 +250,7 @@ PairPhase next_phase(bool was_touching, bool is_touching) {
 /// built afresh. Returns how often the phase or what lies in what changed.
 std::size_t check_steps(RandomSolids given, std::uint64_t seed, ContactDetail detail) {
   const double range = range_of(given, seed);
+  const RandomSolids at_rest = given;
   TwoObjects one(given, detail, range, 1);
   TwoObjects two(given, detail, range, 2);
   oracle::Random random(seed);
@@ -254,7 +260,7 @@ std::size_t check_steps(RandomSolids given, std::uint64_t seed, ContactDetail de
   for (int step = 0; step < 5; ++step) {
     const ReportHandle report = one.scene.step();
     const ReportHandle report_of_two = two.scene.step();
-    const SolidTruth truth(given);
+    const SolidTruth truth(given, at_rest.a, at_rest.b);
     const PairPhase phase = next_phase(was_touching, truth.is_touching);
     INFO("seed " << seed << ", step " << step << ", detail " << name_of(detail)
                  << ", solid: " << given.solids.a << " " << given.solids.b << "\n"
@@ -262,17 +268,15 @@ std::size_t check_steps(RandomSolids given, std::uint64_t seed, ContactDetail de
     REQUIRE(solid_difference(*report, one.row(*report), phase, truth, detail,
                              std::max(range, given.threshold)) == "");
     REQUIRE(difference_of(*report, *report_of_two) == "");
-    TwoObjects afresh(given, detail, range);
+    TwoObjects afresh(at_rest, detail, range);
+    afresh.set_positions(given);
     REQUIRE(timeless_rows_of(*afresh.scene.step(), range) == timeless_rows_of(*report, range));
     changes += (step > 0 && was != truth.solid.inside) || phase == PairPhase::ended ? 1U : 0U;
     was = truth.solid.inside;
     was_touching = truth.is_touching;
     if (random.chance(0.3)) oracle::move_on_grid(given.a, random);
     if (random.chance(0.8)) oracle::move_on_grid(given.b, random);
-    for (TwoObjects* objects : {&one, &two}) {
-      objects->scene.set_positions(objects->a, given.a.positions);
-      objects->scene.set_positions(objects->b, given.b.positions);
-    }
+    for (TwoObjects* objects : {&one, &two}) objects->set_positions(given);
   }
   return changes;
 }

@@ -47,6 +47,7 @@ std::string difference_of(const Contact& contact, const oracle::Named& expected,
   };
   check_point("point_a", contact.point_a, expected.point_a);
   check_point("point_b", contact.point_b, expected.point_b);
+  if (contact.sunk != expected.sunk) out << name << (expected.sunk ? ": not sunk\n" : ": sunk\n");
   if (!(std::abs(contact.normal.norm() - 1) <= 1e-14)) out << name << ": the normal is not of unit length\n";
   const Eigen::Vector3d gap = expected.point_b - expected.point_a;
   const double blur = rounding_at(expected.point_a) + rounding_at(expected.point_b) + error;
@@ -79,8 +80,9 @@ Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double thre
   if (detail == ContactDetail::closest)
     if (const auto closest = oracle::closest(a, b, threshold, pairs)) expected.contacts = {*closest};
   if (detail == ContactDetail::nearest)
-    expected.contacts = are_all_faces_looked_at(a, b, pairs) ? oracle::nearest(a, b, threshold)
-                                                             : oracle::nearest(a, b, threshold, pairs);
+    expected.contacts = are_all_faces_looked_at(a, b, pairs)
+                            ? oracle::nearest(a, b, threshold, rest_a, rest_b)
+                            : oracle::nearest(a, b, threshold, rest_a, rest_b, pairs);
   expected.in_contact = !expected.contacts.empty();
   if (detail == ContactDetail::none)
     expected.in_contact = expected.distance.pierced || is_within(expected.distance, threshold);

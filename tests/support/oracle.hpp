@@ -55,6 +55,7 @@ struct Named {
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
   bool pierced = false;  ///< an edge passes through a face: a contact at every threshold
+  bool sunk = false;     ///< two edges that lie behind each other, of which one pierces a face
 };
 
 /// The contacts of detail `features`, sorted by (kind, a, b), each once. Where an FF contact of distance 0
@@ -65,13 +66,19 @@ std::vector<Named> features(const Shape& a, const Shape& b, double threshold, co
 ///
 /// - For each used vertex strictly nearer to the other surface than `threshold`, its closest point there. If
 ///   several features hold that point, or several points are equally close, the lowest feature names it.
-/// - Each pair of edges whose closest points are inside both, strictly nearer than `threshold`, unless a face
-///   at one of them leads nearer to the other. The diagonal of a quad is no edge.
+/// - Each pair of edges whose closest points are inside both, strictly nearer than `threshold`, if no face at
+///   one of them leads nearer to the other, or if it bounds a patch (oracle_edges.hpp). The diagonal of a
+///   quad is no edge. The shapes at rest decide which edges are creases.
 /// - Each face that an edge pierces, at any threshold.
 /// - If there is none of these, the nearest EF or FF of `features`, which is at the fold of a quad. Exact
 /// ties
 ///   go to the lowest (kind, a, b).
-std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold);
+std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold, const Shape& rest_a,
+                           const Shape& rest_b);
+/// Returns the contacts of shapes that are at rest.
+inline std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold) {
+  return nearest(a, b, threshold, a, b);
+}
 
 /// Every pair of used vertices closer than `threshold`, sorted.
 std::vector<Named> vertices(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs = {});
@@ -136,7 +143,12 @@ struct SolidPair {
   std::vector<Named> contacts;
   std::vector<SolidSides> sides;  ///< of each contact
 };
-SolidPair solid_pair(const Shape& a, const Shape& b, Solids solids, double threshold);
+SolidPair solid_pair(const Shape& a, const Shape& b, Solids solids, double threshold, const Shape& rest_a,
+                     const Shape& rest_b);
+/// Returns the answer about shapes that are at rest.
+inline SolidPair solid_pair(const Shape& a, const Shape& b, Solids solids, double threshold) {
+  return solid_pair(a, b, solids, threshold, a, b);
+}
 
 /// Which lies in which where only some faces are looked at against each other. These decide what pierces. All
 /// faces of a solid decide what is inside of it.

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "support/oracle_edges.hpp"
+
 namespace graze::oracle {
 
 namespace {
@@ -17,6 +19,7 @@ class Collector {
     pierce();
     vertices_against_faces();
     segments_against_segments();
+    find_sunk_edges();
     return std::move(contacts_);
   }
 
@@ -102,6 +105,14 @@ class Collector {
     }
   }
 
+  void find_sunk_edges() {
+    const auto is_of_edges = [](const auto& entry) { return entry.first.kind == ContactKind::EE; };
+    if (std::none_of(contacts_.begin(), contacts_.end(), is_of_edges)) return;
+    const EdgeOracle edges(a_, b_, pairs_);
+    for (auto& [name, contact] : contacts_)
+      contact.sunk = name.kind == ContactKind::EE && edges.are_sunk(name.a, name.b);
+  }
+
   void add_contact(const SegmentContact& contact) {
     add(contact.a.feature, contact.b.feature,
         {contact.a.distance_squared, contact.a.point, contact.b.point, false});
@@ -136,7 +147,8 @@ Named rounded(const Name& name, const ExactContact& contact) {
           contact.distance_squared,
           round(contact.point_a),
           round(contact.point_b),
-          contact.pierced};
+          contact.pierced,
+          contact.sunk};
 }
 
 std::vector<Named> rounded(const ExactContacts& contacts) {

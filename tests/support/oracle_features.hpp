@@ -24,6 +24,7 @@ struct ExactContact {
   Rational distance_squared;
   Point point_a, point_b;
   bool pierced = false;
+  bool sunk = false;
 };
 using ExactContacts = std::map<Name, ExactContact>;
 

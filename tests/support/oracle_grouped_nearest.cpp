@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "support/exact_distance.hpp"
+#include "support/oracle_edges.hpp"
 #include "support/oracle_features.hpp"
 
 namespace graze::oracle {
@@ -12,10 +13,11 @@ namespace {
 
 class NearestContacts {
  public:
-  NearestContacts(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs)
+  NearestContacts(const Shape& a, const Shape& b, double threshold, const Creases& creases,
+                  const FacePairs& pairs)
       : a_(a), b_(b), limit_(Limit::below(threshold)), pairs_(pairs) {
     add_vertices();
-    add_edges();
+    add_edges(creases);
     for (const auto& [name, contact] : collect_features(a_, b_, Limit::below(0), pairs))
       if (contact.pierced) contacts_.try_emplace(name, contact);
   }
@@ -55,41 +57,12 @@ class NearestContacts {
     }
   }
 
-  /// Whether no face with `edge` for which `may(face)` holds comes nearer along `way`, square to the edge.
-  template <typename May>
-  static bool is_locally_closest(const ExactShape& shape, const Segment& edge, const Point& way,
-                                 const May& may) {
-    for (std::uint32_t face = 0; face < shape.faces.size(); ++face) {
-      if (!may(face_feature(face))) continue;
-      for (const Triangle& triangle : shape.faces[face].triangles)
-        for (int side = 0; side < 3; ++side) {
-          const auto corner = [&](int i) {
-            return triangle.corners[static_cast<std::size_t>((side + i) % 3)];
-          };
-          const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(corner(0), corner(1));
-          if (side == triangle.inner_side || ends != std::pair(edge.ends[0], edge.ends[1])) continue;
-          // `way` is square to the edge, so what is along the edge does not count.
-          if (dot(shape.points[corner(2)] - shape.points[ends.first], way) > 0) return false;
-        }
-    }
-    return true;
-  }
-  void add_edges() {
-    for (const Segment& edge_a : a_.edges())
-      for (const Segment& edge_b : b_.edges()) {
-        if (!pairs_.may(edge_a.owner, edge_b.owner)) continue;
-        const auto contact = inner_contact(a_, edge_a, b_, edge_b);
-        if (!contact || !limit_.admits(contact->a.distance_squared)) continue;
-        const Point way = contact->b.point - contact->a.point;
-        const Point back = contact->a.point - contact->b.point;
-        if (is_locally_closest(a_, edge_a, way,
-                               [&](const Feature& face) { return pairs_.may(face, edge_b.owner); }) &&
-            is_locally_closest(b_, edge_b, back,
-                               [&](const Feature& face) { return pairs_.may(edge_a.owner, face); }))
-          contacts_.try_emplace(
-              name_of(edge_a.owner, edge_b.owner),
-              ExactContact{contact->a.distance_squared, contact->a.point, contact->b.point});
-      }
+  void add_edges(const Creases& creases) {
+    for (const EdgePair& pair : EdgeOracle(a_, b_, pairs_).pairs_within(limit_, creases))
+      if (pair.is_listed())
+        contacts_.try_emplace(name_of(pair.a, pair.b),
+                              ExactContact{pair.contact.a.distance_squared, pair.contact.a.point,
+                                           pair.contact.b.point, false, pair.is_sunk});
   }
 
   ExactShape a_;
@@ -101,8 +74,9 @@ class NearestContacts {
 
 }  // namespace
 
-std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs) {
-  return NearestContacts(a, b, threshold, pairs).all();
+std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold, const Shape& rest_a,
+                           const Shape& rest_b, const FacePairs& pairs) {
+  return NearestContacts(a, b, threshold, Creases(rest_a, rest_b), pairs).all();
 }
 
 }  // namespace graze::oracle

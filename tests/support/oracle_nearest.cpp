@@ -7,38 +7,6 @@ namespace graze::oracle {
 
 namespace {
 
-/// The direction in the plane of `triangle`, square to its side from p to q, that leads from the side towards
-/// the third corner. Not of unit length; zero if the triangle has no area.
-Point inward_direction(const Point& p, const Point& q, const Point& third) {
-  const Point along = q - p;
-  const Point across = third - p;
-  return dot(along, along) * across - dot(along, across) * along;
-}
-
-/// Whether `from` and `to` are the ends of the segment, in either order.
-bool joins(const Segment& segment, std::uint32_t from, std::uint32_t to) {
-  return (segment.ends[0] == from && segment.ends[1] == to) ||
-         (segment.ends[0] == to && segment.ends[1] == from);
-}
-
-/// Whether no face at `edge` comes nearer when its point moves from the edge along `way`, at right angles to
-/// the edge. Of a quad it is the triangle that has the edge that counts.
-bool is_locally_closest(const ExactShape& shape, const Segment& edge, const Point& way) {
-  for (const Face& face : shape.faces) {
-    for (const Triangle& triangle : face.triangles) {
-      for (std::size_t side = 0; side < 3; ++side) {
-        if (static_cast<int>(side) == triangle.inner_side) continue;
-        const std::uint32_t from = triangle.corners[side];
-        const std::uint32_t to = triangle.corners[(side + 1) % 3];
-        if (!joins(edge, from, to)) continue;
-        const Point& third = shape.points[triangle.corners[(side + 2) % 3]];
-        if (dot(inward_direction(shape.points[from], shape.points[to], third), way) > 0) return false;
-      }
-    }
-  }
-  return true;
-}
-
 class NearestCollector {
  public:
   NearestCollector(const ExactShape& a, const ExactShape& b, const Limit& limit)
@@ -62,19 +30,12 @@ class NearestCollector {
     }
   }
 
-  void add_edges() {
-    for (const Segment& edge_a : a_.edges()) {
-      for (const Segment& edge_b : b_.edges()) {
-        if (limit_.certainly_excludes(edge_a.extent, edge_b.extent)) continue;
-        const auto contact = inner_contact(a_, edge_a, b_, edge_b);
-        if (!contact || !limit_.admits(contact->a.distance_squared)) continue;
-        const Point between = contact->b.point - contact->a.point;
-        if (!is_locally_closest(a_, edge_a, between)) continue;
-        if (!is_locally_closest(b_, edge_b, Rational(-1) * between)) continue;
-        add(edge_a.owner, edge_b.owner,
-            {contact->a.distance_squared, contact->a.point, contact->b.point, false});
-      }
-    }
+  void add_edges(const Creases& creases) {
+    for (const EdgePair& pair : EdgeOracle(a_, b_).pairs_within(limit_, creases))
+      if (pair.is_listed())
+        add(pair.a, pair.b,
+            {pair.contact.a.distance_squared, pair.contact.a.point, pair.contact.b.point, false,
+             pair.is_sunk});
   }
 
   void add_piercings() {
@@ -166,19 +127,22 @@ std::optional<Foot> foot_on_surface(const Point& point, const Extent& extent, co
 }
 
 ExactContacts collect_nearest(const ExactShape& a, const ExactShape& b, const Limit& limit,
-                              const ListedAnyway& listed_of_a, const ListedAnyway& listed_of_b) {
+                              const Creases& creases, const ListedAnyway& listed_of_a,
+                              const ListedAnyway& listed_of_b) {
   NearestCollector collector(a, b, limit);
   collector.add_vertices_of_a(listed_of_a);
   collector.add_vertices_of_b(listed_of_b);
-  collector.add_edges();
+  collector.add_edges(creases);
   collector.add_piercings();
   collector.add_fold_if_alone();
   return collector.take();
 }
 
-std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold) {
+std::vector<Named> nearest(const Shape& a, const Shape& b, double threshold, const Shape& rest_a,
+                           const Shape& rest_b) {
   const auto none = [](std::uint32_t) { return false; };
-  return rounded(collect_nearest(ExactShape(a), ExactShape(b), Limit::below(threshold), none, none));
+  return rounded(collect_nearest(ExactShape(a), ExactShape(b), Limit::below(threshold),
+                                 Creases(rest_a, rest_b), none, none));
 }
 
 }  // namespace graze::oracle

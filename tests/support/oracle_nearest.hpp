@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "support/oracle_edges.hpp"
 #include "support/oracle_features.hpp"
 
 namespace graze::oracle {
@@ -17,6 +18,7 @@ using ListedAnyway = std::function<bool(std::uint32_t vertex)>;
 /// The contacts of `nearest` within the limit, all piercings, and the contacts of the vertices of each shape
 /// that are listed anyway. A fold makes a contact only where nothing else is within the limit or pierces.
 ExactContacts collect_nearest(const ExactShape& a, const ExactShape& b, const Limit& limit,
-                              const ListedAnyway& listed_of_a, const ListedAnyway& listed_of_b);
+                              const Creases& creases, const ListedAnyway& listed_of_a,
+                              const ListedAnyway& listed_of_b);
 
 }  // namespace graze::oracle

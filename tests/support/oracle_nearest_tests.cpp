@@ -106,10 +106,14 @@ TEST_CASE("oracle of nearest: ridges and edges in flat surfaces are locally clos
   CHECK(nearest_text(folded_square(0), bar, 1) == ends + "  EE e2 e0 at 0.5\n");
   const std::string on_ridge = nearest_text(folded_square(0.25), bar, 1);
   CHECK(on_ridge.find("EE e2 e0 at 0.25") != std::string::npos);
-  // In a valley both faces lead up to the bar.
-  const std::string in_valley = nearest_text(folded_square(-0.25), bar, 1);
-  CHECK(oracle::features(folded_square(-0.25), bar, 1).size() == 3);
-  CHECK(in_valley.find("EE") == std::string::npos);
+  // In a valley both faces lead up to the bar. Where it is a crease and shallow, it bounds a patch.
+  const Shape low_bar = bar_along({-1, 1, 0.125}, {1, -1, 0.125}, {0, 0, 20});
+  const auto near_valley = oracle::features(folded_square(-0.75), low_bar, 1);
+  CHECK(std::any_of(near_valley.begin(), near_valley.end(),
+                    [](const Named& named) { return named.kind == ContactKind::EE; }));
+  CHECK(nearest_text(folded_square(-0.75), low_bar, 1).find("EE") == std::string::npos);
+  CHECK(nearest_text(folded_square(-0.25), bar, 1).find("EE e2 e0 at 0.75") != std::string::npos);
+  CHECK(nearest_text(folded_square(-0.0625), bar, 1).find("EE") == std::string::npos);
 }
 
 TEST_CASE("oracle of nearest: the fold of a quad is no edge, and a contact only where it is alone") {
@@ -129,7 +133,7 @@ TEST_CASE("oracle of nearest: both edges have to be locally closest") {
   const Shape ridge = folded_square(0.25);
   const Vector3d p(-1, 1, 0.5), q(1, -1, 0.5);
   CHECK(nearest_text(ridge, bar_along(p, q, {3, 3, 0.5}), 0.3) == "  EE e2 e0 at 0.25\n");
-  const Shape hanging = bar_along(p, q, {3, 3, -0.125});
+  const Shape hanging = bar_along(p, q, {3, 3, -1.5});
   const auto listed = oracle::features(ridge, hanging, 0.3);
   CHECK(std::any_of(listed.begin(), listed.end(), [](const Named& n) { return n.kind == ContactKind::EE; }));
   CHECK(nearest_text(ridge, hanging, 0.3).find("EE") == std::string::npos);

@@ -55,7 +55,8 @@ Containment containment_of(const VertexSides& of_a, const VertexSides& of_b, boo
 
 }  // namespace
 
-SolidPair solid_pair(const Shape& shape_a, const Shape& shape_b, Solids solids, double threshold) {
+SolidPair solid_pair(const Shape& shape_a, const Shape& shape_b, Solids solids, double threshold,
+                     const Shape& rest_a, const Shape& rest_b) {
   const ExactShape a(shape_a);
   const ExactShape b(shape_b);
   const VertexSides of_a(a, shape_a, shape_b, solids.b);
@@ -63,7 +64,8 @@ SolidPair solid_pair(const Shape& shape_a, const Shape& shape_b, Solids solids, 
 
   SolidPair pair;
   pair.contacts = rounded(collect_nearest(
-      a, b, Limit::below(threshold), [&](std::uint32_t vertex) { return of_a.is_inside(vertex); },
+      a, b, Limit::below(threshold), Creases(rest_a, rest_b),
+      [&](std::uint32_t vertex) { return of_a.is_inside(vertex); },
       [&](std::uint32_t vertex) { return of_b.is_inside(vertex); }));
   for (const Named& contact : pair.contacts)
     pair.sides.push_back({of_b.side_of(contact.b), of_a.side_of(contact.a)});

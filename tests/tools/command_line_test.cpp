@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <graze/enumerators.hpp>
+#include <graze/io/report_json.hpp>
 #include <graze/settings_fields.hpp>
 #include <string>
 #include <vector>
@@ -87,6 +88,10 @@ TEST_CASE("numbers out of their range are refused with the range") {
       {run("--frames-per-second", "inf"), "--frames-per-second: expected a number above 0, got \"inf\""},
       {run("--max-contacts", "0"), "--max-contacts: " + from_1 + "\"0\""},
       {run("--max-contacts-per-pair", "0"), "--max-contacts-per-pair: " + from_1 + "\"0\""},
+      {run("--carrying", "-1"), "--carrying: " + from_0 + "\"-1\""},
+      {run("--carrying-band", "-0.1"),
+       "--carrying-band: expected a number that is not negative, got \"-0.1\""},
+      {run("--carrying-band", "inf"), "--carrying-band: expected a number that is not negative, got \"inf\""},
       {run("--picture-frame", "-1"), "--picture-frame: " + from_0 + "\"-1\""},
       {{"stress", "--budgets", "--threads", "100000"}, "--threads: " + threads + "\"100000\""},
       {{"stress", "--objects", "10,1"}, "--objects: expected a whole number from 2 to 1000000, got \"1\""},
@@ -212,6 +217,20 @@ TEST_CASE("limits of contacts from the command line keep the nearest") {
   found.insert(found.end(), three[1].begin(), three[1].end());
   std::ranges::sort(found);
   CHECK(found == nearest);
+}
+
+TEST_CASE("command line: ways out and contacts that carry are settings of a run, over those of the scene") {
+  const SpikesOnSheet files;
+  const auto settings_with = [&](const Words& options) {
+    Words arguments = {"run", files.scene, "--detail", "nearest", "--report", files.in("r.jsonl")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    CHECK(run_graze(arguments).exit_code == 0);
+    return io::ReportReader(files.in("r.jsonl")).settings();
+  };
+  const SceneSettings off = settings_with({});
+  CHECK((!off.ways_out && off.carrying == 0 && !off.carrying_band));
+  const SceneSettings on = settings_with({"--ways-out", "--carrying", "4", "--carrying-band", "0.25"});
+  CHECK((on.ways_out && on.carrying == 4 && on.carrying_band == 0.25));
 }
 
 #if GRAZE_HAS_STUDIES

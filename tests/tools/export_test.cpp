@@ -64,7 +64,7 @@ TEST_CASE("graze export writes all files of the wanted frames") {
   const std::string contacts = read_file(run.in("c.csv"));
   CHECK_THAT(contacts, Contains("\n11,12,0,1,sheet,spike,VF,"));
   // The contact began in frame 9, before the wanted ones.
-  CHECK_THAT(contacts, Contains(",9,0,0,0,1\n14,15,0,1,sheet,spike,"));
+  CHECK_THAT(contacts, Contains(",9,0,0,0,1,false\n14,15,0,1,sheet,spike,"));
   for (const int frame : {11, 12, 13, 14})
     for (const std::string part : {"surfaces", "contacts", "lines"})
       CHECK(std::filesystem::exists(run.in("p/" + part + "_0000" + std::to_string(frame) + ".vtp")));

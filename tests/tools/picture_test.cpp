@@ -70,6 +70,10 @@ bool is_red(const std::array<int, 3>& c) {
   return c[0] > 200 && c[1] < 100;
 }
 
+bool is_purple(const std::array<int, 3>& c) {
+  return c[0] > c[1] + 60 && c[2] > c[1] + 60;
+}
+
 int count(const Image& image, bool (*matches)(const std::array<int, 3>&)) {
   int found = 0;
   for (int y = 0; y < image.height; ++y)
@@ -123,6 +127,29 @@ TEST_CASE("contacts and distances are marked where they are") {
   const Image with_line = draw(scene);
   for (const int x : {80, 90, 100, 110, 120}) CHECK(with_line.at(x, 50) != without.at(x, 50));
   CHECK(with_line.at(100, 30) == without.at(100, 30));
+}
+
+TEST_CASE(
+    "a way out is an arrow from its point along its direction, as long as it is thick, and never too short "
+    "to be seen") {
+  PictureScene scene{.objects = {square({0, 0, 0}, 3)}};
+  const Image without = draw(scene);
+  CHECK(count(without, is_purple) == 0);
+  // How far the arrow reaches to the right and to the left of the middle, in pixels. 6 units are about 90.
+  const auto reach = [&](const graze::WayOut& way) {
+    scene.ways_out = {way};
+    const Image image = draw(scene);
+    int right = -1;
+    int left = -1;
+    for (int x = 0; x < image.width; ++x)
+      if (image.at(x, 50) != without.at(x, 50)) (x > 100 ? right : left) = std::abs(x - 100);
+    return std::array{left, right, count(image, is_purple)};
+  };
+  const auto [left, right, purple] = reach({{1, 0, 0}, {0, -0.01, 0}, 1, 2, 4});
+  CHECK((left < 4 && right > 26 && right < 36 && purple > 60));
+  const auto [thin_left, thin_right, thin_purple] = reach({{1, 0, 0}, {0, -0.01, 0}, 1, 1e-9, 4});
+  CHECK((thin_left < 4 && thin_right > 5 && thin_right < 20 && thin_purple > 10));
+  CHECK(reach({Vector3d::Zero(), {0, -0.01, 0}, 0.05, 0, 0}) == std::array{-1, -1, 0});
 }
 
 TEST_CASE("faces that are not finite are left out; a scene of nothing else is refused") {

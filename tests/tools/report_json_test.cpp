@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "io/marked_report.hpp"
 #include "support/catch.hpp"
 #include "tools/temporary_folder.hpp"
 
@@ -122,12 +123,17 @@ void check_pair(const ReportedPair& read, const graze::FrameReport& report, cons
   CHECK(same_bits(read.witness.point_b, pair.witness.point_b));
   check_edge(pair.witness.feature_a, read.witness_edge_a, mesh_a);
   check_edge(pair.witness.feature_b, read.witness_edge_b, mesh_b);
+  const graze::WayOut& way = pair.way_out;
+  CHECK((same_bits(read.way_out.direction, way.direction) && same_bits(read.way_out.point, way.point)));
+  CHECK((same_bits(read.way_out.fullness, way.fullness) && same_bits(read.way_out.thickness, way.thickness) &&
+         same_bits(read.way_out.extent, way.extent)));
   const auto contacts = report.contacts(pair);
   REQUIRE(read.contacts.size() == contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const graze::Contact& contact = contacts[i];
     const graze::Contact& back = read.contacts[i].contact;
     CHECK((back.kind == contact.kind && back.side_a == contact.side_a && back.side_b == contact.side_b));
+    CHECK((back.sunk == contact.sunk && same_bits(back.separation(), contact.separation())));
     CHECK((back.feature_a == contact.feature_a && back.feature_b == contact.feature_b));
     CHECK((same_bits(back.point_a, contact.point_a) && same_bits(back.point_b, contact.point_b)));
     CHECK((same_bits(back.normal, contact.normal) && same_bits(back.distance, contact.distance)));
@@ -329,6 +335,37 @@ TEST_CASE("a report that is read back has the same bits, at every scale") {
   }
 }
 
+TEST_CASE(
+    "a report keeps contacts that are sunk and ways out, and says nothing of them where there are none") {
+  const TemporaryFolder folder;
+  CrumpledSheets sheets(1, 3);
+  const graze::FrameReport plain = *sheets.step();
+  const graze::FrameReport marked = graze::tests::marked_report(plain);
+  REQUIRE(graze::tests::sunk_count(marked) > 3);
+  const auto text_of = [&](const graze::FrameReport& report, const ReportWriter::Options& options) {
+    ReportWriter writer(folder / "r.jsonl", sheets.objects(), sheets.settings(), options);
+    writer.write(0, report);
+    writer.close();
+    return graze::tests::read_file(folder / "r.jsonl");
+  };
+  for (const bool has_contacts : {true, false}) {
+    const std::string text = text_of(marked, {.include_contacts = has_contacts});
+    CHECK((text.find("\"sunk\":true") != std::string::npos) == has_contacts);
+    ReportReader reader(folder / "r.jsonl");
+    const auto read = reader.next();
+    REQUIRE((read && read->pairs.size() == marked.pairs().size()));
+    for (std::size_t i = 0; has_contacts && i < read->pairs.size(); ++i)
+      check_pair(read->pairs[i], marked, marked.pairs()[i], sheets.objects());
+    CHECK(same_bits(read->pairs[0].way_out.extent, marked.pairs()[0].way_out.extent));
+    CHECK(same_bits(read->pairs[1].way_out.point, marked.pairs()[1].way_out.point));
+  }
+  const std::string text = text_of(plain, {});
+  for (const char* word : {"sunk", "way_out", "ways_out", "carrying"}) {
+    INFO(word);
+    CHECK(text.find(word) == std::string::npos);
+  }
+}
+
 TEST_CASE("since counts in the frames of the file, which may begin at any number") {
   const TemporaryFolder folder;
   for (const std::uint64_t first : {0U, 1U, 5U}) {
@@ -389,6 +426,9 @@ TEST_CASE("settings of every accuracy are kept") {
     settings.time_budget = std::chrono::microseconds(34);
     settings.max_contacts = 56;
     settings.max_contacts_per_pair = 7;
+    settings.ways_out = true;
+    settings.carrying = 4;
+    settings.carrying_band = 0.1;
     ReportWriter(folder / "r.jsonl", {}, settings).close();
     const ReportReader reader(folder / "r.jsonl");
     CHECK(reader.settings().accuracy.mode() == accuracy.mode());
@@ -400,6 +440,9 @@ TEST_CASE("settings of every accuracy are kept") {
     CHECK(reader.settings().time_budget == settings.time_budget);
     CHECK(reader.settings().max_contacts == settings.max_contacts);
     CHECK(reader.settings().max_contacts_per_pair == settings.max_contacts_per_pair);
+    CHECK(reader.settings().ways_out);
+    CHECK(reader.settings().carrying == settings.carrying);
+    CHECK(reader.settings().carrying_band == settings.carrying_band);
   }
 }
 

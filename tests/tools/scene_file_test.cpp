@@ -100,6 +100,12 @@ const std::vector<BadScene> bad_scenes = {
     {scene_with(R"("max_contacts": 0)", ""), "max_contacts: expected a whole number from 1 to"},
     {scene_with(R"("max_contacts_per_pair": 1.5)", ""),
      "max_contacts_per_pair: expected a whole number from 1 to"},
+    {scene_with(R"("ways_out": 1)", ""), "ways_out: expected true or false, got 1"},
+    {scene_with(R"("carrying": -4)", ""), "carrying: expected a whole number from 0 to 4294967295, got -4"},
+    {scene_with(R"("carrying_band": -1)", ""),
+     "carrying_band: expected a number that is not negative, got -1"},
+    {scene_with(R"("carrying_band": "infinity")", ""),
+     "carrying_band: expected a number that is not negative"},
     {scene_with(R"("up": "w")", ""), R"(up: expected an axis that points up, got "w"; write x, y or z)"},
     {scene_with("", R"("unit": "furlong")"), R"(objects[0].unit: expected a unit of length, got "furlong")"},
     {scene_with("", R"("unit": 0)"), "objects[0].unit: expected a number above 0, got 0"},
@@ -159,6 +165,10 @@ const std::vector<BadScene> bad_scenes = {
     {scene_with("", R"("face_groups": 3)"), "objects[0].face_groups: expected an array, got 3"},
     {scene_with("", R"("face_groups": [0, -1])"),
      "objects[0].face_groups[1]: expected a whole number from 0 to 255"},
+    {scene_with("", R"("hidden_groups": 3)"),
+     "objects[0].hidden_groups: expected an array, got 3; write the groups that are hidden"},
+    {scene_with("", R"("hidden_groups": [7, 256])"),
+     "objects[0].hidden_groups[1]: expected a whole number from 0 to 255, got 256"},
 };
 
 }  // namespace
@@ -181,12 +191,12 @@ TEST_CASE("a scene file with every key is read as it says") {
   const TemporaryFolder folder;
   const auto path = folder.write("scene.json", R"({
     "graze": 1, "contact_distance": 0.02, "range": "infinity", "detail": "regions",
-    "accuracy": {"paper": [24, 14, 8.5]}, "frames": 300, "frames_per_second": 60,
+    "accuracy": {"paper": [24, 14, 8.5]}, "ways_out": true, "carrying": 4, "carrying_band": 0.01, "frames": 300, "frames_per_second": 60,
     "objects": [
       {"name": "liver", "mesh": "meshes/liver.obj", "node": 2, "positions": "liver_####.ply",
        "transform": {"translate": [1, 2, 3], "rotate_degrees": [10, 20, 30], "scale": 0.5}},
       {"name": "tool", "mesh": "/tools/tool.stl", "node": "blade", "motion": "rigid", "layer": 4,
-       "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
+       "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "hidden_groups": [7, 255], "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
        "poses": [{"frame": 0}, {"frame": 100, "translate": [0, 0, 0]}, {"frame": 101, "rotate_degrees": [1, 2, 3]}]},
       {"mesh": "fox.glb", "animation": "Run"},
       {"mesh": "floor.obj", "motion": "fixed"}],
@@ -199,6 +209,7 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(scene.settings.detail == graze::ContactDetail::regions);
   CHECK(scene.settings.accuracy.mode() == graze::AccuracyMode::paper);
   CHECK(scene.settings.accuracy.epsilon() == std::vector<double>{24, 14, 8.5});
+  CHECK((scene.settings.ways_out && scene.settings.carrying == 4 && scene.settings.carrying_band == 0.01));
   CHECK(scene.frames == 300U);
   CHECK(scene.frames_per_second == 60);
 
@@ -222,6 +233,7 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK((tool.layer == 4 && tool.collides_with == 3 && tool.group == 9 && tool.margin == 0.001 &&
          tool.solid && tool.kind == 255));
   CHECK(tool.face_groups == std::vector<std::uint8_t>{0, 255, 7});
+  CHECK(tool.hidden_groups == std::vector<std::uint8_t>{7, 255});
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's
   CHECK(tool.poses[0].translate == Eigen::Vector3d(0, 0, 1));
   CHECK(tool.poses[0].rotation == rotation_from_degrees({0, 90, 0}));
@@ -256,6 +268,8 @@ TEST_CASE("what a scene file leaves out has its default") {
   CHECK((scene.settings.contact_distance == 0 && scene.settings.range == 0));
   CHECK(scene.settings.detail == graze::ContactDetail::features);
   CHECK(scene.settings.accuracy.mode() == graze::AccuracyMode::exact);
+  CHECK((!scene.settings.ways_out && scene.settings.carrying == 0 && !scene.settings.carrying_band));
+  CHECK(scene.objects[0].hidden_groups.empty());
   CHECK((!scene.frames && scene.frames_per_second == 30));
   CHECK(scene.objects[0].motion == graze::Motion::rigid);
   CHECK((scene.objects[0].name.empty() && !scene.objects[0].node && scene.objects[0].positions.empty()));

@@ -237,7 +237,7 @@ const INSIDES = ['none', 'a_in_b', 'b_in_a', 'crossing'];
 const PHASES = { near: 0, began: 1, touching: 2, ended: 3 };
 const KINDS = { VV: 0, VE: 1, VF: 2, EE: 3, EF: 4, FF: 5 };
 
-/// Data of before pages knew of solids has no `pair_inside`.
+/// Data of before pages knew of solids has no `pair_inside`. Data of version 1 says of no contact that it is sunk.
 function reportTable(reports, first, end, isOld) {
   const a = {
     frame_pair_begin: ['u32', []], frame_pair_end: ['u32', []],
@@ -248,6 +248,8 @@ function reportTable(reports, first, end, isOld) {
     contact_kind: ['u8', []], contact_sides: ['u8', []], contact_features: ['u32', []], contact_points: ['f64', []],
     contact_normal: ['f64', []], contact_distance: ['f64', []], contact_since: ['u32', []],
     region_levels: ['u32', []], region_ids: ['u32', []], region_points: ['f64', []], region_distance: ['f64', []],
+    way_pair: ['u32', []], way_direction: ['f64', []], way_point: ['f64', []], way_fullness: ['f64', []],
+    way_thickness: ['f64', []], way_extent: ['f64', []],
   };
   const put = (name, ...values) => a[name][1].push(...values);
   const size = (name) => a[name][1].length;
@@ -262,6 +264,10 @@ function reportTable(reports, first, end, isOld) {
       put('pair_phase', PHASES[pair.phase]);
       put('pair_flags', (pair.incomplete ? 1 : 0) | (pair.stale ? 2 : 0) | (pair.contacts_cut ? 4 : 0));
       put('pair_inside', INSIDES.indexOf(pair.inside));
+      if (pair.way_out) {
+        put('way_pair', size('pair_a') - 1);
+        for (const [name, value] of Object.entries(pair.way_out)) put(`way_${name}`, ...[value].flat());
+      }
       put('pair_lower', pair.lower);
       put('pair_upper', pair.upper);
       put('witness_features', ...pair.witness.features);
@@ -269,7 +275,7 @@ function reportTable(reports, first, end, isOld) {
       put('pair_contact_begin', size('contact_kind'));
       for (const c of pair.contacts) {
         put('contact_kind', KINDS[c.kind]);
-        put('contact_sides', c.side_a + 4 * c.side_b);
+        put('contact_sides', c.side_a + 4 * c.side_b + (c.sunk && !isOld ? 16 : 0));
         put('contact_features', ...c.features);
         put('contact_points', ...c.points);
         put('contact_normal', ...c.normal);
@@ -291,6 +297,7 @@ function reportTable(reports, first, end, isOld) {
     info.push(report.info);
   }
   if (isOld) delete a.pair_inside;
+  if (isOld || size('way_pair') === 0) for (const name of Object.keys(a)) if (name.startsWith('way_')) delete a[name];
   return tableBytes({ diagnostics, frames_info: info }, a);
 }
 
@@ -362,7 +369,8 @@ function nearVertices(a, b, reach) {
 const KIND_CYCLE = ['VF', 'VF', 'EE', 'VE', 'VF', 'EF', 'VV', 'FF', 'EE'];
 const FEATURES_OF_KIND = { VV: [0, 0], VE: [0, 1], VF: [2, 0], EE: [1, 1], EF: [1, 2], FF: [2, 2] };
 
-/// A contact at two vertices. Its kind, features and sides go round, so that a page has all of them.
+/// A contact at two vertices. Its kind, features and sides go round, so that a page has all of them. Each other EF is an edge
+/// that pierces.
 function contactAt(scene, a, b, near, pa, pb, frameNumber, ages) {
   const kind = KIND_CYCLE[(near.va * 7 + near.vb) % KIND_CYCLE.length];
   const [ka, kb] = FEATURES_OF_KIND[kind];
@@ -373,14 +381,18 @@ function contactAt(scene, a, b, near, pa, pb, frameNumber, ages) {
   const features = [ka, limit(a, ka, near.va), kb, limit(b, kb, near.vb)];
   const points = [pa[3 * near.va], pa[3 * near.va + 1], pa[3 * near.va + 2],
                   pb[3 * near.vb], pb[3 * near.vb + 1], pb[3 * near.vb + 2]];
+  if (kind === 'EF' && near.va % 2 === 0) points.splice(3, 3, ...points.slice(0, 3));
   const away = sub(points.slice(3), points.slice(0, 3));
   const distance = length(away);
   const normal = distance > 0 ? away.map((x) => x / distance) : [0, 0, 1];
   const key = [a, b, kind, ...features].join();
   const since = ages.before.get(key) ?? frameNumber;
   ages.now.set(key, since);
-  return { kind, features, points, normal, distance, since, side_a: [1, 1, 2, 1, 0][near.va % 5],
-           side_b: [1, 1, 2, 0][near.vb % 4] };
+  const areBehind = kind === 'EE' && distance > 0 && near.va % 3 === 0;
+  const side_a = areBehind ? 2 : [1, 1, 2, 1, 0][near.va % 5];
+  const side_b = areBehind ? 2 : [1, 1, 2, 0][near.vb % 4];
+  const sunk = areBehind && near.va % 2 === 0;
+  return { kind, features, points, normal, distance, since, side_a, side_b, sunk };
 }
 
 /// The children of each region; a leaf is its own child.
@@ -445,7 +457,7 @@ export function makeReports(scene) {
       const first = near[0] ?? { va: 0, vb: 0, distance: scene.range };
       const points = [0, 1, 2].map((k) => (pa ?? pb)[3 * first.va + k]).concat([0, 1, 2].map((k) => (pb ?? pa)[3 * first.vb + k]));
       pairs.push({
-        a, b, phase, ...scene.flags(f, a, b), inside: scene.inside(f, a, b),
+        a, b, phase, ...scene.flags(f, a, b), inside: scene.inside(f, a, b), way_out: scene.wayOut(f, a, b),
         lower: first.distance, upper: first.distance * (1 + 2 ** -52),
         witness: { features: [0, first.va, 0, first.vb], points },
         contacts: list.map((n) => contactAt(scene, a, b, n, pa, pb, frameNumber, ages)),
@@ -504,7 +516,7 @@ function finish(scene) {
     o.last ??= scene.frames - 1;
     o.serial = o.serial ?? i + 3;
   });
-  return { every: 2, origin: [-4, -4, -1], flags: () => ({}), inside: () => 'none', diagnostics: () => [], diverged: undefined, block: BLOCK,
+  return { every: 2, origin: [-4, -4, -1], flags: () => ({}), inside: () => 'none', wayOut: () => null, diagnostics: () => [], diverged: undefined, block: BLOCK,
            mostContacts: 400, linesPerLevel: 5, lineLevels: 3, ...scene };
 }
 
@@ -543,6 +555,12 @@ export function smallScene() {
     flags: (f, a, b) => ({ stale: f >= 40 && f <= 42 && b === 4, incomplete: f === 60 && b === 1,
                            contacts_cut: f === 61 && b === 1 }),
     inside: (f, a, b) => (a === 1 && b === 4 && { 52: 'crossing', 53: 'a_in_b', 54: 'b_in_a' }[f]) || 'none',
+    // A way out at any place, one that is too thin to be seen, and a contour without a direction.
+    wayOut: (f, a, b) => (a === 1 && b === 4 && {
+      51: { direction: [0, 0, 1], point: [-0.7, 0.3, 1.25], fullness: 1, thickness: 1e-9, extent: 0.5 },
+      52: { direction: [0.6, 0, 0.8], point: [-0.7, 0.3, 1.2], fullness: 0.625, thickness: 0.75, extent: 1.25 },
+      53: { direction: [0, 0, 0], point: [-0.7, 0.3, 1.2], fullness: 0.0625, thickness: 0, extent: 0 },
+    }[f]) || null,
     diagnostics: (f) => (f >= 40 && f <= 42
       ? [{ object: 4, kind: 'not_finite', message: 'vertex 400 is not finite' }]
       : f === 44 ? [{ object: 4, kind: 'not_finite', message: 'vertex 0 is not finite' }]
@@ -597,7 +615,7 @@ export function makePage(scene, level = 6) {
   const reports = makeReports(scene);
   const meshes = [...new Set(scene.objects.map((o) => o.mesh))];
   const head = {
-    version: 1, graze: '0.2.0', title: scene.title, source: 'synthetic.json',
+    version: scene.isOld ? 1 : 2, graze: '0.2.0', title: scene.title, source: 'synthetic.json',
     settings: { contact_distance: scene.contactDistance, range: scene.range, detail: 'features', accuracy: scene.accuracy ?? 'exact' },
     frames: scene.frames, frame_numbers: reports.map((r) => r.info.frame), every: scene.every,
     source_frames: scene.frames * scene.every, block: scene.block,

@@ -13,7 +13,7 @@ const objText = (mesh) => [
 const along = (from, to) => [{ frame: 0, translate: from }, { frame: 24, translate: to }];
 
 const scene = {
-  graze: 1, contact_distance: 0.2, range: 1, detail: 'nearest',
+  graze: 1, contact_distance: 0.2, range: 1, detail: 'nearest', ways_out: true,
   objects: [
     { name: 'pebble', mesh: 'ball.obj', solid: true, poses: along([-2.4, 0.1, 0.2], [-0.3, 0.15, 0.2]) },
     { name: 'crate', mesh: 'crate.obj', solid: true, motion: 'fixed' },

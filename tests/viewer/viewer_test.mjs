@@ -187,7 +187,7 @@ async function checkLines(page, made) {
     const on = (await drawn(page)).lines[level] ?? 0;
     check(`lines of level ${level} on and off`, on === wanted && off === 0 && changed > 20, `${on} lines, ${changed} pixels`);
   }
-  for (const [key, name, what] of [['w', 'faces', 500], ['e', 'edges', 200], ['k', 'contacts', 100], ['m', 'arrows', 50],
+  for (const [key, name, what] of [['w', 'faces', 500], ['e', 'edges', 200], ['k', 'contacts', 100], ['m', 'arrows', 50], ['s', 'ways out', 50],
     ['d', 'witnesses', 5], ['c', 'the clip plane', 500], ['r', 'transparency', 500]]) {
     const before = await pixelsOf(page);
     await page.keyboard.press(key);
@@ -251,9 +251,11 @@ async function checkNumbers(page, made) {
         `contact:${serials.join(':')}:${contact.kind}:${kinds[ka]}.${ia}:${kinds[kb]}.${ib}`);
       const { selection } = await inspect(page);
       const twins = pair.contacts.filter((c) => c.kind === contact.kind && c.features.join() === contact.features.join());
-      const got = JSON.stringify([selection.distance, selection.point_a, selection.point_b, selection.normal, selection.since]);
+      const got = JSON.stringify([
+        selection.distance, selection.point_a, selection.point_b, selection.normal, selection.since, selection.sunk]);
       ++compared;
-      if (!twins.some((c) => got === JSON.stringify([c.distance, c.points.slice(0, 3), c.points.slice(3), c.normal, c.since]))) ++wrong;
+      if (!twins.some((c) => got === JSON.stringify([
+        c.distance, c.points.slice(0, 3), c.points.slice(3), c.normal, c.since, c.kind === 'EE' ? c.sunk : undefined]))) ++wrong;
     }
     check(`numbers of frame ${frame} to the last digit`, wrong === 0 && compared > 5, `${compared} compared, ${wrong} wrong`);
   }
@@ -325,15 +327,83 @@ async function checkInside(page, made) {
   await page.evaluate(() => window.graze.select(null));
 }
 
-/** Data of before pages knew of solids. */
+/** What a page shows of pairs whose surfaces pass through each other. */
+async function checkWaysOut(page, made) {
+  const wayOf = (frame) => made.reports[frame].pairs.find((pair) => pair.a === 1 && pair.b === 4).way_out;
+  for (const frame of [51, 52, 53, 54]) {
+    await goTo(page, frame);
+    await page.evaluate(() => window.graze.select('pair:4:90'));
+    const way = wayOf(frame);
+    same(`the numbers of a way out, frame ${frame}`, (await inspect(page)).selection.way_out ?? null, way);
+    const hasArrow = way !== null && way.direction.some((x) => x !== 0);
+    const arrows = await page.evaluate(() => window.graze.waysOut());
+    const legend = await page.locator('[data-testid=ways]').allTextContents();
+    same('it has an arrow and a legend where it has a direction', [arrows.length, legend], hasArrow ? [1, ['way out1']] : [0, []]);
+    if (!hasArrow) continue;
+    const { from, to } = arrows[0];
+    const length = Math.hypot(...to.map((x, k) => x - from[k]));
+    const leads = from.every((x, k) => Math.abs(x - way.point[k]) < 1e-6 && Math.abs((to[k] - x) / length - way.direction[k]) < 1e-6);
+    const isLong = way.thickness > 0.1 ? Math.abs(length - way.thickness) < 1e-6 : length > 0.03;
+    check('it leads from its point along its direction, long enough to be seen', leads && isLong, `${length}`);
+  }
+  await goTo(page, 52);
+  await press(page, 'ways');
+  const off = (await drawn(page)).ways;
+  await press(page, 'ways');
+  same('the legend switches ways out', [off, (await drawn(page)).ways], [0, 1]);
+  await checkPickedWay(page);
+  await page.evaluate(() => window.graze.select(null));
+}
+
+/** A click on the arrow of a way out selects its pair. */
+async function checkPickedWay(page) {
+  await page.evaluate(() => window.graze.select(null));
+  await press(page, 'pick-pair');
+  const box = await page.locator('[data-testid=view]').boundingBox();
+  const places = await page.evaluate(() => window.graze.wayPlaces());
+  await page.mouse.click(box.x + places[0].x, box.y + places[0].y);
+  same('a click on its arrow selects the pair', (await drawn(page)).selection, 'pair:4:90');
+  await press(page, 'pick-auto');
+}
+
+/** Edges that pierce carry nothing. Two edges say whether they are sunk. */
+async function checkPushes(page, made) {
+  await goTo(page, 52);
+  const contacts = contactsOf(made.reports[52]);
+  const pierces = ({ kind, distance }) => kind === 'EF' && distance === 0;
+  const { contacts: count, arrows } = await drawn(page);
+  const without = contacts.filter(({ contact }) => pierces(contact)).length;
+  same('contacts have arrows, but for edges that pierce', [count, arrows, without > 0],
+    [contacts.length, contacts.length - without, true]);
+  const edges = contacts.filter(({ contact }) => contact.kind === 'EE' && contact.side_a === 2 && contact.side_b === 2);
+  const wrong = [];
+  for (const { pair, contact } of edges) {
+    await page.evaluate((s) => window.graze.select(s),
+      { type: 'contact', a: pair.a, b: pair.b, kind: 3, features: contact.features });
+    const { selection } = await inspect(page);
+    const sign = contact.sunk ? -1 : 1;
+    const wanted = [contact.sunk, sign * contact.distance, contact.normal.map((x) => sign * x)];
+    if (JSON.stringify([selection.sunk, selection.separation, selection.push]) !== JSON.stringify(wanted)) wrong.push(contact.features);
+  }
+  same('edges behind each other are deep where they are sunk', [edges.some(({ contact }) => contact.sunk),
+    edges.some(({ contact }) => !contact.sunk), wrong], [true, true, []]);
+  await page.evaluate(() => window.graze.select(null));
+}
+
+/** Data of before pages knew of solids, sunk edges and ways out. */
 async function checkOldData() {
-  const { chunks } = makePage({ ...smallScene(), isOld: true });
-  const page = await open(write('old.html', pageHtml(template, chunks)));
+  const made = makePage({ ...smallScene(), isOld: true });
+  const page = await open(write('old.html', pageHtml(template, made.chunks)));
   await goTo(page, 52);
   await page.evaluate(() => window.graze.select('pair:4:90'));
   const { selection } = await inspect(page);
   const signs = await page.locator('[data-testid^=inside-]').count();
   same('older data says nothing of solids', [selection.listed, 'inside' in selection, signs, page.errors], [true, false, 0, []]);
+  same('nor of ways out', ['way_out' in selection, (await drawn(page)).ways], [false, 0]);
+  const { pair, contact } = contactsOf(made.reports[52]).find((c) =>
+    c.contact.kind === 'EE' && c.contact.side_a === 2 && c.contact.side_b === 2 && !c.contact.sunk);
+  await page.evaluate((s) => window.graze.select(s), { type: 'contact', a: pair.a, b: pair.b, kind: 3, features: contact.features });
+  same('there, edges behind each other are deep', (await inspect(page)).selection.separation, -contact.distance);
   await page.close();
 }
 
@@ -423,7 +493,7 @@ const OTHER_KEYS = [
   [' '], [' '], [','], ['.'], ['['], [']'], ['Shift+r'], ['Shift+r'], ['t'], ['t'],
   ['f', 'pair:4:90'], ['a'], ['Shift+ArrowLeft'], ['Shift+ArrowRight'], ['Shift+ArrowUp'], ['Shift+ArrowDown'],
   ['Alt+ArrowLeft'], ['Alt+ArrowRight'], ['Alt+ArrowUp'], ['Alt+ArrowDown'], ['+'], ['='], ['-'], ['_'], ['u'], ['u'], ['a'],
-  ['w'], ['w'], ['e'], ['e'], ['r'], ['r'], ['c'], ['Shift+c'], ['<'], ['>'], ['c'], ['k'], ['k'], ['m'], ['m'],
+  ['w'], ['w'], ['e'], ['e'], ['r'], ['r'], ['c'], ['Shift+c'], ['<'], ['>'], ['c'], ['k'], ['k'], ['m'], ['m'], ['s'], ['s'],
   ['o', 'pair:4:90'], ['x'], ['l'], ['l'], ...[1, 2, 3, 4, 9, 1, 2, 3, 4, 9].map((level) => [`Alt+${level}`]),
   ['d'], ['d'], ['b'], ['Shift+b'], ['b'], ['b'], ['n'], ['n'], ['i', 'object:4'], ['i'], ['h', 'object:4'], ['i'],
   ['1'], ['3'], ['2'], ['ArrowDown'], ['j'], ['j'], ['ArrowUp'], ['Shift+j'], ['Escape'], ['/'], ['Escape'], ['p'], ['v'], ['v'],
@@ -581,8 +651,10 @@ async function checkAgainstReport(path, reportPath) {
       await page.evaluate((s) => window.graze.select(s), { type: 'pair', a: pair.a, b: pair.b });
       const { selection } = await inspect(page);
       ++compared;
-      const got = [selection.phase, selection.lower, selection.upper, selection.witness_a, selection.point_a, selection.point_b, selection.contacts];
-      const wanted = [pair.phase, ...pair.distance, pair.witness.a, pair.witness.point_a, pair.witness.point_b, (pair.contacts ?? []).length];
+      const got = [selection.phase, selection.lower, selection.upper, selection.witness_a, selection.point_a, selection.point_b, selection.contacts,
+        selection.way_out];
+      const wanted = [pair.phase, ...pair.distance, pair.witness.a, pair.witness.point_a, pair.witness.point_b,
+        (pair.contacts ?? []).length, pair.way_out];
       if (JSON.stringify(got) !== JSON.stringify(wanted)) ++wrong;
       for (const c of (pair.contacts ?? []).slice(0, 20)) {
         const feature = ([kind, index]) => [['vertex', 'edge', 'face'].indexOf(kind), index];
@@ -591,8 +663,8 @@ async function checkAgainstReport(path, reportPath) {
           features: [...feature(c.a), ...feature(c.b)] });
         const shown = (await inspect(page)).selection;
         ++compared;
-        const gotContact = [shown.feature_a, shown.feature_b, shown.distance, shown.point_a, shown.point_b, shown.normal, shown.side_a, shown.side_b, shown.since];
-        const wantedContact = [c.a, c.b, c.distance, c.point_a, c.point_b, c.normal, ...c.side, c.since];
+        const gotContact = [shown.feature_a, shown.feature_b, shown.distance, shown.point_a, shown.point_b, shown.normal, shown.side_a, shown.side_b, shown.since, shown.sunk ?? false];
+        const wantedContact = [c.a, c.b, c.distance, c.point_a, c.point_b, c.normal, ...c.side, c.since, c.sunk ?? false];
         if (JSON.stringify(gotContact) !== JSON.stringify(wantedContact)) ++wrong;
       }
     }
@@ -619,6 +691,13 @@ function insideSentence({ inside, name_a: a, name_b: b }) {
   return inside === 'crossing' ? `${a} and ${b} cross` : `Neither of ${a} and ${b} is inside the other`;
 }
 
+/** The way out in a row of the table; undefined where its cells are empty. */
+function wayOutOf(row) {
+  if (row.way_fullness === '') return undefined;
+  return { direction: pointOf(row, 'way_direction'), point: pointOf(row, 'way_point'), fullness: Number(row.way_fullness),
+           thickness: Number(row.way_thickness), extent: Number(row.way_extent) };
+}
+
 /** Compares what the page says of one row of a report with the table. */
 async function comparePair(page, row) {
   await page.evaluate((s) => window.graze.select(s), `pair:${row.object_a}:${row.object_b}`);
@@ -626,9 +705,9 @@ async function comparePair(page, row) {
   const inside = { a_in_b: [Number(row.object_a)], b_in_a: [Number(row.object_b)] }[row.inside] ?? [];
   const { ghosts } = await drawn(page);
   const got = [selection.phase, selection.lower, selection.upper, selection.inside, selection.contacts,
-    await page.textContent('[data-testid=inside-words]'), inside.every((object) => ghosts.includes(object))];
+    await page.textContent('[data-testid=inside-words]'), inside.every((object) => ghosts.includes(object)), selection.way_out];
   const wanted = [row.phase, Number(row.distance_lower), Number(row.distance_upper), row.inside, Number(row.contacts),
-    insideSentence(row), true];
+    insideSentence(row), true, wayOutOf(row)];
   return JSON.stringify(got) === JSON.stringify(wanted);
 }
 
@@ -638,10 +717,12 @@ async function compareContact(page, row, arrows) {
   await page.evaluate((s) => window.graze.select(s), `contact:${row.object_a}:${row.object_b}:${row.kind}:${features.join(':')}`);
   const { selection } = await inspect(page);
   const push = pointOf(row, 'push');
-  const got = [selection.separation, selection.push, selection.distance, selection.side_a, selection.side_b];
-  const wanted = [Number(row.separation), push, Number(row.distance), row.side_a, row.side_b];
+  const got = [selection.separation, selection.push, selection.distance, selection.side_a, selection.side_b, String(selection.sunk ?? false)];
+  const wanted = [Number(row.separation), push, Number(row.distance), row.side_a, row.side_b, row.sunk];
   const { a, b, kind, features: numbers } = await page.evaluate(() => window.graze.selection);
   const arrow = arrows.get(`c${a}-${b}-${kind}-${numbers.join('-')}`);
+  const pierces = row.kind === 'EF' && Number(row.distance) === 0;
+  if (pierces) return arrow === undefined && JSON.stringify(got) === JSON.stringify(wanted);
   const way = arrow.to.map((x, k) => x - arrow.from[k]);
   const size = Math.hypot(...way);
   const begin = pointOf(row, 'point_b');
@@ -658,7 +739,7 @@ async function checkAgainstTables(path, contactsPath, rowsPath) {
     await goTo(page, Number(frame));
     const { contacts: count } = await drawn(page);
     const arrows = new Map((await page.evaluate((n) => Array.from({ length: n }, (_, i) => window.graze.arrowOf(i)), count))
-      .map((arrow) => [arrow.key, arrow]));
+      .filter((arrow) => arrow).map((arrow) => [arrow.key, arrow]));
     for (const row of rows.filter((r) => r.frame === frame)) if (!(await comparePair(page, row))) ++wrong.rows;
     for (const row of contacts.filter((r) => r.frame === frame).filter((_, i) => i % 5 === 0)) {
       ++compared;
@@ -700,6 +781,8 @@ try {
     await checkLines(page, made);
     await checkNumbers(page, made);
     await checkInside(page, made);
+    await checkWaysOut(page, made);
+    await checkPushes(page, made);
     await checkMarks(page);
     await checkLayout(page);
     await checkLink(page, path);

@@ -70,7 +70,7 @@ class Simulation {
   }
 
   [[nodiscard]] graze::ContactGeometry evaluate(const graze::Contact& contact, const Points& at) const {
-    return graze::evaluate(*a_.mesh, a_.of(at), contact.feature_a, *b_.mesh, b_.of(at), contact.feature_b);
+    return graze::evaluate(*a_.mesh, a_.of(at), *b_.mesh, b_.of(at), contact);
   }
 
   [[nodiscard]] double barriers(const Points& at) const {

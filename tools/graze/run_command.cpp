@@ -55,6 +55,9 @@ struct RunOptions {
   std::optional<std::string> html;
   std::optional<std::uint32_t> html_every;
   std::optional<std::size_t> region_distances;
+  bool ways_out = false;
+  std::optional<std::size_t> carrying;
+  std::optional<double> carrying_band;
 };
 
 /// `exact`, `within:0.001`, `paper` or `paper:24,14,8`.
@@ -101,6 +104,9 @@ void replace_settings(SceneSettings& settings, const RunOptions& options) {
   if (options.max_contacts) settings.max_contacts = options.max_contacts;
   if (options.max_contacts_per_pair) settings.max_contacts_per_pair = options.max_contacts_per_pair;
   if (options.region_distances) settings.region_distances = *options.region_distances;
+  if (options.ways_out) settings.ways_out = true;
+  if (options.carrying) settings.carrying = *options.carrying;
+  if (options.carrying_band) settings.carrying_band = options.carrying_band;
 }
 
 /// The scene that the files name, with what the command line says in place of what the scene says.
@@ -137,9 +143,11 @@ class PictureChoice {
 
   std::uint32_t draw(const std::filesystem::path& path) {
     scene_.contacts.assign(report_->contacts().begin(), report_->contacts().end());
-    for (const PairReport& pair : report_->pairs())
+    for (const PairReport& pair : report_->pairs()) {
       if (pair.phase == PairPhase::near || pair.phase == PairPhase::ended)
         scene_.distances.push_back({pair.witness.point_a, pair.witness.point_b});
+      scene_.ways_out.push_back(pair.way_out);
+    }
     io::write_picture(path, scene_);
     return frame_;
   }
@@ -338,6 +346,16 @@ void add_run_command(CLI::App& app) {
           "--region-distances", options->region_distances,
           "List at most so many distances between regions a frame, for the page; 0, the default: none")
       ->check(whole_number(0));
+  command->add_flag("--ways-out", options->ways_out,
+                    "Say how objects leave each other whose surfaces pass through each other");
+  command
+      ->add_option("--carrying", options->carrying,
+                   "With nearest, list at most so many contacts of each pair, chosen to carry it; 0: all")
+      ->check(whole_number(0));
+  command
+      ->add_option("--carrying-band", options->carrying_band,
+                   "How much less deep than the deepest they may be; else the threshold of the pair")
+      ->check(real_number(NumberRange::at_least_0));
   command->callback([options] { run(*options); });
 }
 

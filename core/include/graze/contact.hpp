@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bit>
 #include <compare>
 #include <cstdint>
 
@@ -159,13 +160,16 @@ struct Contact {
   /// At distance 0 nothing is behind, so that no separation is -0.
   [[nodiscard]] bool is_behind() const {
     if (kind == ContactKind::EE) return sunk;
-    return distance != 0 && has_negative_separation(
+    return !is_at_zero() && has_negative_separation(
                                 feature_a.kind, feature_b.kind, [&] { return side_a == Side::back; },
                                 [&] { return side_b == Side::back; });
   }
+  /// Whether the distance is 0, by its bits. Where the caller flushes denormals, a comparison would take a
+  /// denormal distance for 0.
+  [[nodiscard]] bool is_at_zero() const { return std::bit_cast<std::uint64_t>(distance) << 1U == 0; }
   /// Whether the normal of a face that an edge pierces leads into its solid.
   [[nodiscard]] bool leads_in() const {
-    if (distance != 0 || kind != ContactKind::EF) return false;
+    if (!is_at_zero() || kind != ContactKind::EF) return false;
     return (feature_a.kind == FeatureKind::face ? side_a : side_b) == Side::back;
   }
 };
@@ -192,9 +196,9 @@ struct Witness {
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
 };
 
-/// A way out of a pair of objects whose surfaces pass through each other. SceneSettings::ways_out asks for it,
-/// and PairReport::way_out has it. Without a way all of it is 0 but #fullness and #point. It is not promised
-/// to be the shortest way.
+/// A way out of a pair of objects whose surfaces pass through each other. SceneSettings::ways_out asks for
+/// it, and PairReport::way_out has it. Without a way all of it is 0 but #fullness and #point. It is not
+/// promised to be the shortest way.
 ///
 /// The contour is where triangles of a and of b cross. It consists of segments p-q, directed along n_a × n_b,
 /// where n_a and n_b are the normals of the two triangles. Where surfaces share a plane, crossings within

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,22 @@
 #include <type_traits>
 
 namespace graze {
+
+/// @cond internal
+/// Returns a number as a double. A conversion of the processor would make 0 of a denormal float where the
+/// caller flushes denormals, so their bits are converted as an integer.
+template <typename Number>
+[[nodiscard]] double exactly_as_double(Number number) {
+  if constexpr (std::same_as<Number, float>) {
+    const auto bits = std::bit_cast<std::uint32_t>(number);
+    if ((bits & 0x7F800000U) == 0) {
+      const double size = static_cast<double>(static_cast<std::int32_t>(bits & 0x7FFFFFU)) * 0x1p-149;
+      return bits >> 31U == 0 ? size : -size;
+    }
+  }
+  return static_cast<double>(number);
+}
+/// @endcond
 
 /// @addtogroup positions
 /// @{
@@ -132,7 +149,7 @@ class PositionView {
     if (form_ == Form::floats) {
       std::array<float, 3> xyz;
       std::memcpy(xyz.data(), point, sizeof xyz);
-      return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+      return {exactly_as_double(xyz[0]), exactly_as_double(xyz[1]), exactly_as_double(xyz[2])};
     }
     return form_ == Form::doubles_apart ? apart<double>(point) : apart<float>(point);
   }
@@ -191,7 +208,7 @@ class PositionView {
       std::memcpy(&coordinate, point, sizeof coordinate);
       point += coordinate_stride_bytes_;
     }
-    return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
+    return {exactly_as_double(xyz[0]), exactly_as_double(xyz[1]), exactly_as_double(xyz[2])};
   }
 
   const void* first_ = nullptr;

@@ -18,8 +18,8 @@ struct SurfacePair {
   const Surface& a;
   const Surface& b;
   DecisionCount& count;
-  TimeLimit* time = nullptr;            ///< null where it may take as long as it does
-  const GroupFilter* groups = nullptr;  ///< null where all features may be looked at
+  TimeLimit* time = nullptr;              ///< null where it may take as long as it does
+  const FeatureFilter* groups = nullptr;  ///< null where all features may be looked at
 
   /// Before so many pieces of work of some hundred nanoseconds each. Throws TimeIsUp.
   void check_time(std::uint32_t pieces = 1) const {

@@ -48,6 +48,12 @@ class EdgePair {
     });
     return excess <= 0;
   }
+  /// Whether an edge and a corner across from it make a triangle that has an area.
+  [[nodiscard]] bool has_area(const Eigen::Vector3d& corner, const Ends& edge) const {
+    return !is_zero(count_, [&]<typename Number>() {
+      return cross(difference<Number>(corner, edge[0]), difference<Number>(edge[1], edge[0]));
+    });
+  }
   [[nodiscard]] const Ends& a() const { return a_; }
   [[nodiscard]] const Ends& b() const { return b_; }
 
@@ -129,10 +135,16 @@ class EdgeSide {
   /// Whether the surface goes on to both sides of the edge in the plane square to the way. Such an edge
   /// bounds nothing, and any tilt would make it lead nearer.
   [[nodiscard]] bool is_within_flat_surface() const {
-    if (is_crease() || any_across([&](std::uint32_t corner) { return lead(corner) != 0; })) return false;
-    const auto faces = surface().mesh().edge_faces(edge_);
-    return pair_.groups == nullptr ||
-           std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) { return may(face); });
+    const IndexedMesh& mesh = surface().mesh();
+    const auto across = mesh.edge_across(edge_);
+    const auto faces = mesh.edge_faces(edge_);
+    return !is_crease() && across.size() >= 2 &&
+           std::all_of(across.begin(), across.end(),
+                       [&](std::uint32_t corner) {
+                         return lead(corner) == 0 && edges_.has_area(surface().position(corner), ends());
+                       }) &&
+           (pair_.groups == nullptr ||
+            std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) { return may(face); }));
   }
   /// Whether `holds` for a corner across the edge in a face that counts. Without groups all faces count, and
   /// none is asked for.

@@ -14,7 +14,7 @@ class TouchingFeatures {
  public:
   /// All edges are in `touching` after `finish`. `pair` has no groups, and `groups` are those that say what
   /// is looked at, or null.
-  TouchingFeatures(const SurfacePair& pair, const GroupFilter* groups, LeafScratch& scratch,
+  TouchingFeatures(const SurfacePair& pair, const FeatureFilter* groups, LeafScratch& scratch,
                    TouchingEdges& touching)
       : pair_(pair), groups_(groups), scratch_(scratch), touching_(touching) {}
 
@@ -27,7 +27,7 @@ class TouchingFeatures {
   [[nodiscard]] bool is_piercing(const FeaturePairKey& key) const;
 
   const SurfacePair& pair_;
-  const GroupFilter* groups_;
+  const FeatureFilter* groups_;
   LeafScratch& scratch_;
   TouchingEdges& touching_;
 };

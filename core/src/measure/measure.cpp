@@ -187,19 +187,22 @@ Contact measure_piercing(const SurfacePair& pair, const FeaturePairKey& key) {
   const Simplex& segment = a_is_segment ? hulls.a : hulls.b;
   const Simplex& triangle = a_is_segment ? hulls.b : hulls.a;
   Contact contact = named(key);
-  contact.point_a =
-      PointRounder(pair.count, extent(segment, triangle) * allowed_error)
-          .round(segment.point[0], [&]<typename Number>() -> Fraction<Number> {
-            bool unsure = false;  // either sign gives the same fraction
-            const auto way = crossing_parameter<Number>(segment, triangle, unsure);
-            return {difference<Number>(segment.point[1], segment.point[0]) * way.numerator, way.denominator};
-          });
+  contact.point_a = crossing_point(segment, triangle, pair.count);
   contact.point_b = contact.point_a;
   contact.normal = touching_normal(pair.a, key.a(), pair.b, key.b(), pair.count);
   return contact;
 }
 
 }  // namespace
+
+Eigen::Vector3d crossing_point(const Simplex& segment, const Simplex& triangle, DecisionCount& count) {
+  return PointRounder(count, extent(segment, triangle) * allowed_error)
+      .round(segment.point[0], [&]<typename Number>() -> Fraction<Number> {
+        bool unsure = false;  // either sign gives the same fraction
+        const auto way = crossing_parameter<Number>(segment, triangle, unsure);
+        return {difference<Number>(segment.point[1], segment.point[0]) * way.numerator, way.denominator};
+      });
+}
 
 Contact measure_without_sides(const SurfacePair& pair, const FeaturePairKey& key) {
   if (key.meeting() == Meeting::pierced) return measure_piercing(pair, key);

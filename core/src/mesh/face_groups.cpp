@@ -1,6 +1,7 @@
 #include "core/mesh/face_groups.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/bytes_of.hpp"
 
@@ -26,20 +27,30 @@ class FaceGroups::Numbering {
   std::unordered_map<GroupSet, std::uint32_t> number_;
 };
 
-FaceGroups::FaceGroups(const IndexedMesh& mesh, std::span<const std::uint8_t> group_of_face) {
+FaceGroups::FaceGroups(const IndexedMesh& mesh, std::span<const std::uint8_t> group_of_face,
+                       std::span<const std::uint8_t> hidden) {
+  GroupSet are_hidden;
+  for (const std::uint8_t group : hidden) are_hidden.set(group);
   Numbering numbering(sets_);
-  add_faces(mesh, group_of_face, numbering);
+  add_faces(mesh, group_of_face, are_hidden, numbering);
   add_regions(mesh.regions(), numbering);
+  for (const GroupSet& set : sets_) partners_.push_back(set.none() ? set : ~GroupSet());
 }
 
-/// Adds each face's group to its corners and edges.
+/// Adds each face's group to its corners and edges, unless the group is hidden.
 void FaceGroups::add_faces(const IndexedMesh& mesh, std::span<const std::uint8_t> group_of_face,
-                           Numbering& numbering) {
+                           const GroupSet& hidden, Numbering& numbering) {
   vertices_.assign(mesh.vertex_count(), 0);
   edges_.assign(mesh.edge_count(), 0);
-  faces_.resize(mesh.face_count());
+  faces_.assign(mesh.face_count(), 0);
+  bool sees_some = false;
   for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-    const std::uint8_t group = group_of_face[face];
+    const std::uint8_t group = group_of_face.empty() ? 0 : group_of_face[face];
+    if (hidden.test(group)) {
+      hides_some_ = true;
+      continue;
+    }
+    if (!std::exchange(sees_some, true)) first_seen_face_ = face;
     faces_[face] = numbering.with(0, group);
     for (const std::uint32_t corner : mesh.face(face))
       vertices_[corner] = numbering.with(vertices_[corner], group);
@@ -73,7 +84,8 @@ std::uint32_t FaceGroups::first_face_of(std::size_t group) const {
 }
 
 std::size_t FaceGroups::byte_count() const {
-  return bytes_of(sets_) + bytes_of(vertices_) + bytes_of(edges_) + bytes_of(faces_) + bytes_of(regions_);
+  return bytes_of(sets_) + bytes_of(partners_) + bytes_of(vertices_) + bytes_of(edges_) + bytes_of(faces_) +
+         bytes_of(regions_);
 }
 
 }  // namespace graze

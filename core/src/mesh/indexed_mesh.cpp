@@ -279,7 +279,7 @@ void IndexedMesh::prepare_for(Use use) const {
     static_cast<void>(fans());
     static_cast<void>(faces_of_vertices());
   }
-  if (use == Use::normals) static_cast<void>(faces_of_edges());
+  if (use == Use::normals || use == Use::faces_of_edges) static_cast<void>(faces_of_edges());
   if (use == Use::sides_of_edges) {
     static_cast<void>(corners_across_edges());
     static_cast<void>(creases());

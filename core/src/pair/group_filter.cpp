@@ -7,29 +7,41 @@
 namespace graze {
 namespace {
 
-std::shared_ptr<const FaceGroups> or_all_in_one(std::shared_ptr<const FaceGroups> groups) {
-  return groups == nullptr ? std::make_shared<const FaceGroups>() : std::move(groups);
+const FaceGroups& or_all_in_one(const FaceGroups* groups) {
+  static const FaceGroups all_in_one;
+  return groups == nullptr ? all_in_one : *groups;
 }
 
 }  // namespace
 
+FeatureFilter::FeatureFilter(const FaceGroups* a, const FaceGroups* b)
+    : a_(&or_all_in_one(a)),
+      b_(&or_all_in_one(b)),
+      partners_(a_->partners().data()),
+      some_faces_{a_->first_seen_face(), b_->first_seen_face()},
+      leaves_some_(a_->all().any() && b_->all().any()),
+      leaves_all_(!a_->hides_some() && !b_->hides_some()) {}
+
 GroupFilter::GroupFilter(std::shared_ptr<const FaceGroups> a, std::shared_ptr<const FaceGroups> b)
-    : a_(or_all_in_one(std::move(a))),
-      b_(or_all_in_one(std::move(b))),
+    : FeatureFilter(a.get(), b.get()),
+      kept_a_(std::move(a)),
+      kept_b_(std::move(b)),
       looked_at_(GroupSet().size(), ~GroupSet()),
-      partners_(a_->sets().size()) {
+      partners_of_sets_(a_->sets().size()) {
   find_all();
 }
 
 void GroupFilter::set_groups_of_a(std::shared_ptr<const FaceGroups> groups) {
-  groups = or_all_in_one(std::move(groups));
-  partners_.resize(groups->sets().size());
-  a_ = std::move(groups);
+  const FaceGroups& now = or_all_in_one(groups.get());
+  partners_of_sets_.resize(now.sets().size());
+  a_ = &now;
+  kept_a_ = std::move(groups);
   find_all();
 }
 
 void GroupFilter::set_groups_of_b(std::shared_ptr<const FaceGroups> groups) {
-  b_ = or_all_in_one(std::move(groups));
+  b_ = &or_all_in_one(groups.get());
+  kept_b_ = std::move(groups);
   find_all();
 }
 
@@ -44,17 +56,18 @@ void GroupFilter::find_all() {
 }
 
 void GroupFilter::find_partners() {
-  for (std::size_t set = 0; set < partners_.size(); ++set) {
-    partners_[set].reset();
+  for (std::size_t set = 0; set < partners_of_sets_.size(); ++set) {
+    partners_of_sets_[set].reset();
     const GroupSet& groups = a_->sets()[set];
     for (std::size_t group = 0; group < groups.size(); ++group)
-      if (groups.test(group)) partners_[set] |= looked_at_[group];
+      if (groups.test(group)) partners_of_sets_[set] |= looked_at_[group];
   }
+  partners_ = partners_of_sets_.data();
 }
 
 void GroupFilter::find_some_faces() {
   leaves_some_ = false;
-  leaves_all_ = true;
+  leaves_all_ = !a_->hides_some() && !b_->hides_some();
   for (std::size_t group = 0; group < a_->all().size(); ++group) {
     if (!a_->all().test(group)) continue;
     const GroupSet met = looked_at_[group] & b_->all();
@@ -68,7 +81,7 @@ void GroupFilter::find_some_faces() {
 }
 
 std::size_t GroupFilter::byte_count() const {
-  return sizeof(GroupFilter) + bytes_of(looked_at_) + bytes_of(partners_);
+  return sizeof(GroupFilter) + bytes_of(looked_at_) + bytes_of(partners_of_sets_);
 }
 
 }  // namespace graze

@@ -62,7 +62,7 @@ class Paper {
 
  private:
   /// Offers two vertices that may be looked at, since DV may meet none.
-  void offer_some(const GroupFilter& groups) {
+  void offer_some(const FeatureFilter& groups) {
     const auto& [a, b] = groups.some_faces();
     nearest_.offer(
         FeaturePairKey::of(vertex_piece(pair_.a.mesh().face(a)[0]), vertex_piece(pair_.b.mesh().face(b)[0])));

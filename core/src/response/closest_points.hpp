@@ -85,18 +85,23 @@ struct ClosestPoints {
 /// Finds the closest points of segments that are parallel, or that are not closest inside both.
 ClosestPoints closest_of_ends(const Segment& a, const Segment& b, bool are_parallel);
 
+/// Whether the cross product of two edges, of this square, is what rounding leaves for parallel ones.
+inline bool are_parallel(const Eigen::Vector3d& along_a, const Eigen::Vector3d& along_b,
+                         double squared_cross) {
+  return !(squared_cross > 0x1p-90 * along_a.squaredNorm() * along_b.squaredNorm());
+}
+
 inline ClosestPoints closest_of_segments(const Segment& a, const Segment& b) {
   const Eigen::Vector3d along_a = a[1] - a[0];
   const Eigen::Vector3d along_b = b[1] - b[0];
   const Eigen::Vector3d between = b[0] - a[0];
   const Eigen::Vector3d across = along_a.cross(along_b);
   const double squared = across.squaredNorm();
-  // For parallel edges the cross product is what rounding leaves. It says nothing of where they are closest.
-  const bool are_parallel = !(squared > 0x1p-90 * along_a.squaredNorm() * along_b.squaredNorm());
+  // The cross product of parallel edges says nothing of where they are closest.
+  const bool parallel = are_parallel(along_a, along_b, squared);
   const double s = between.cross(along_b).dot(across);
   const double t = between.cross(along_a).dot(across);
-  if (are_parallel || !(s > 0 && s < squared && t > 0 && t < squared))
-    return closest_of_ends(a, b, are_parallel);
+  if (parallel || !(s > 0 && s < squared && t > 0 && t < squared)) return closest_of_ends(a, b, parallel);
   const double scale = 1 / squared;
   return {a[0] + along_a * (s * scale), b[0] + along_b * (t * scale), across * (across.dot(between) * scale),
           true};

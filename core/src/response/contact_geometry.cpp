@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <graze/contact_geometry.hpp>
 #include <optional>
-#include <span>
 
-#include "closest_features/piercing.hpp"
 #include "core/base/floating_point_scope.hpp"
-#include "core/surface/surface.hpp"
 #include "response/closest_points.hpp"
 #include "response/feature_normals.hpp"
+#include "response/feature_piercing.hpp"
 #include "response/feature_points.hpp"
 
 namespace graze {
@@ -41,6 +39,12 @@ struct PlacedFeature {
   }
 };
 
+PlacedFeature placed_feature(const Mesh& mesh, const PositionView& positions, const Feature& feature) {
+  const PlacedFeature result{{indexed(mesh), positions}, feature};
+  check_feature(result.placed, feature, "evaluate");
+  return result;
+}
+
 ClosestPoints closest(const Eigen::Vector3d& point, const Segment& edge) {
   const SegmentPoint found = closest_on_segment(point, edge);
   return {point, found.point, found.point - point, found.is_interior};
@@ -64,36 +68,9 @@ bool is_better(const ClosestPoints& found, const ClosestPoints& best) {
   return found.gap.squaredNorm() < best.gap.squaredNorm();
 }
 
-/// The triangle of a face that a segment passes through, or -1, decided exactly as in reports. It asks plain
-/// double first. Coordinates that no report has are not decided.
-std::int8_t pierced_triangle_of(const Segment& segment, const PlacedFeature& face) {
-  const FloatingPointScope scope;
-  std::array<Simplex, 2> triangles{Simplex{3, {}, face.triangle(0)}};
-  if (face.is_quad()) triangles[1] = {3, {}, face.triangle(1)};
-  const auto some = std::span(triangles).first(face.is_quad() ? 2 : 1);
-  std::int8_t passed = -1;
-  bool is_sure = true;
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    const Passing passing = certain_passing(segment, some[i].point);
-    is_sure = is_sure && passing != Passing::unsure && (passing == Passing::no || passed < 0);
-    if (passing == Passing::yes) passed = static_cast<std::int8_t>(i);
-  }
-  if (is_sure) return passed;
-  const auto is_good = [](const Eigen::Vector3d& point) { return Surface::is_within_limits(point); };
-  if (!std::all_of(segment.begin(), segment.end(), is_good)) return -1;
-  for (const Simplex& triangle : some)
-    if (!std::all_of(triangle.point.begin(), triangle.point.end(), is_good)) return -1;
-  DecisionCount count;
-  const bool has_fold =
-      face.is_quad() && diagonal_of(face.placed.mesh, face.feature.index).feature.kind == FeatureKind::face;
-  const auto pierced = pierced_triangle({2, {}, {segment[0], segment[1]}}, some, has_fold, count);
-  if (!pierced) return -1;
-  return *pierced == Piece::first ? 0 : 1;
-}
-
 /// Where a segment passes through the inside of a face. The point is rounded.
 std::optional<ClosestPoints> piercing(const Segment& segment, const PlacedFeature& face) {
-  const std::int8_t which = pierced_triangle_of(segment, face);
+  const std::int8_t which = pierced_triangle_of(segment, face.placed, face.feature.index);
   if (which < 0) return std::nullopt;
   const TrianglePoints triangle = face.triangle(static_cast<std::size_t>(which));
   const Eigen::Vector3d normal = area_normal(triangle);
@@ -139,7 +116,7 @@ ClosestPoints closest_of_faces(const PlacedFeature& a, const PlacedFeature& b) {
 }
 
 /// The feature of lower dimension is a's.
-ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
+[[gnu::always_inline]] inline ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
   if (a.is(FeatureKind::face)) return closest_of_faces(a, b);
   if (a.is(FeatureKind::edge))
     return b.is(FeatureKind::edge) ? closest_of_segments(a.edge(), b.edge()) : closest_to_face(a.edge(), b);
@@ -148,9 +125,17 @@ ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
   return {a.vertex(), b.vertex(), b.vertex() - a.vertex(), true};
 }
 
+[[gnu::always_inline]] inline ClosestPoints closest_points(const PlacedFeature& a, const PlacedFeature& b) {
+  return a.feature.kind <= b.feature.kind ? closest_in_order(a, b) : closest_in_order(b, a).swapped();
+}
+
+/// Whether a sum of unit normals is one that says something.
+bool exists(const Eigen::Vector3d& normal) {
+  return normal.norm() > 0x1p-40;
+}
+
 /// The rule of Contact::normal for distance 0, in plain double.
 Eigen::Vector3d touching_normal(const PlacedFeature& a, const PlacedFeature& b, const ClosestPoints& at) {
-  const auto exists = [](const Eigen::Vector3d& normal) { return normal.norm() > 0x1p-40; };
   const auto normal_of = [&](const PlacedFeature& of, const Eigen::Vector3d& point) {
     const bool is_pierced = of.is(FeatureKind::face) && at.pierced_triangle >= 0;
     return is_pierced ? unit_normal(of.triangle(static_cast<std::size_t>(at.pierced_triangle)))
@@ -175,34 +160,109 @@ Eigen::Vector3d touching_normal(const PlacedFeature& a, const PlacedFeature& b, 
   return Eigen::Vector3d::UnitZ();
 }
 
-/// Whether the contact's separation is negative; see Contact::separation().
-bool is_behind(const PlacedFeature& a, const PlacedFeature& b, const ClosestPoints& at) {
-  if (at.height != 0) return at.height < 0;
-  return has_negative_separation(
-      a.feature.kind, b.feature.kind,
-      [&] { return sign_along_normal(a.placed, a.feature, at.a, at.gap) < 0; },
-      [&] { return sign_along_normal(b.placed, b.feature, at.b, at.gap) > 0; });
+/// What needs no sign: neither the push nor the separation, nor a side.
+ContactGeometry unsigned_geometry(const PlacedFeature& a, const PlacedFeature& b, const ClosestPoints& at) {
+  ContactGeometry geometry;
+  geometry.point_a = at.a;
+  geometry.point_b = at.b;
+  geometry.distance = at.gap.norm();
+  geometry.normal =
+      geometry.distance == 0 ? touching_normal(a, b, at) : Eigen::Vector3d(at.gap / geometry.distance);
+  geometry.is_interior = at.are_interior && !std::isnan(geometry.distance);
+  return geometry;
+}
+
+bool are_edges(const PlacedFeature& a, const PlacedFeature& b) {
+  return a.is(FeatureKind::edge) && b.is(FeatureKind::edge);
+}
+
+/// Whether the separation is negative, as Contact::separation() says.
+bool is_behind(const PlacedFeature& a, const PlacedFeature& b, Side side_a, Side side_b) {
+  const bool is_back = has_negative_separation(
+      a.feature.kind, b.feature.kind, [&] { return side_a == Side::back; },
+      [&] { return side_b == Side::back; });
+  if (!is_back || !are_edges(a, b)) return is_back;
+  return pierces_any_face(a.edge(), b.placed) || pierces_any_face(b.edge(), a.placed);
+}
+
+/// The side of one of both to which `gap` leads from `point`.
+Side side_of(const PlacedFeature& of, const ClosestPoints& at, const Eigen::Vector3d& point,
+             const Eigen::Vector3d& gap) {
+  if (of.is(FeatureKind::face) && at.height != 0) return at.height < 0 ? Side::back : Side::front;
+  return side_along(of.placed, of.feature, point, gap);
+}
+
+ContactGeometry geometry_by_sides(const PlacedFeature& a, const PlacedFeature& b) {
+  const ClosestPoints at = closest_points(a, b);
+  ContactGeometry geometry = unsigned_geometry(a, b, at);
+  geometry.push = geometry.normal;
+  if (geometry.distance == 0) return geometry;
+  geometry.separation = geometry.distance;
+  geometry.side_a = side_of(a, at, at.a, at.gap);
+  geometry.side_b = side_of(b, at, at.b, -at.gap);
+  if (!is_behind(a, b, geometry.side_a, geometry.side_b)) return geometry;
+  geometry.push = -geometry.normal;
+  geometry.separation = -geometry.distance;
+  geometry.sunk = are_edges(a, b);
+  return geometry;
+}
+
+/// The direction across both features, also where they are closest at a border: the cross product of edges,
+/// or the normal of the only face. No value where there is none.
+std::optional<Eigen::Vector3d> direction_across(const PlacedFeature& a, const PlacedFeature& b,
+                                                const ClosestPoints& at) {
+  if (are_edges(a, b)) {
+    const auto along = [](const Segment& edge) { return Eigen::Vector3d(edge[1] - edge[0]); };
+    const Eigen::Vector3d along_a = along(a.edge());
+    const Eigen::Vector3d along_b = along(b.edge());
+    const Eigen::Vector3d across = along_a.cross(along_b);
+    if (are_parallel(along_a, along_b, across.squaredNorm())) return std::nullopt;
+    return across.normalized();
+  }
+  if (a.is(FeatureKind::face) == b.is(FeatureKind::face)) return std::nullopt;
+  const Eigen::Vector3d normal = a.is(FeatureKind::face) ? a.normal_at(at.a) : b.normal_at(at.b);
+  return exists(normal) ? std::optional<Eigen::Vector3d>(normal.normalized()) : std::nullopt;
+}
+
+Side turned(Side side) {
+  if (side == Side::none) return side;
+  return side == Side::front ? Side::back : Side::front;
+}
+
+/// The features have the contact's sign, as long as their direction does not turn by more than 90 degrees.
+ContactGeometry continued_geometry(const PlacedFeature& a, const PlacedFeature& b, const Contact& contact) {
+  const ClosestPoints at = closest_points(a, b);
+  ContactGeometry geometry = unsigned_geometry(a, b, at);
+  const auto across = geometry.is_interior ? std::nullopt : direction_across(a, b, at);
+  const Eigen::Vector3d direction = across.value_or(geometry.normal);
+  const bool is_against = direction.dot(contact.push()) < 0;
+  geometry.push = is_against ? Eigen::Vector3d(-direction) : direction;
+  if (geometry.distance == 0) return geometry;
+  geometry.separation = is_against ? -geometry.distance : geometry.distance;
+  if (across) geometry.separation = at.gap.dot(geometry.push);
+  const bool has_passed = (geometry.separation < 0) != (contact.separation() < 0);
+  geometry.side_a = has_passed ? turned(contact.side_a) : contact.side_a;
+  geometry.side_b = has_passed ? turned(contact.side_b) : contact.side_b;
+  geometry.sunk = are_edges(a, b) && geometry.separation < 0;
+  return geometry;
 }
 
 }  // namespace
 
 ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a, const Feature& feature_a,
                          const Mesh& mesh_b, PositionView positions_b, const Feature& feature_b) {
-  const PlacedFeature a{{indexed(mesh_a), positions_a}, feature_a};
-  const PlacedFeature b{{indexed(mesh_b), positions_b}, feature_b};
-  check_feature(a.placed, feature_a, "evaluate");
-  check_feature(b.placed, feature_b, "evaluate");
-  const ClosestPoints at =
-      feature_a.kind <= feature_b.kind ? closest_in_order(a, b) : closest_in_order(b, a).swapped();
-  ContactGeometry geometry{at.a, at.b, {}, at.gap.norm(), 0, at.are_interior};
-  if (geometry.distance == 0) {
-    geometry.normal = touching_normal(a, b, at);
-  } else {
-    geometry.normal = at.gap / geometry.distance;
-    geometry.separation = is_behind(a, b, at) ? -geometry.distance : geometry.distance;
-    geometry.is_interior = at.are_interior && !std::isnan(geometry.distance);
-  }
-  return geometry;
+  const PlacedFeature a = placed_feature(mesh_a, positions_a, feature_a);
+  const PlacedFeature b = placed_feature(mesh_b, positions_b, feature_b);
+  const BriefFloatingPointScope scope;
+  return geometry_by_sides(a, b);
+}
+
+ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a, const Mesh& mesh_b,
+                         PositionView positions_b, const Contact& contact) {
+  const PlacedFeature a = placed_feature(mesh_a, positions_a, contact.feature_a);
+  const PlacedFeature b = placed_feature(mesh_b, positions_b, contact.feature_b);
+  const BriefFloatingPointScope scope;
+  return continued_geometry(a, b, contact);
 }
 
 }  // namespace graze

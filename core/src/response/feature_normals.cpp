@@ -66,17 +66,54 @@ Eigen::Vector3d edge_normal(const PlacedMesh& placed, std::uint32_t edge) {
   return sum;
 }
 
-double sign_along_edge_normal(const PlacedMesh& placed, std::uint32_t edge,
-                              const Eigen::Vector3d& direction) {
-  double least = 0;
-  double most = 0;
-  visit_triangles_at_edge(placed, edge, [&](const TrianglePoints& triangle) {
-    const double along = area_normal(triangle).dot(direction);
-    least = std::min(least, along);
-    most = std::max(most, along);
-  });
-  if (least == 0 || most == 0) return least + most;
-  return edge_normal(placed, edge).dot(direction);
+/// Collects on which side of several triangles a direction leads. Where all agree, so does their averaged
+/// normal, whatever the weights.
+class SidesOfTriangles {
+ public:
+  explicit SidesOfTriangles(const Eigen::Vector3d& direction)
+      : direction_(direction), squared_(0x1p-72 * direction.squaredNorm()) {}
+
+  /// `normal` is as long as it comes.
+  void add(const Eigen::Vector3d& normal) {
+    const double along = normal.dot(direction_);
+    least_ = std::min(least_, along);
+    most_ = std::max(most_, along);
+    is_certain_ = is_certain_ || along * along > squared_ * normal.squaredNorm();
+  }
+  /// `none` where the weights count.
+  [[nodiscard]] Side side() const {
+    if (!is_certain_ || (least_ < 0 && most_ > 0)) return Side::none;
+    return least_ < 0 ? Side::back : Side::front;
+  }
+
+ private:
+  Eigen::Vector3d direction_;
+  double squared_;  ///< the bound of a report for a side that is certain, times the direction's square
+  double least_ = 0;
+  double most_ = 0;
+  bool is_certain_ = false;
+};
+
+Side side_of_triangles(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& direction) {
+  SidesOfTriangles sides(direction);
+  if (feature.kind == FeatureKind::vertex) {
+    const Eigen::Vector3d vertex = placed.point(feature.index);
+    const auto fan = placed.mesh.vertex_fans(feature.index);
+    Eigen::Vector3d before = Eigen::Vector3d::Zero();
+    for (const std::uint32_t corner : fan) {
+      const Eigen::Vector3d to_corner = placed.point(corner) - vertex;
+      sides.add(before.cross(to_corner));
+      before = to_corner;
+    }
+  } else if (feature.kind == FeatureKind::edge) {
+    visit_triangles_at_edge(placed, feature.index,
+                            [&](const TrianglePoints& triangle) { sides.add(area_normal(triangle)); });
+  } else {
+    const auto corners = placed.mesh.face(feature.index);
+    for (std::size_t triangle = 0; triangle + 2 < corners.size(); ++triangle)
+      sides.add(area_normal(triangle_of(placed, corners, triangle)));
+  }
+  return sides.side();
 }
 
 /// A point counts as on the inner diagonal if it is there up to rounding.
@@ -100,14 +137,12 @@ Eigen::Vector3d unit_normal(const TrianglePoints& triangle) {
   return length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-double sign_along_normal(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& point,
-                         const Eigen::Vector3d& direction) {
-  if (feature.kind == FeatureKind::edge) return sign_along_edge_normal(placed, feature.index, direction);
-  if (feature.kind == FeatureKind::face) {
-    const auto corners = placed.mesh.face(feature.index);
-    if (corners.size() == 3) return area_normal(triangle_of(placed, corners, 0)).dot(direction);
-  }
-  return normal_at(placed, feature, point).dot(direction);
+Side side_along(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& point,
+                const Eigen::Vector3d& direction) {
+  if (const Side side = side_of_triangles(placed, feature, direction); side != Side::none) return side;
+  const double along = normal_at(placed, feature, point).dot(direction.stableNormalized());
+  if (!(std::abs(along) > 0x1p-36)) return Side::none;
+  return along > 0 ? Side::front : Side::back;
 }
 
 Eigen::Vector3d normal_at(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& point) {

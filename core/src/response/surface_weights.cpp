@@ -3,6 +3,7 @@
 #include <graze/contact_geometry.hpp>
 #include <limits>
 
+#include "core/base/floating_point_scope.hpp"
 #include "response/closest_points.hpp"
 #include "response/feature_points.hpp"
 
@@ -84,6 +85,7 @@ SurfaceWeights weights(const Mesh& mesh, PositionView positions, const Feature& 
                        const Eigen::Vector3d& point) {
   const PlacedMesh placed{indexed(mesh), positions};
   check_feature(placed, feature, "weights");
+  const BriefFloatingPointScope scope;
   if (feature.kind == FeatureKind::vertex) return {1, {feature.index}, {1}};
   if (feature.kind == FeatureKind::face) return face_weights(placed, feature.index, point);
   const auto [start, end] = placed.mesh.edge(feature.index);

@@ -10,7 +10,7 @@ namespace graze {
 namespace {
 
 /// A vertex of each surface that may be looked at: the middle vertex of the whole, or the corner of a face.
-std::array<std::uint32_t, 2> some_vertices(const Surface& a, const Surface& b, const GroupFilter* groups) {
+std::array<std::uint32_t, 2> some_vertices(const Surface& a, const Surface& b, const FeatureFilter* groups) {
   const std::uint32_t middle_a = a.mesh().regions().region(0).middle;
   const std::uint32_t middle_b = b.mesh().regions().region(0).middle;
   if (groups == nullptr || groups->may_vertices(middle_a, middle_b)) return {middle_a, middle_b};
@@ -19,7 +19,7 @@ std::array<std::uint32_t, 2> some_vertices(const Surface& a, const Surface& b, c
 }
 
 /// Bounds that need no search: the objects' boxes, and two of their vertices.
-void set_outer_bounds(const Surface& a, const Surface& b, const GroupFilter* groups, PairAnswer& answer) {
+void set_outer_bounds(const Surface& a, const Surface& b, const FeatureFilter* groups, PairAnswer& answer) {
   const auto [vertex_a, vertex_b] = some_vertices(a, b, groups);
   answer.distance = {lower_distance(a.box(), b.box()),
                      upper_distance(a.position(vertex_a), b.position(vertex_b))};
@@ -53,6 +53,10 @@ void PairDetector::reserve_for_solids(const PairRoom& room) {
   scratch_->memory.solid.reserve_for_solids(room);
 }
 
+void PairDetector::reserve_for_ways_out(const PairRoom& room) {
+  scratch_->memory.way_out.reserve_for_ways_out(room);
+}
+
 void PairDetector::reserve_for_limit(std::size_t most, const PairRoom& room) {
   scratch_->search.reserve_for_limit(most, room);
   scratch_->memory.nearest_keys.contacts.reserve(room.contacts);
@@ -69,6 +73,7 @@ void PairDetector::outer_bounds(const Surface& a, const Surface& b, const PairQu
   answer.complete = false;
   answer.cut = false;
   answer.inside = Inside::none;
+  answer.way_out = {};
   answer.contacts.clear();
   answer.region_distances.clear();
   answer.region_distances_left_out = 0;

@@ -7,6 +7,7 @@
 #include "search/deepest_contacts.hpp"
 #include "search/search_worker.hpp"
 #include "search/solid_search.hpp"
+#include "search/way_out_search.hpp"
 
 namespace graze {
 
@@ -51,6 +52,8 @@ void PairSearch::next_stage(SearchWorker& worker) {
     progress = closest_.begin(worker);
   }
   if (progress == SearchProgress::answered && pair_.query.has_solid()) progress = complete_solids(worker);
+  if (progress == SearchProgress::answered && pair_.query.wants_way_out)
+    progress = WayOutSearch(pair_, worker).complete();
   if (progress == SearchProgress::gave_up) return give_up();
   if (progress != SearchProgress::answered) return;
   phase_ = Phase::done;

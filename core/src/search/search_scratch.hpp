@@ -11,6 +11,7 @@
 #include "measure/nearest_keys.hpp"
 #include "measure/parallel.hpp"
 #include "paper/paper.hpp"
+#include "search/way_out_scratch.hpp"
 #include "solid/solid_scratch.hpp"
 #include "vertices/near_vertices.hpp"
 #include "walk/leaf_pairs.hpp"
@@ -48,12 +49,13 @@ struct SearchScratch {
   NearestKeysScratch nearest_keys;
   SettledEdges settled_edges;
   SolidScratch solid;
+  WayOutScratch way_out;
 
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.leaf_pairs, self.vertices, self.features, self.nearest_of_vertices,
                     self.nearest_of_leaves, self.paper, self.lowest, self.parallel, self.binning, self.order,
-                    self.measure, self.nearest_keys, self.settled_edges, self.solid);
+                    self.measure, self.nearest_keys, self.settled_edges, self.solid, self.way_out);
   }
 };
 

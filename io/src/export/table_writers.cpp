@@ -3,6 +3,7 @@
 #include "export/csv_line.hpp"
 #include "export/output_file.hpp"
 #include "export/snapshot_objects.hpp"
+#include "report/report_fields.hpp"
 
 namespace graze::io {
 namespace {
@@ -10,11 +11,12 @@ namespace {
 constexpr std::string_view contact_columns =
     "frame,scene_frame,object_a,object_b,name_a,name_b,kind,side_a,side_b,feature_kind_a,feature_a,"
     "feature_kind_b,feature_b,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,"
-    "normal_z,distance,since,separation,push_x,push_y,push_z\n";
+    "normal_z,distance,since,separation,push_x,push_y,push_z,sunk\n";
 constexpr std::string_view distance_columns =
     "frame,scene_frame,object_a,object_b,name_a,name_b,phase,distance_lower,distance_upper,witness_kind_a,"
     "witness_a,witness_kind_b,witness_b,witness_a_x,witness_a_y,witness_a_z,witness_b_x,witness_b_y,"
-    "witness_b_z,contacts,complete,contacts_cut,stale,inside\n";
+    "witness_b_z,contacts,complete,contacts_cut,stale,inside,way_direction_x,way_direction_y,way_direction_z,"
+    "way_point_x,way_point_y,way_point_z,way_fullness,way_thickness,way_extent\n";
 
 void add_feature(CsvLine& line, const Feature& feature) {
   line.text(to_string(feature.kind)).whole(feature.index);
@@ -38,7 +40,17 @@ void end_contact(CsvLine& line, const Contact& contact, std::uint64_t since) {
   add_feature(line, contact.feature_a);
   add_feature(line, contact.feature_b);
   line.point(contact.point_a).point(contact.point_b).point(contact.normal);
-  line.real(contact.distance).whole(since).real(contact.separation()).point(contact.push()).end();
+  line.real(contact.distance).whole(since).real(contact.separation()).point(contact.push());
+  line.flag(contact.sunk).end();
+}
+
+/// The cells of a row without a way out stay empty.
+void add_way_out(CsvLine& line, const WayOut& way) {
+  constexpr int cells = 9;
+  if (is_written(way))
+    line.point(way.direction).point(way.point).real(way.fullness).real(way.thickness).real(way.extent);
+  else
+    for (int i = 0; i < cells; ++i) line.empty();
 }
 
 void end_row(CsvLine& line, const PairReport& pair) {
@@ -46,7 +58,9 @@ void end_row(CsvLine& line, const PairReport& pair) {
   add_feature(line, pair.witness.feature_a);
   add_feature(line, pair.witness.feature_b);
   line.point(pair.witness.point_a).point(pair.witness.point_b).whole(pair.contact_count);
-  line.flag(pair.complete).flag(pair.contacts_cut).flag(pair.stale).text(to_string(pair.inside)).end();
+  line.flag(pair.complete).flag(pair.contacts_cut).flag(pair.stale).text(to_string(pair.inside));
+  add_way_out(line, pair.way_out);
+  line.end();
 }
 
 /// A file of lines below their column names.

@@ -59,6 +59,7 @@ class ContactPoints {
     kinds_.push_back(static_cast<std::uint8_t>(contact.kind));
     sides_.push_back(static_cast<std::uint8_t>(contact.side_a));
     sides_.push_back(static_cast<std::uint8_t>(contact.side_b));
+    sunk_.push_back(contact.sunk ? 1 : 0);
     for (const Feature& feature : {contact.feature_a, contact.feature_b}) {
       feature_kinds_.push_back(static_cast<std::uint8_t>(feature.kind));
       features_.push_back(feature.index);
@@ -70,6 +71,7 @@ class ContactPoints {
     file_.set_point_data("object_b", serials_.b);
     file_.set_point_data("kind", kinds_);
     file_.set_point_data("sides", sides_, 2);
+    file_.set_point_data("sunk", sunk_);
     file_.set_point_data("feature_kinds", feature_kinds_, 2);
     file_.set_point_data("features", features_, 2);
     file_.set_point_data("point_b", points_b_, 3);
@@ -86,25 +88,31 @@ class ContactPoints {
   std::vector<double> distances_;
   std::vector<std::uint8_t> kinds_;
   std::vector<std::uint8_t> sides_;
+  std::vector<std::uint8_t> sunk_;
   std::vector<std::uint8_t> feature_kinds_;
   std::vector<std::uint32_t> features_;
 };
 
-/// A line for the witness of each pair, of level 0, and one for each of its region distances.
+/// What a line of a pair shows.
+enum class VtpLine : std::uint8_t { witness, region_distance, way_out };
+
+/// A line for the witness of each pair, for each of its region distances, and for its way out. A way out is
+/// as long as it is thick.
 class DistanceLines {
  public:
   explicit DistanceLines(const SceneSnapshot& snapshot) : serials_(snapshot) {}
 
-  void add(const PairReport& pair, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double distance,
-           std::uint32_t level) {
-    file_.add_corner(file_.add_point(a));
-    file_.add_corner(file_.add_point(b));
-    file_.end_cell();
-    serials_.add(pair);
-    phases_.push_back(static_cast<std::uint8_t>(pair.phase));
-    insides_.push_back(static_cast<std::uint8_t>(pair.inside));
-    distances_.push_back(distance);
-    levels_.push_back(level);
+  void add(const PairReport& pair, const Witness& witness) {
+    add(pair, VtpLine::witness, witness.point_a, witness.point_b, pair.distance.upper);
+  }
+  void add(const PairReport& pair, const RegionDistance& region) {
+    add(pair, VtpLine::region_distance, region.point_a, region.point_b, region.distance);
+    levels_.back() = region.level;
+  }
+  void add(const PairReport& pair, const WayOut& way) {
+    add(pair, VtpLine::way_out, way.point, way.point + way.thickness * way.direction, way.thickness);
+    fullnesses_.back() = way.fullness;
+    extents_.back() = way.extent;
   }
 
   void write(const std::filesystem::path& path) {
@@ -114,16 +122,37 @@ class DistanceLines {
     file_.set_cell_data("inside", insides_);
     file_.set_cell_data("distance", distances_);
     file_.set_cell_data("level", levels_);
+    file_.set_cell_data("line", lines_);
+    file_.set_cell_data("fullness", fullnesses_);
+    file_.set_cell_data("extent", extents_);
     file_.write(path);
   }
 
  private:
+  void add(const PairReport& pair, VtpLine line, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+           double length) {
+    file_.add_corner(file_.add_point(from));
+    file_.add_corner(file_.add_point(to));
+    file_.end_cell();
+    serials_.add(pair);
+    phases_.push_back(static_cast<std::uint8_t>(pair.phase));
+    insides_.push_back(static_cast<std::uint8_t>(pair.inside));
+    distances_.push_back(length);
+    levels_.push_back(0);
+    lines_.push_back(static_cast<std::uint8_t>(line));
+    fullnesses_.push_back(0);
+    extents_.push_back(0);
+  }
+
   VtpFile file_{VtpCells::lines};
   PairSerials serials_;
   std::vector<std::uint8_t> phases_;
   std::vector<std::uint8_t> insides_;
   std::vector<double> distances_;
   std::vector<std::uint32_t> levels_;
+  std::vector<std::uint8_t> lines_;
+  std::vector<double> fullnesses_;
+  std::vector<double> extents_;
 };
 
 }  // namespace
@@ -164,9 +193,9 @@ void write_vtp_contacts(const std::filesystem::path& path, const SceneSnapshot& 
 void write_vtp_lines(const std::filesystem::path& path, const SceneSnapshot& snapshot) {
   DistanceLines lines(snapshot);
   for (const PairReport& pair : snapshot.report->pairs()) {
-    lines.add(pair, pair.witness.point_a, pair.witness.point_b, pair.distance.upper, 0);
-    for (const RegionDistance& region : snapshot.report->region_distances(pair))
-      lines.add(pair, region.point_a, region.point_b, region.distance, region.level);
+    lines.add(pair, pair.witness);
+    for (const RegionDistance& region : snapshot.report->region_distances(pair)) lines.add(pair, region);
+    if (!pair.way_out.direction.isZero(0)) lines.add(pair, pair.way_out);
   }
   lines.write(path);
 }

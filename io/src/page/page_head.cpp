@@ -10,7 +10,8 @@
 namespace graze::io {
 namespace {
 
-constexpr std::uint64_t page_version = 1;
+/// Version 2 says which contacts are sunk.
+constexpr std::uint64_t page_version = 2;
 
 void write_whole_numbers(JsonText& json, std::string_view key, const std::vector<std::uint64_t>& numbers) {
   json.key(key).open('[');

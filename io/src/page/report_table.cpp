@@ -40,7 +40,8 @@ std::uint32_t as_word(std::uint64_t number) {
 }
 
 void add_contact(PageColumns& contacts, const Contact& contact, std::uint64_t since) {
-  const auto sides = static_cast<int>(contact.side_a) + 4 * static_cast<int>(contact.side_b);
+  const int sides =
+      static_cast<int>(contact.side_a) + 4 * static_cast<int>(contact.side_b) + (contact.sunk ? 16 : 0);
   contacts.begin_row().put(static_cast<std::uint8_t>(contact.kind)).put(static_cast<std::uint8_t>(sides));
   put_feature(contacts, contact.feature_a);
   put_feature(contacts, contact.feature_b);
@@ -56,6 +57,13 @@ void add_region_distance(PageColumns& regions, const RegionDistance& distance) {
   put_point(regions, distance.point_a);
   put_point(regions, distance.point_b);
   regions.put(distance.distance);
+}
+
+void add_way_out(PageColumns& ways, const WayOut& way) {
+  ways.begin_row();
+  put_point(ways, way.direction);
+  put_point(ways, way.point);
+  ways.put(way.fullness).put(way.thickness).put(way.extent);
 }
 
 /// Whether the lists of some pairs have the same lengths. `begins` has where the list of each pair begins.
@@ -100,12 +108,15 @@ ReportBlock::ReportBlock()
               reals_column("witness_points", 6)}),
       contact_begin_{0},
       region_begin_{0},
+      way_begin_{0},
       contacts_({bytes_column("contact_kind"), bytes_column("contact_sides"),
                  words_column("contact_features", 4), reals_column("contact_points", 6),
                  reals_column("contact_normal", 3), reals_column("contact_distance", 1),
                  words_column("contact_since", 1)}),
       regions_({words_column("region_levels", 1), words_column("region_ids", 4),
-                reals_column("region_points", 6), reals_column("region_distance", 1)}) {
+                reals_column("region_points", 6), reals_column("region_distance", 1)}),
+      ways_({reals_column("way_direction", 3), reals_column("way_point", 3), reals_column("way_fullness", 1),
+             reals_column("way_thickness", 1), reals_column("way_extent", 1)}) {
   diagnostics_.open('[');
   infos_.open('[');
 }
@@ -124,8 +135,10 @@ void ReportBlock::add_pair(std::uint64_t number, const FrameReport& report, cons
     add_contact(contacts_, contact, since_in_file(contact.since, number, report));
   for (const RegionDistance& distance : report.region_distances(pair))
     add_region_distance(regions_, distance);
+  if (is_written(pair.way_out)) add_way_out(ways_, pair.way_out);
   contact_begin_.push_back(static_cast<std::uint32_t>(contacts_.size()));
   region_begin_.push_back(static_cast<std::uint32_t>(regions_.size()));
+  way_begin_.push_back(static_cast<std::uint32_t>(ways_.size()));
 }
 
 void ReportBlock::add_diagnostics(std::uint64_t page_frame, const FrameReport& report,
@@ -156,15 +169,17 @@ bool ReportBlock::repeat_last(const Range& rows) const {
            lists.are_same(begins[last_.begin], begins[rows.begin], begins[rows.end] - begins[rows.begin]);
   };
   return pairs_.are_same(last_.begin, rows.begin, count) && lists_repeat(contacts_, contact_begin_) &&
-         lists_repeat(regions_, region_begin_);
+         lists_repeat(regions_, region_begin_) && lists_repeat(ways_, way_begin_);
 }
 
 void ReportBlock::truncate_pairs(std::size_t count) {
   pairs_.truncate(count);
   contacts_.truncate(contact_begin_[count]);
   regions_.truncate(region_begin_[count]);
+  ways_.truncate(way_begin_[count]);
   contact_begin_.resize(count + 1);
   region_begin_.resize(count + 1);
+  way_begin_.resize(count + 1);
 }
 
 void ReportBlock::add(std::uint64_t page_frame, std::uint64_t number, const FrameReport& report,
@@ -179,6 +194,13 @@ void ReportBlock::add(std::uint64_t page_frame, std::uint64_t number, const Fram
   frames_.push_back(last_);
   add_diagnostics(page_frame, report, index_of);
   add_info(number, report, include_times);
+}
+
+std::vector<std::uint32_t> ReportBlock::pairs_with_way_out() const {
+  Numbers pairs;
+  for (std::uint32_t pair = 0; pair < pairs_.size(); ++pair)
+    if (way_begin_[pair] < way_begin_[pair + 1]) pairs.push_back(pair);
+  return pairs;
 }
 
 std::string ReportBlock::table() const {
@@ -202,6 +224,10 @@ std::string ReportBlock::table() const {
   add_numbers("pair_region_end", std::span(region_begin_).subspan(1));
   contacts_.add_to(table);
   regions_.add_to(table);
+  if (ways_.size() > 0) {
+    add_numbers("way_pair", pairs_with_way_out());
+    ways_.add_to(table);
+  }
   table.add_key("diagnostics", diagnostics_.line() + "]");
   table.add_key("frames_info", infos_.line() + "]");
   return table.bytes();

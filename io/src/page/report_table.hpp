@@ -81,14 +81,17 @@ class ReportBlock {
   /// Whether the rows from `rows.begin` on say what those of the last frame say.
   [[nodiscard]] bool repeat_last(const Range& rows) const;
   void truncate_pairs(std::size_t count);
+  [[nodiscard]] Numbers pairs_with_way_out() const;
 
   std::vector<Range> frames_;  ///< of each, its pairs
   PageColumns pairs_;
   Range last_;             ///< the pairs of the last frame
   Numbers contact_begin_;  ///< by pair, and once more for the end
   Numbers region_begin_;   ///< by pair, and once more for the end
+  Numbers way_begin_;      ///< by pair, and once more for the end
   PageColumns contacts_;
   PageColumns regions_;
+  PageColumns ways_;  ///< a row for each pair that has a way out
   JsonText diagnostics_;
   JsonText infos_;
 };

@@ -65,6 +65,7 @@ class Painter {
   [[nodiscard]] Vector3d shade(const Vector3d& colour, Vector3d normal, const Vector3d& point) const;
   void draw_disc(const Vector3d& point, double radius, const Vector3d& colour);
   void draw_line(const Vector3d& from, const Vector3d& to, double radius, const Vector3d& colour);
+  void draw_way_out(const WayOut& way);
 
   const PictureScene& scene_;
   std::vector<PictureTriangle> triangles_;
@@ -157,6 +158,24 @@ void Painter::draw_line(const Vector3d& from, const Vector3d& to, double radius,
     draw_disc(from + (to - from) * (static_cast<double>(i) / count), radius, colour);
 }
 
+/// A shaft and a head that narrows to the tip, with a dark rim.
+void Painter::draw_way_out(const WayOut& way) {
+  const Vector3d dark(0.13, 0.05, 0.17);
+  const Vector3d purple(0.72, 0.34, 0.86);
+  const double least = 0.08 * (box_.max() - box_.min()).norm();
+  const Vector3d along = std::max(way.thickness, least) * way.direction;
+  const Vector3d tip = way.point + along;
+  const Vector3d neck = tip - 0.5 * least * way.direction;
+  constexpr int rings = 40;
+  for (const auto& [rim, colour] : {std::pair(1.0, dark), std::pair(0.0, purple)}) {
+    draw_line(way.point, neck, 1.7 + rim, colour);
+    for (int ring = 0; ring <= rings; ++ring) {
+      const double share = static_cast<double>(ring) / rings;
+      draw_disc(neck + share * (tip - neck), 5.5 * (1 - share) + rim, colour);
+    }
+  }
+}
+
 void Painter::draw_marks() {
   const Vector3d dark(0.16, 0.08, 0.06);
   const Vector3d contact_colour(0.98, 0.20, 0.14);
@@ -177,6 +196,8 @@ void Painter::draw_marks() {
     draw_line(contact.point_b, contact.point_b + normal_length * contact.normal, 0.8 * size, normal_colour);
   for (const Contact& contact : scene_.contacts) draw_disc(contact.point_b, 3.6 * size, dark);
   for (const Contact& contact : scene_.contacts) draw_disc(contact.point_b, 2.8 * size, contact_colour);
+  for (const WayOut& way : scene_.ways_out)
+    if (!way.direction.isZero(0)) draw_way_out(way);
 }
 
 /// Averages the samples of each pixel.

@@ -168,7 +168,7 @@ class GRAZE_API Scene {
     std::array<double, 16> rows;
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
-        rows[static_cast<std::size_t>(row * 4 + column)] = static_cast<double>(values(row, column));
+        rows[static_cast<std::size_t>(row * 4 + column)] = exactly_as_double(values(row, column));
     set_pose_matrix(object, rows);
   }
   /// Places a rigid or fixed object by the upper three rows of its 4 x 4 matrix, row by row. The checks are
@@ -316,7 +316,7 @@ class GRAZE_API Scene {
     std::array<double, 12> rows;
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 4; ++column)
-        rows[static_cast<std::size_t>(row * 4 + column)] = static_cast<double>(pose.matrix()(row, column));
+        rows[static_cast<std::size_t>(row * 4 + column)] = exactly_as_double(pose.matrix()(row, column));
     return rows;
   }
   /// Takes 16 numbers for each object: its 4 x 4 matrix, column by column.

@@ -24,7 +24,7 @@ struct AddObject {
   ObjectId object;
   std::unique_ptr<Surface> surface;  ///< made on the caller's thread
   ObjectSettings settings;
-  std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0
+  std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
 };
 struct RemoveObject {
   ObjectId object;
@@ -35,7 +35,7 @@ struct ReplaceMesh {
   std::unique_ptr<Surface> surface;               ///< of the new mesh, made on the caller's thread
   std::vector<std::uint32_t> new_of_old;          ///< the new vertex of each old one, or Mesh::no_vertex
   std::vector<std::uint8_t> group_of_face;        ///< of the new faces, or empty: all are in group 0
-  std::shared_ptr<const FaceGroups> face_groups;  ///< the same; null if all faces are in group 0
+  std::shared_ptr<const FaceGroups> face_groups;  ///< as that of AddObject
 };
 struct SetPose {
   ObjectId object;

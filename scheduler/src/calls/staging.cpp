@@ -36,16 +36,17 @@ const char* name_of_call(bool ignored) {
   return ignored ? "ignore" : "watch";
 }
 
-/// Returns the groups of a mesh's faces, or null if all are in group 0. Throws Error if they are not one for
-/// each face.
+/// Returns the groups of a mesh's faces, or null if all are in group 0 and none is hidden. Throws Error if
+/// they are not one for each face.
 std::shared_ptr<const FaceGroups> face_groups_of(const IndexedMesh& mesh,
                                                  std::span<const std::uint8_t> groups,
+                                                 std::span<const std::uint8_t> hidden,
                                                  const std::string& who) {
-  if (groups.empty()) return nullptr;
-  if (groups.size() != mesh.face_count())
+  if (groups.empty() && std::find(hidden.begin(), hidden.end(), 0) == hidden.end()) return nullptr;
+  if (!groups.empty() && groups.size() != mesh.face_count())
     throw Error(who + ": face_groups has " + std::to_string(groups.size()) + " groups for " +
                 std::to_string(mesh.face_count()) + " faces; give one for each face, or none");
-  return std::make_shared<const FaceGroups>(mesh, groups);
+  return std::make_shared<const FaceGroups>(mesh, groups, hidden);
 }
 
 /// Throws Error if the surface of a solid is not closed.
@@ -171,7 +172,7 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   AddObject call{{},
                  std::make_unique<Surface>(mesh),
                  settings,
-                 face_groups_of(indexed(*mesh), settings.face_groups, who)};
+                 face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who)};
   const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
   try {
@@ -204,13 +205,17 @@ void Staging::replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                            std::span<const std::uint8_t> face_groups) {
   if (mesh == nullptr) throw Error("replace_mesh: there is no mesh");
   check_map(*mesh, new_of_old);
-  if (const ObjectIds::Pin named = ids_.pin(object)) check_solid(*mesh, named->settings, "replace_mesh");
+  std::vector<std::uint8_t> hidden;
+  if (const ObjectIds::Pin named = ids_.pin(object)) {
+    check_solid(*mesh, named->settings, "replace_mesh");
+    hidden = named->settings.hidden_groups;
+  }
   const FloatingPointScope scope;
   ReplaceMesh call{object,
                    std::make_unique<Surface>(mesh),
                    {new_of_old.begin(), new_of_old.end()},
                    {face_groups.begin(), face_groups.end()},
-                   face_groups_of(indexed(*mesh), face_groups, "replace_mesh")};
+                   face_groups_of(indexed(*mesh), face_groups, hidden, "replace_mesh")};
   const std::lock_guard lock(bindings_);
   Calls calls(queue_);
   const ObjectIds::Pin named = ids_.pin(object);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -81,12 +80,22 @@ std::size_t bytes_of_lists(const PairAnswer& answer) {
   return bytes_of(answer.contacts) + bytes_of(answer.region_distances);
 }
 
+/// Returns what says which features of a pair are looked at, or null if all are, or none. It is in `room` if
+/// faces are hidden, and no groups of the pair were ever ignored.
+const FeatureFilter* filter_of(const PairJob& job, std::optional<FeatureFilter>& room) {
+  room.reset();
+  if (job.groups.version != 0) return job.groups.filter;
+  if (!job.a->hides_some_faces() && !job.b->hides_some_faces()) return nullptr;
+  room.emplace(job.a->face_groups.get(), job.b->face_groups.get());
+  return room->leaves_some() ? &*room : nullptr;
+}
+
 }  // namespace
 
 PairJobs::PairJobs(const SceneSettings& settings, TaskPool& tasks)
     : settings_(settings), tasks_(tasks), answers_(tasks.worker_count()), workers_(tasks.worker_count()) {}
 
-PairQuery PairJobs::query_of(const PairJob& job) const {
+PairQuery PairJobs::query_of(const PairJob& job, std::optional<FeatureFilter>& filter) const {
   PairQuery query;
   query.detail = settings_.detail;
   query.mode = settings_.accuracy.mode();
@@ -94,7 +103,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   query.epsilon = job.thresholds.epsilon;
   query.threshold = job.thresholds.threshold;
   query.reach = job.thresholds.reach;
-  query.groups = job.groups.filter;
+  query.groups = filter_of(job, filter);
   query.region_distance_reach = query.reach;
   query.region_distance_limit = settings_.region_distances == 0
                                     ? 0
@@ -115,6 +124,7 @@ PairQuery PairJobs::query_of(const PairJob& job) const {
   if (!is_about_vertices(query.detail) && job.task == PairJob::Task::detect) {
     query.a_is_solid = job.a->settings.solid;
     query.b_is_solid = job.b->settings.solid;
+    query.wants_way_out = settings_.ways_out && query.mode != AccuracyMode::paper;
   }
   if (job.task == PairJob::Task::end) {
     query.threshold = 0;
@@ -272,7 +282,7 @@ void PairJobs::begin_large(std::size_t index, unsigned worker) {
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
   const Surface& a = job.a->surface();
   const Surface& b = job.b->surface();
-  PairQuery query = query_of(job);
+  PairQuery query = query_of(job, large.filter);
   query.deadline = deadline_now();
   query.time_after_contact = after_each_contact;
   PairAnswer& answer = answer_of_large(index);
@@ -297,7 +307,7 @@ void PairJobs::advance_large(std::size_t index, unsigned worker) {
   PairAnswer& answer = answer_of_large(index);
   if (chooses_carrying()) choose_carrying(large.job, answer, own);
   if (!make_room_in_report(answer.contacts.size()))
-    PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job), answer);
+    PairDetector::outer_bounds(job.a->surface(), job.b->surface(), query_of(job, large.filter), answer);
   own.front_bytes += job.memory_to_write().front.byte_count() - large.front_bytes;
   remember_answer(job, answer);
   refer_to(large.job, answer, worker);
@@ -363,7 +373,8 @@ bool PairJobs::is_late() const {
 void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit) {
   const PairJob& job = jobs_[index];
   const AccessScope access({AccessRight::read(), AccessRight::write(&job)});
-  PairQuery query = query_of(job);
+  std::optional<FeatureFilter> filter;
+  PairQuery query = query_of(job, filter);
   query.work_limit = work_limit;
   query.deadline = deadline_now();
   query.time_after_contact = after_each_contact;
@@ -507,6 +518,8 @@ void PairJobs::reserve_workers() {
   for (Worker& worker : workers_) {
     worker.reserve(room_);
     if (is_for_solids_) worker.detector.reserve_for_solids(room_);
+    if (settings_.ways_out && !is_about_vertices(settings_.detail))
+      worker.detector.reserve_for_ways_out(room_);
     if (limit > 0) worker.detector.reserve_for_limit(limit, room_);
     if (chooses_carrying()) worker.carrying.reserve(room_.contacts);
   }

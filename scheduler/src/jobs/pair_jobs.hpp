@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/task_pool.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/pair/carrying.hpp"
+#include "core/pair/group_filter.hpp"
 #include "core/pair/pair_answer.hpp"
 #include "core/pair/pair_counters.hpp"
 #include "core/pair/pair_query.hpp"
@@ -74,6 +76,7 @@ class PairJobs {
   };
   struct LargeJob {
     std::uint32_t job = 0;
+    std::optional<FeatureFilter> filter;  ///< what its query refers to, where faces are hidden
     LargePair pair;
     bool answered = false;
     std::size_t front_bytes = 0;  ///< the bytes of the front when the job began
@@ -84,7 +87,8 @@ class PairJobs {
     std::uint32_t slice;
   };
 
-  [[nodiscard]] PairQuery query_of(const PairJob& job) const;
+  /// The query refers to `filter` if faces of the pair are hidden, and no groups were ever ignored.
+  [[nodiscard]] PairQuery query_of(const PairJob& job, std::optional<FeatureFilter>& filter) const;
   [[nodiscard]] std::size_t contact_limit() const;
   [[nodiscard]] bool chooses_carrying() const;
   void choose_carrying(std::uint32_t index, PairAnswer& answer, Worker& worker) const;

@@ -150,7 +150,7 @@ struct Object {
   ObjectId id;
   std::uint64_t serial = 0;  ///< ascends in the order of addition; never reused
   ObjectSettings settings;
-  std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0
+  std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
   std::unique_ptr<Surface> owned_surface;         ///< use the accessors below
   const IndexedMesh* mesh = nullptr;              ///< the surface's
   bool in_parts = false;                          ///< it is large, so several tasks read and refit it
@@ -197,6 +197,8 @@ struct Object {
   bool removed = false;           ///< it is dropped before the next read
   std::size_t counted_bytes = 0;  ///< its part of ObjectStore::surface_bytes_
 
+  [[nodiscard]] bool hides_some_faces() const { return face_groups != nullptr && face_groups->hides_some(); }
+  [[nodiscard]] bool hides_all_faces() const { return face_groups != nullptr && face_groups->all().none(); }
   [[nodiscard]] bool is_posed() const { return settings.motion != Motion::deformable; }
   [[nodiscard]] bool is_read_in_every_step() const {
     return bound && bound->policy == BindPolicy::every_step;

@@ -18,6 +18,7 @@ ObjectSummary summary_of(const Object& object) {
   summary.margin = object.settings.margin;
   summary.serial = object.serial;
   summary.kind = static_cast<std::uint16_t>(object.settings.kind);
+  summary.hidden = object.hides_all_faces();
   return summary;
 }
 
@@ -67,6 +68,7 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
       summary.version = object.version;
       summary.frozen = object.frozen;
       summary.unread = is_unread;
+      summary.hidden = object.hides_all_faces();
       unread = unread || is_unread;
     }
     if (unread) some_unread.store(true, std::memory_order_relaxed);

@@ -24,6 +24,7 @@ struct ObjectSummary : FilterTraits {
   std::uint16_t kind = 0;
   bool frozen = false;
   bool unread = false;
+  bool hidden = false;     ///< all of its faces are
   bool moved = false;      ///< the box is not that of the step before
   bool read_late = false;  ///< the box has changed since the refresh
 };

@@ -187,6 +187,7 @@ void PairSelection::cut(std::span<const SlotPair> pairs, std::span<const ListedP
 
 PairSelection::Fate PairSelection::fate_of(const ObjectSummary& a, const ObjectSummary& b,
                                            const PairFilter& filter) {
+  if (a.hidden || b.hidden) return Fate::apart;
   if (!may_be_near(lower_distance(a.box, b.box), filter.reach(a, b))) return Fate::apart;
   return a.frozen || b.frozen ? Fate::frozen : Fate::tested;
 }

@@ -182,7 +182,7 @@ PairJob PairTable::job_of(const SelectedPair& selected, const FrameReport& previ
 bool PairTable::says_something(PairJob& job) const {
   const ObjectSummary& a = summaries_[first_of(job.slots)];
   const ObjectSummary& b = summaries_[second_of(job.slots)];
-  job.allowed = filter_.verdict(a, b) == PairVerdict::tested;
+  job.allowed = filter_.verdict(a, b) == PairVerdict::tested && !a.hidden && !b.hidden;
   if (!job.allowed && !job.was_in_contact()) return false;
   if (!job.allowed) job.task = PairJob::Task::end;
   if (a.frozen || b.frozen) {

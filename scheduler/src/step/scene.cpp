@@ -21,6 +21,7 @@ void prepare(const IndexedMesh& mesh, const ObjectSettings& object, const SceneS
   if (detail != ContactDetail::none)
     mesh.prepare_for(is_about_vertices(detail) ? IndexedMesh::Use::normals_of_points
                                                : IndexedMesh::Use::normals);
+  if (scene.ways_out && !is_about_vertices(detail)) mesh.prepare_for(IndexedMesh::Use::faces_of_edges);
   if (detail == ContactDetail::nearest) mesh.prepare_for(IndexedMesh::Use::sides_of_edges);
   if (object.solid) mesh.prepare_for(IndexedMesh::Use::neighbours);
   if (object.motion != Motion::deformable) mesh.prepare_for(IndexedMesh::Use::poses);

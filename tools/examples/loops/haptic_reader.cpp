@@ -103,10 +103,9 @@ void HapticReader::add_planes(const graze::FrameReport& report, std::size_t inst
       report_planes_.push_back(
           plane_for_hand(contact.push(), contact.separation(), held_of_report_[instrument]));
       const graze::ContactGeometry now =
-          graze::evaluate(*organs_[pair.user_data_a], organ_points_[pair.user_data_a], contact.feature_a,
-                          mesh, instrument_points_, contact.feature_b);
-      const Eigen::Vector3d push = now.separation < 0 ? Eigen::Vector3d(-now.normal) : now.normal;
-      moved_planes_.push_back(plane_for_hand(push, now.separation, held));
+          graze::evaluate(*organs_[pair.user_data_a], organ_points_[pair.user_data_a], mesh,
+                          instrument_points_, contact);
+      moved_planes_.push_back(plane_for_hand(now.push, now.separation, held));
     }
   }
 }

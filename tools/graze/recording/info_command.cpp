@@ -51,8 +51,10 @@ void print_gaps(const std::vector<std::string>& gaps) {
 }
 
 void print_settings(const SceneSettings& settings) {
-  say("  settings   contact distance %.9g, range %.9g, detail %s, %u threads\n", settings.contact_distance,
+  say("  settings   contact distance %.9g, range %.9g, detail %s, %u threads", settings.contact_distance,
       settings.range, std::string(io::to_string(settings.detail)).c_str(), settings.threads);
+  if (settings.carrying > 0) say(", at most %zu contacts of a pair carry it", settings.carrying);
+  say("%s\n", settings.ways_out ? ", ways out" : "");
 }
 
 void print_frames(const Recording& recording) {

@@ -52,6 +52,7 @@ io::PictureScene scene_of(const Replay& replay, const PictureOptions& options) {
     const auto contacts = report.contacts(pair);
     scene.contacts.insert(scene.contacts.end(), contacts.begin(), contacts.end());
     if (contacts.empty()) scene.distances.push_back({pair.witness.point_a, pair.witness.point_b});
+    scene.ways_out.push_back(pair.way_out);
     if (!options.lines) continue;
     for (const RegionDistance& region : report.region_distances(pair))
       scene.region_distances.push_back(region);

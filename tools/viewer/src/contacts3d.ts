@@ -44,12 +44,20 @@ function lastKnownPlace(stage: Stage, object: number): ArrayLike<number> {
 }
 
 /** Arrows are short beside the smaller object and beside the scene, so that many small objects stay in sight. */
-function arrowLength(stage: Stage, a: number, b: number): number {
+export function arrowLength(stage: Stage, a: number, b: number): number {
   const sizes = [a, b].map((index) => {
     const object = stage.viewer.page!.objects[index]!;
     return object.isThere && object.hasBox ? Math.hypot(...object.low.map((x, k) => object.high[k]! - x)) : Infinity;
   });
   return Math.min(0.05 * stage.radius, 0.25 * Math.min(...sizes));
+}
+
+/** Adds a shaft and a head, and returns where the arrow begins and ends. */
+export function addArrow(shafts: SegmentBatch, heads: SegmentBatch, from: Vec3, direction: Vec3, length: number, colour: string): [Vec3, Vec3] {
+  const along = (share: number) => from.map((x, k) => x + share * length * direction[k]!) as unknown as Vec3;
+  shafts.add(from, along(0.7), colour);
+  heads.add(along(0.55), along(1), colour);
+  return [from, along(1)];
 }
 
 export class ContactsLayer implements Layer {
@@ -58,8 +66,8 @@ export class ContactsLayer implements Layer {
   places: Vec3[] = [];
   private readonly points = new PointBatch(40);
   private readonly warnings = new PointBatch(60);
-  /** Where each arrow begins and ends, in the order of `places`. There are none where arrows are off. */
-  arrows: [from: Vec3, to: Vec3][] = [];
+  /** Where each arrow begins and ends, in the order of `places`; null without one, as where arrows are off. */
+  arrows: ([from: Vec3, to: Vec3] | null)[] = [];
   private readonly segments = new SegmentBatch(30, 1.8);
   private readonly heads = new SegmentBatch(32, 6.5, true);
   readonly objects = [this.segments.object, this.heads.object, this.points.object, this.warnings.object];
@@ -107,21 +115,12 @@ export class ContactsLayer implements Layer {
         this.points.add(b, colour, CLASS_SHAPES[group]!, 0.62 * size);
         this.segments.add(a, b, colour, 150);
       }
-      if (display.pushes) {
-        const length = display.arrowLength * arrowLength(stage, block.pairA[pair]!, block.pairB[pair]!);
-        this.addArrow(b, report.push(contact), length, colour);
-      }
+      const length = display.arrowLength * arrowLength(stage, block.pairA[pair]!, block.pairB[pair]!);
+      const hasPush = display.pushes && !report.pierces(contact);
+      this.arrows.push(hasPush ? addArrow(this.segments, this.heads, b, report.push(contact), length, colour) : null);
       this.shown.push([contact, pair]);
       this.places.push(middle);
     }
-  }
-
-  private addArrow(from: Vec3, direction: Vec3, length: number, colour: string): void {
-    const along = (share: number) => from.map((x, k) => x + share * length * direction[k]!) as unknown as Vec3;
-    const to = along(1);
-    this.segments.add(from, along(0.7), colour);
-    this.heads.add(along(0.55), to, colour);
-    this.arrows.push([from, to]);
   }
 
   private addDiagnostics(stage: Stage): void {

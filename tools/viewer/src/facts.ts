@@ -46,6 +46,7 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
   const flags = block.flags[row]!;
   // Without a solid there is no inside, and `none` would say nothing of surfaces that pierce each other.
   const hasSolid = head.objects[a]!.solid || head.objects[b]!.solid;
+  const way = block.wayOutOf(row);
   const features = block.witnessFeatures.subarray(4 * row, 4 * row + 4);
   const kinds: Record<string, number> = {};
   for (let c = block.contactBegin[row]!; c < block.contactEnd[row]!; ++c) {
@@ -66,6 +67,7 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
     point_a: triple(block.witnessPoints, 6 * row), point_b: triple(block.witnessPoints, 6 * row + 3),
     contacts: block.contactEnd[row]! - block.contactBegin[row]!, contacts_by_kind: kinds,
     region_distances: block.regionEnd[row]! - block.regionBegin[row]!, region_distances_by_level: levels,
+    ...(way ? { way_out: { ...way } } : {}),
   };
 }
 
@@ -86,6 +88,7 @@ export function contactFacts(viewer: Viewer, s: Selection & { type: 'contact' })
     point_a: triple(block.points, 6 * row), point_b: triple(block.points, 6 * row + 3),
     normal: triple(block.normal, 3 * row), push: report.push(row),
     side_a: SIDES[report.sideA(row)] ?? '?', side_b: SIDES[report.sideB(row)] ?? '?',
+    ...(KINDS[s.kind] === 'EE' ? { sunk: block.isSunk(row) } : {}),
     since: block.since[row]!, age: report.age(row),
   };
 }

@@ -57,6 +57,6 @@ export function droppedAt(head: Head, frame: number): { before: number; after: n
 
 export function checkHead(value: unknown): Head {
   const head = value as Head;
-  if (head.version !== 1) throw new Error(`This data has version ${head.version}; this viewer reads version 1.`);
+  if (head.version !== 1 && head.version !== 2) throw new Error(`This data has version ${head.version}; this viewer reads versions 1 and 2.`);
   return head;
 }

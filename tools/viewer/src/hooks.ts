@@ -1,5 +1,6 @@
 // What may tests and the console ask of the page?
 
+import type { Vec3 } from './batches3d';
 import type { Facts } from './facts';
 import { frameFacts, selectionFacts } from './facts';
 import { selectionKey, type Lists } from './lists';
@@ -22,13 +23,18 @@ export interface Hooks {
   drawn(): Record<string, unknown>;
   /** Where a contact that is shown stands on the screen, in pixels of the canvas. */
   contactAt(index: number): { x: number; y: number; key: string } | null;
-  /** The arrow of a contact that is shown, in the coordinates of the scene; null where arrows are off. */
+  /** The arrow of a contact that is shown, in the coordinates of the scene; null where it has none. */
   arrowOf(index: number): { from: number[]; to: number[]; key: string } | null;
+  /** The arrows of ways out, in the coordinates of the scene. */
+  waysOut(): { from: number[]; to: number[] }[];
+  /** Where their middles stand on the screen, in pixels of the canvas. */
+  wayPlaces(): { x: number; y: number }[];
   pixels(): { width: number; height: number; data: Uint8Array };
   link(): string;
   stats(): Record<string, number>;
 }
 
+const inScene = (stage: Stage, point: readonly number[]): number[] => point.map((x, k) => x + stage.origin[k]!);
 const median = (values: number[]): number => [...values].sort((p, q) => p - q)[values.length >> 1] ?? 0;
 
 export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: Lists, link: Link, ready: Promise<void>): Hooks {
@@ -46,7 +52,7 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
     drawn() {
       stage.draw();
       return {
-        contacts: stage.contacts.shown.length, arrows: stage.contacts.arrows.length, warnings: stage.contacts.warningCount,
+        contacts: stage.contacts.shown.length, arrows: stage.contacts.arrows.filter((arrow) => arrow).length, ways: stage.ways.shown.length, warnings: stage.contacts.warningCount,
         lines: stage.lines.counts(), hiddenLevels: [...viewer.display.hiddenLevels], bounds: stage.lines.boundCount, highlights: stage.highlight.count,
         ghosts: stage.surfaces.flatMap((s, i) => (s.isGhost ? [i] : [])),
         surfaces: stage.surfaces.filter((s) => s.object.visible).length, rows: lists.rows.length,
@@ -63,10 +69,15 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
     arrowOf(index) {
       const arrow = stage.contacts.arrows[index];
       if (!arrow) return null;
-      const [from, to] = arrow.map((end) => end.map((x, k) => x + stage.origin[k]!)) as [number[], number[]];
+      const [from, to] = arrow.map((end) => inScene(stage, end)) as [number[], number[]];
       const [contact, pair] = stage.contacts.shown[index]!;
       return { from, to, key: selectionKey(viewer.contactSelection(contact, pair)) };
     },
+    waysOut: () => stage.ways.shown.map(({ a, b }) => ({ from: inScene(stage, a), to: inScene(stage, b) })),
+    wayPlaces: () => stage.ways.shown.map(({ a, b }) => {
+      const [x, y] = new Screen(stage).at(a.map((from, k) => (from + b[k]!) / 2) as unknown as Vec3)!;
+      return { x, y };
+    }),
     pixels: () => stage.pixels(),
     link: () => link.text(),
     stats: () => ({

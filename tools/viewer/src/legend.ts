@@ -44,10 +44,12 @@ export class Legend {
       ++shown[kind]!;
       ++classes[sideClass(report.sideA(contact), report.sideB(contact))]!;
     }
+    const ways = [...report.pairs()].filter((row) => report.block.wayOutOf(row)?.direction.some((x) => x !== 0)).length;
     this.element.replaceChildren(
       this.group('Contacts', KINDS.map((_, kind) => this.kindItem(kind, shown[kind]!, kinds[kind]!))),
       this.group('Sides', classes.map((n, i) => h('span', { class: 'key', title: `Contacts shown whose side is: ${CLASS_NAMES[i]}` },
         swatch(palette().neutral, CLASS_STYLES[i]!), CLASS_NAMES[i]!, h('small', {}, count(n))))),
+      ways > 0 ? this.group('Pairs', [this.waysItem(ways)]) : '',
       // Only scenes that ask for region distances have any.
       report.block.regionLevels.length > 0 ? this.group('Lines', this.levelItems()) : '');
   }
@@ -66,6 +68,17 @@ export class Legend {
         else filter.kinds[kind] = !filter.kinds[kind];
         this.viewer.changed();
       } }, swatch(KIND_COLOURS[kind]!, 'disc'), KINDS[kind]!, h('small', {}, shown === all ? count(all) : `${count(shown)}/${count(all)}`));
+  }
+
+  private waysItem(ways: number): HTMLElement {
+    const { display } = this.viewer;
+    return h('button', {
+      type: 'button', class: 'key', 'aria-pressed': String(display.ways), 'data-testid': 'ways',
+      title: 'Ways out of pairs whose surfaces pass through each other, as long as they are thick (S)',
+      click: () => {
+        display.ways = !display.ways;
+        this.viewer.changed();
+      } }, swatch(palette().crossing, 'line'), 'way out', h('small', {}, count(ways)));
   }
 
   private levelItems(): HTMLElement[] {

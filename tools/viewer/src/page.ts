@@ -15,7 +15,7 @@ export class Page {
 
   private constructor(readonly source: ChunkSource, readonly head: Head, meshes: Mesh[]) {
     this.motions = new BlockCache(CACHE_BYTES, async (name) => new MotionBlock(await readTable(source, name)));
-    this.reports = new BlockCache(CACHE_BYTES, async (name) => new ReportBlock(await readTable(source, name)));
+    this.reports = new BlockCache(CACHE_BYTES, (name) => this.readReport(name));
     this.objects = head.objects.map((object, i) => new ObjectState(i, meshes[object.mesh]!));
   }
 
@@ -40,6 +40,11 @@ export class Page {
     if (!isWanted()) return null;
     for (const object of this.objects) object.show(motion, k, frame, this.head);
     return new FrameReport(report, frame - k * this.head.block, frame, this.head.frame_numbers[frame] ?? frame);
+  }
+
+  /** Reads a block of reports past the cache. */
+  async readReport(name: string): Promise<ReportBlock> {
+    return new ReportBlock(await readTable(this.source, name), this.head.version > 1);
   }
 
   prefetch(block: number): void {

@@ -64,7 +64,8 @@ function pickPair(stage: Stage, x: number, y: number): Selection | null {
   const screen = new Screen(stage);
   let best = -1;
   let least = 6;
-  stage.lines.shown.forEach((line, i) => {
+  const lines = [...stage.lines.shown, ...stage.ways.shown];
+  lines.forEach((line, i) => {
     const [p, q] = [screen.at(line.a), screen.at(line.b)];
     if (!p || !q) return;
     const away = distanceToSegment(x, y, p, q);
@@ -72,7 +73,7 @@ function pickPair(stage: Stage, x: number, y: number): Selection | null {
   });
   if (best < 0) return null;
   const { block } = stage.viewer.report!;
-  const { pair } = stage.lines.shown[best]!;
+  const { pair } = lines[best]!;
   return { type: 'pair', a: block.pairA[pair]!, b: block.pairB[pair]! };
 }
 

@@ -4,8 +4,6 @@ import uPlot from 'uplot';
 import { h, short } from './dom';
 import { STAGES } from './head';
 import { isDark, palette, STAGE_COLOURS } from './palette';
-import { ReportBlock } from './report';
-import { readTable } from './chunks';
 import type { Viewer } from './viewer';
 
 interface Line { label: string; colour: string; values: (number | null)[] }
@@ -137,7 +135,7 @@ export class Plots {
     let shown = performance.now();
     for (const k of blocks) {
       // Blocks that are not in memory are read past the cache, so that they throw nothing out of it.
-      const block = page.reports.peek(`report/${k}`) ?? new ReportBlock(await readTable(page.source, `report/${k}`));
+      const block = page.reports.peek(`report/${k}`) ?? await page.readReport(`report/${k}`);
       if (this.boundsOf !== key || viewer.page !== page) return;
       for (let i = 0; i < block.begin.length; ++i) {
         const row = block.rowOf(i, pair.a, pair.b);

@@ -6,8 +6,18 @@ export const PHASES = ['near', 'began', 'touching', 'ended'] as const;
 export const KINDS = ['VV', 'VE', 'VF', 'EE', 'EF', 'FF'] as const;
 export const SIDES = ['none', 'front', 'back'] as const;
 export const FEATURE_KINDS = ['vertex', 'edge', 'face'] as const;
+/** In the sides of a contact: two edges are sunk. */
+const SUNK = 16;
 
 export interface Diagnostic { frame: number; object: number | null; kind: string; message: string }
+/** How b leaves a where the surfaces of a pair pass through each other. A direction of zeros is none. */
+export interface WayOut {
+  direction: [number, number, number];
+  point: [number, number, number];
+  fullness: number;
+  thickness: number;
+  extent: number;
+}
 export interface FrameInfo { frame: number; tag: string; complete: boolean; statistics: Record<string, unknown> }
 
 /** The reports of a block of frames: columns, with one entry for each pair, contact and region distance. */
@@ -42,8 +52,15 @@ export class ReportBlock {
   readonly regionIds: Uint32Array;
   readonly regionPoints: Float64Array;
   readonly regionDistance: Float64Array;
+  /** The rows of ways out by their pairs. */
+  private readonly wayOfPair: Map<number, number>;
+  private readonly wayDirection: Float64Array;
+  private readonly wayPoint: Float64Array;
+  private readonly wayFullness: Float64Array;
+  private readonly wayThickness: Float64Array;
+  private readonly wayExtent: Float64Array;
 
-  constructor(table: Table) {
+  constructor(table: Table, private readonly saysSunk: boolean) {
     this.byteLength = table.byteLength;
     this.diagnostics = (table.header.diagnostics ?? []) as Diagnostic[];
     this.infos = (table.header.frames_info ?? []) as FrameInfo[];
@@ -73,11 +90,35 @@ export class ReportBlock {
     this.regionIds = table.u32('region_ids');
     this.regionPoints = table.f64('region_points');
     this.regionDistance = table.f64('region_distance');
+    this.wayOfPair = new Map([...table.u32('way_pair')].map((pair, way) => [pair, way]));
+    this.wayDirection = table.f64('way_direction');
+    this.wayPoint = table.f64('way_point');
+    this.wayFullness = table.f64('way_fullness');
+    this.wayThickness = table.f64('way_thickness');
+    this.wayExtent = table.f64('way_extent');
   }
 
   /** Whether an object of a pair is inside the other, as a number of INSIDES. */
   insideOf(row: number): number {
     return this.inside[row] ?? 0;
+  }
+
+  /** Whether two edges are sunk. In older data they are where each lies behind the other's surface. */
+  isSunk(contact: number): boolean {
+    const sides = this.sides[contact]!;
+    if (this.saysSunk) return (sides & SUNK) !== 0;
+    return KINDS[this.kind[contact]!] === 'EE' && this.distance[contact] !== 0 && (sides & 15) === 2 + 4 * 2;
+  }
+
+  /** The way out of a pair, or null where the report has none. */
+  wayOutOf(row: number): WayOut | null {
+    const way = this.wayOfPair.get(row);
+    if (way === undefined) return null;
+    const triple = (values: Float64Array) => [...values.subarray(3 * way, 3 * way + 3)] as [number, number, number];
+    return {
+      direction: triple(this.wayDirection), point: triple(this.wayPoint), fullness: this.wayFullness[way]!,
+      thickness: this.wayThickness[way]!, extent: this.wayExtent[way]!,
+    };
   }
 
   /** The row of a pair in the i-th frame of the block, or -1. */
@@ -144,9 +185,15 @@ export class FrameReport {
     return SIDES[isFaceA ? this.sideA(contact) : this.sideB(contact)] === 'back';
   }
 
-  /** With a vertex, its side of the other surface decides; without one, both sides do. At distance 0 nothing is behind. */
+  /** Whether an edge pierces a face. Such a contact carries nothing. */
+  pierces(contact: number): boolean {
+    return KINDS[this.block.kind[contact]!] === 'EF' && this.block.distance[contact] === 0;
+  }
+
+  /** Two edges are behind where they are sunk. With a vertex, its side of the other surface decides; else both sides do. At distance 0 nothing is behind. */
   private isBehind(contact: number): boolean {
-    const { distance, features } = this.block;
+    const { distance, features, kind } = this.block;
+    if (KINDS[kind[contact]!] === 'EE') return this.block.isSunk(contact);
     if (distance[contact] === 0) return false;
     const [isVertexA, isVertexB] = [features[4 * contact] === 0, features[4 * contact + 2] === 0];
     const [isBehindA, isBehindB] = [SIDES[this.sideA(contact)] === 'back', SIDES[this.sideB(contact)] === 'back'];

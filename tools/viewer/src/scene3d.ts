@@ -9,6 +9,7 @@ import { LinesLayer } from './lines3d';
 import { channels, palette } from './palette';
 import { SurfaceView } from './surfaces3d';
 import type { Viewer } from './viewer';
+import { WaysLayer } from './ways3d';
 
 /** A part of the picture that is drawn over the surfaces. */
 export interface Layer {
@@ -35,6 +36,7 @@ export class Stage {
   readonly eye: Eye;
   readonly contacts = new ContactsLayer();
   readonly lines = new LinesLayer();
+  readonly ways = new WaysLayer();
   readonly highlight = new HighlightLayer();
   /** The middle of the scene in the first frame. Everything is drawn relative to it, so that floats do. */
   origin: [number, number, number] = [0, 0, 0];
@@ -45,7 +47,7 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly clip = new THREE.Vector4(0, 0, 0, 1e30);
-  private readonly layers: Layer[] = [this.lines, this.contacts, this.highlight];
+  private readonly layers: Layer[] = [this.lines, this.contacts, this.ways, this.highlight];
   private isAsked = false;
   private isWanted = false;
   private isStale = true;

@@ -30,6 +30,8 @@ export interface Display {
   boundsOfAll: boolean;
   contacts: boolean;
   pushes: boolean;
+  /** Ways out of pairs whose surfaces pass through each other. */
+  ways: boolean;
   arrowLength: number;
   pointSize: number;
   diagnostics: boolean;
@@ -66,7 +68,7 @@ function newDisplay(): Display {
   return {
     surfaces: true, edges: true, opacity: 1, clip: false, clipAxis: 'x', clipAt: 0.5, clipFlipped: false,
     lines: true, hiddenLevels: new Set(), witnesses: true, bounds: 'off', boundsLevel: 1, boundsOfAll: false,
-    contacts: true, pushes: true, arrowLength: 1, pointSize: 9, diagnostics: true, insides: true, names: false,
+    contacts: true, pushes: true, ways: true, arrowLength: 1, pointSize: 9, diagnostics: true, insides: true, names: false,
     hiddenObjects: new Set(), up: 'z', pick: 'auto',
   };
 }

@@ -1,6 +1,11 @@
 #pragma once
 
 #include <cfenv>
+#include <optional>
+
+#if defined(__SSE2_MATH__)
+#include <xmmintrin.h>
+#endif
 
 namespace graze {
 
@@ -19,6 +24,30 @@ class FloatingPointScope {
 
  private:
   std::fenv_t before_{};
+};
+
+/// Whether the calling thread computes as in a FloatingPointScope already. It may say no where it does.
+inline bool is_in_default_mode() {
+#if defined(__SSE2_MATH__)
+  constexpr unsigned exception_flags = 0x3F;
+  constexpr unsigned defaults = 0x1F80;
+  return (_mm_getcsr() & ~exception_flags) == defaults;
+#else
+  return false;
+#endif
+}
+
+/// A FloatingPointScope for calls that take less time than one. It leaves all as it is where the caller
+/// computes in that mode already, and may leave exception flags behind then.
+class BriefFloatingPointScope {
+ public:
+  BriefFloatingPointScope() {
+    if (!is_in_default_mode()) [[unlikely]]
+      scope_.emplace();
+  }
+
+ private:
+  std::optional<FloatingPointScope> scope_;
 };
 
 }  // namespace graze

@@ -88,6 +88,7 @@ class GRAZE_API IndexedMesh {
     blocks,             ///< `block_order`, `stretch_groups`
     normals_of_points,  ///< `vertex_fans`, `vertex_faces`
     normals,            ///< these and `edge_faces`
+    faces_of_edges,     ///< `edge_faces`
     sides_of_edges,     ///< `edge_across`, `is_crease`
     neighbours,         ///< `vertex_neighbours`
     poses,              ///< `rest_reach`

@@ -12,7 +12,7 @@
 
 namespace graze {
 
-class GroupFilter;
+class FeatureFilter;
 
 /// The question about one pair of objects.
 struct PairQuery {
@@ -40,7 +40,8 @@ struct PairQuery {
   bool a_is_solid = false;
   bool b_is_solid = false;
   [[nodiscard]] bool has_solid() const { return a_is_solid || b_is_solid; }
-  /// Whether the answer says how surfaces that pass through each other leave each other.
+  /// Whether the answer says how surfaces that pass through each other leave each other. This does not go
+  /// with details about vertices, nor with AccuracyMode::paper.
   bool wants_way_out = false;
   /// How many distances of regions are listed at most; 0: none.
   std::size_t region_distance_limit = 0;
@@ -50,7 +51,7 @@ struct PairQuery {
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
   /// Says which features are looked at; null where all are. It leaves some. Fronts that are used were made
   /// with the same groups, ignored in the same way.
-  const GroupFilter* groups = nullptr;
+  const FeatureFilter* groups = nullptr;
   /// Region pairs that may be tested; beyond it the answer is not complete.
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
   static constexpr std::chrono::steady_clock::time_point no_deadline =

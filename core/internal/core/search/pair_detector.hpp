@@ -49,6 +49,8 @@ class GRAZE_API PairDetector {
   void reserve(const PairRoom& room);
   /// Makes further room ahead of time for pairs of that size that have a solid.
   void reserve_for_solids(const PairRoom& room);
+  /// Makes further room ahead of time for pairs of that size whose way out is asked for.
+  void reserve_for_ways_out(const PairRoom& room);
   /// Makes further room ahead of time for pairs of that size of which at most so many contacts are kept.
   void reserve_for_limit(std::size_t most, const PairRoom& room);
   /// Bytes of working memory held.

@@ -32,6 +32,9 @@ struct PictureScene {
   /// Region distances. Each is a line between two middle vertices: red at level 1, green at level 2 and blue
   /// at level 3, as in figure 7 of the paper, and darker beyond.
   std::vector<RegionDistance> region_distances{};
+  /// Ways out of pairs. Each is a purple arrow from WayOut::point, as long as WayOut::thickness, or a little
+  /// longer so that it is seen. One without a direction is not drawn.
+  std::vector<WayOut> ways_out{};
 };
 
 /// Says how a picture is drawn.
