@@ -51,11 +51,14 @@ class EdgePair {
     });
     return excess <= 0;
   }
-  /// Whether an edge and a corner across from it make a triangle that has an area.
-  [[nodiscard]] bool has_area(const Eigen::Vector3d& corner, const Ends& edge) const {
-    return !is_zero(count_, [&]<typename Number>() {
-      return cross(difference<Number>(corner, edge[0]), difference<Number>(edge[1], edge[0]));
-    });
+  /// Whether two corners in one plane with an edge make triangles with it, one on each side.
+  [[nodiscard]] bool are_beside_each_other(const std::array<Eigen::Vector3d, 2>& corners,
+                                           const Ends& edge) const {
+    return decide_sign(count_, [&]<typename Number>() {
+             const auto along = difference<Number>(edge[1], edge[0]);
+             return dot(cross(difference<Number>(corners[0], edge[0]), along),
+                        cross(difference<Number>(corners[1], edge[0]), along));
+           }) < 0;
   }
   [[nodiscard]] const Ends& a() const { return a_; }
   [[nodiscard]] const Ends& b() const { return b_; }
@@ -152,14 +155,15 @@ class EdgeSide {
   [[nodiscard]] bool is_within_flat_surface() const {
     const IndexedMesh& mesh = surface().mesh();
     if (is_crease()) return false;
+    std::array<Eigen::Vector3d, 2> places;
     std::size_t triangles = 0;
     for (const std::uint32_t corner : mesh.edge_across(edge_)) {
       if (!is_across_in_seen_face(corner)) continue;
-      if (lead(corner) != 0 || !edges_.has_area(surface().position(corner), ends())) return false;
-      ++triangles;
+      if (lead(corner) != 0 || triangles == places.size()) return false;
+      places[triangles++] = surface().position(corner);
     }
     const auto faces = mesh.edge_faces(edge_);
-    return triangles >= 2 &&
+    return triangles == places.size() && edges_.are_beside_each_other(places, ends()) &&
            (pair_.groups == nullptr || std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
               return groups().hides(face) || may(face);
             }));
