@@ -140,6 +140,11 @@ Shape seen_part(const Shape& shape, const HiddenGroups& groups) {
   return seen;
 }
 
+bool has_quads(const Shape& shape) {
+  return std::any_of(shape.faces.begin(), shape.faces.end(),
+                     [](const auto& corners) { return corners.size() > 3; });
+}
+
 /// The faces that have an edge, and whether they are hidden.
 struct EdgeFaces {
   std::vector<std::uint32_t> seen;
@@ -275,11 +280,13 @@ TEST_CASE("hidden groups: random scenes are those of brute force") {
 TEST_CASE("hidden groups: contacts are those of meshes without the hidden faces") {
   const FloatingPointScope scope;
   std::size_t contacts = 0;
-  for (std::uint64_t seed = 1; seed < 1200; seed += 2) {
+  for (std::uint64_t seed = 1; seed < 6000; seed += 2) {
     const oracle::RandomScene scene = oracle::random_scene(seed);
     Random random(seed + 3);
     HiddenPair pair(random, scene.a, scene.b);
     pair.ignores = false;
+    // The edge of a hidden face may join the diagonal of a quad, which is no fold then.
+    if (has_quads(scene.a) || has_quads(scene.b)) continue;
     const Shape seen_a = seen_part(scene.a, pair.of_a);
     const Shape seen_b = seen_part(scene.b, pair.of_b);
     if (seen_a.faces.empty() || seen_b.faces.empty()) continue;

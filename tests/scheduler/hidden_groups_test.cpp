@@ -65,7 +65,8 @@ class HiddenScenes {
     const ReportHandle report = scenes_[0].step();
     REQUIRE(inconsistency_of(*report) == "");
     REQUIRE(difference_of(*report, *scenes_[1].step()) == "");
-    REQUIRE(timeless_rows_of(*report, range_) == timeless_rows_of(*afresh(), range_));
+    if (pairs().are_some())  // otherwise a row is there because the pair ended
+      REQUIRE(timeless_rows_of(*report, range_) == timeless_rows_of(*afresh(), range_));
     if (detail_ != ContactDetail::nearest) compare_with_brute_force(*report);
     was_in_contact_ = false;
     for (const PairReport& pair : report->pairs())
