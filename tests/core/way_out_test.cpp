@@ -110,7 +110,7 @@ std::string difference_of(const WayOut& way, const Shape& a, const Shape& b, Sol
                           const oracle::Contour& truth) {
   constexpr double tolerance = 1e-6;
   if (!crosses || truth.is_empty()) return is_nothing(way) ? "" : "a way out where nothing crosses\n";
-  if (truth.spread < 1e-5 * truth.length) return "";  // as good as a line, or a point
+  if (truth.length < 1e-3 || truth.spread < 1e-5 * truth.length) return "";  // as good as a line, or a point
   std::string text;
   if (std::abs(way.fullness - truth.fullness) > tolerance) text += "fullness\n";
   if ((way.point - truth.middle).norm() > tolerance) text += "point\n";
