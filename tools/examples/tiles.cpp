@@ -114,9 +114,9 @@ bool walk(double way, double aside, double lift) {
         const double missing = contact_distance - contact.separation();
         if (missing > push.norm()) push = missing * contact.push();
       }
-      const graze::WayOut& out = pair.way_out;  // where corners lie on faces, no contact says how deep
-      const double missing = contact_distance + out.thickness;
-      if (missing > push.norm() && !out.direction.isZero()) push = missing * out.direction;
+      const graze::WayOut& way = pair.way_out;  // counts where no contact is half as deep as the pair
+      if (!way.direction.isZero() && push.norm() < contact_distance + way.thickness / 2)
+        push = (contact_distance + way.thickness) * way.direction;
     }
     pose.translation() += push;
   }

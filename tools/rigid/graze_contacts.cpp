@@ -1,5 +1,6 @@
 #include "rigid/graze_contacts.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -40,15 +41,15 @@ void GrazeContacts::find(std::span<const Body> bodies, std::vector<Contact>& con
 void GrazeContacts::add_contacts(const PairReport& pair, std::vector<Contact>& contacts) const {
   const auto a = static_cast<std::uint32_t>(pair.user_data_a);
   const auto b = static_cast<std::uint32_t>(pair.user_data_b);
-  bool has_depth = false;
+  double deepest = 0;
   for (const graze::Contact& contact : report_->contacts(pair)) {
     if (contact.kind == ContactKind::EF && contact.distance == 0) continue;
     contacts.push_back(
         {a, b, contact.point_a, contact.point_b, contact.push(), contact.separation(), key_of(contact)});
-    has_depth = has_depth || contact.separation() < 0;
+    deepest = std::max(deepest, -contact.separation());
   }
   const WayOut& way = pair.way_out;
-  if (!has_depth && !way.direction.isZero())
+  if (!way.direction.isZero() && deepest < way.thickness / 2)
     contacts.push_back({a, b, way.point, way.point, way.direction, 0});
 }
 

@@ -83,7 +83,7 @@ void Solver::substep(std::vector<Body>& bodies, double time_step) {
     if (body.inverse_mass > 0) body.velocity += time_step * settings_.gravity;
   for (const Constraint& constraint : constraints_)
     constraint.apply(constraint.impulse.pressure * constraint.push + constraint.impulse.drag);
-  solve(time_step, true);
+  for (int i = 0; i < settings_.passes; ++i) solve(time_step, true);
   for (Body& body : bodies) move(body, time_step);
   // What was pushed out does not fly on.
   solve(time_step, false);

@@ -11,12 +11,13 @@ namespace graze::rigid {
 struct SolverSettings {
   Eigen::Vector3d gravity = {0, 0, -9.81};  ///< m/s²
   int substeps = 10;                        ///< of each step. Contacts are found once for all of them
+  int passes = 2;                           ///< over the contacts in each substep
   double gap = 0.001;         ///< m, how far surfaces stay apart; less than the contact distance
   double friction = 0.5;      ///< the coefficient of Coulomb's friction
   double recovery_speed = 1;  ///< m/s, how fast what is nearer than the gap is pushed out at most
 };
 
-/// Moves rigid bodies by impulses at their contacts, in many small substeps with one pass over the contacts
+/// Moves rigid bodies by impulses at their contacts, in many small substeps with few passes over the contacts
 /// each. The points of a contact are carried along by their bodies, so each substep knows the separation
 /// without another search. See Macklin, Storey, Lu, Terdiman, Chentanez, Jeschke and Müller, Small Steps in
 /// Physics Simulation, 2019, and Catto, Solver2D, 2024.
