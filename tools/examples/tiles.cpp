@@ -89,12 +89,14 @@ bool keeps_its_speed(int argc, char** argv) {
   return holds;
 }
 
-/// Moves a crate by `way` a step towards another, and pushes it out by the longest push of each pair. Returns
-/// where it is after 200 steps: the other one is at 0, and both are 1 m wide.
-double walk(double way, double aside, double lift) {
+/// Moves a crate by `way` a step towards another, and pushes it out by the longest push. Returns whether it
+/// is stopped. Both are 1 m wide, and the other one is at the origin.
+bool walk(double way, double aside, double lift) {
   constexpr double contact_distance = 0.05;
-  graze::Scene scene(
-      {.contact_distance = contact_distance, .detail = graze::ContactDetail::nearest, .threads = 1});
+  graze::Scene scene({.contact_distance = contact_distance,
+                      .detail = graze::ContactDetail::nearest,
+                      .threads = 1,
+                      .ways_out = true});
   const examples::Shape shape = examples::box({1, 1, 1});
   const auto mesh =
       std::make_shared<const graze::Mesh>(graze::Mesh::from_triangles(shape.points, shape.triangles));
@@ -107,9 +109,14 @@ double walk(double way, double aside, double lift) {
     scene.set_pose(crate, pose);
     const graze::ReportHandle report = scene.step();
     Vector3d push = Vector3d::Zero();
-    for (const graze::Contact& contact : report->contacts()) {
-      const double missing = contact_distance - contact.separation();
-      if (missing > push.norm()) push = missing * contact.push();
+    for (const graze::PairReport& pair : report->pairs()) {
+      for (const graze::Contact& contact : report->contacts(pair)) {
+        const double missing = contact_distance - contact.separation();
+        if (missing > push.norm()) push = missing * contact.push();
+      }
+      const graze::WayOut& way = pair.way_out;  // where corners lie on faces, no contact says how deep
+      const double missing = contact_distance + way.thickness;
+      if (missing > push.norm() && !way.direction.isZero()) push = missing * way.direction;
     }
     pose.translation() += push;
   }
