@@ -1,0 +1,55 @@
+#include "rigid/graze_contacts.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace graze::rigid {
+namespace {
+
+SceneSettings with_nearest(SceneSettings settings) {
+  settings.detail = ContactDetail::nearest;
+  return settings;
+}
+
+/// Packs the two features of a contact into a number that is not 0.
+std::uint64_t key_of(const graze::Contact& contact) {
+  const auto packed = [](const Feature& feature) {
+    return (static_cast<std::uint64_t>(feature.kind) + 1) << 30 | feature.index;
+  };
+  return packed(contact.feature_a) << 32 | packed(contact.feature_b);
+}
+
+}  // namespace
+
+GrazeContacts::GrazeContacts(SceneSettings settings) : scene_(with_nearest(std::move(settings))) {}
+
+ObjectId GrazeContacts::add(std::shared_ptr<const Mesh> mesh, const Body& body, ObjectSettings object) {
+  object.motion = body.inverse_mass > 0 ? Motion::rigid : Motion::fixed;
+  object.solid = true;
+  object.user_data = ids_.size();
+  return ids_.emplace_back(scene_.add(std::move(mesh), object));
+}
+
+void GrazeContacts::find(std::span<const Body> bodies, std::vector<Contact>& contacts) {
+  for (std::size_t i = 0; i < ids_.size(); ++i) scene_.set_pose(ids_[i], bodies[i].pose());
+  report_ = scene_.step();
+  contacts.clear();
+  for (const PairReport& pair : report_->pairs()) add_contacts(pair, contacts);
+}
+
+void GrazeContacts::add_contacts(const PairReport& pair, std::vector<Contact>& contacts) const {
+  const auto a = static_cast<std::uint32_t>(pair.user_data_a);
+  const auto b = static_cast<std::uint32_t>(pair.user_data_b);
+  bool has_depth = false;
+  for (const graze::Contact& contact : report_->contacts(pair)) {
+    if (contact.kind == ContactKind::EF && contact.distance == 0) continue;
+    contacts.push_back(
+        {a, b, contact.point_a, contact.point_b, contact.push(), contact.separation(), key_of(contact)});
+    has_depth = has_depth || contact.separation() < 0;
+  }
+  const WayOut& way = pair.way_out;
+  if (!has_depth && !way.direction.isZero())
+    contacts.push_back({a, b, way.point, way.point, way.direction, 0});
+}
+
+}  // namespace graze::rigid

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <graze/graze.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rigid/contact.hpp"
+
+namespace graze::rigid {
+
+/// Finds contacts by a scene of graze, with ContactDetail::nearest. All objects are solids.
+///
+/// Edges that pierce are left out, since they do not say how deep they are. A pair whose surfaces pass
+/// through each other, and where nothing says how deep, has one contact in the middle of its contour that
+/// leads along the way out.
+class GrazeContacts : public ContactSource {
+ public:
+  /// Takes the settings of a scene, but for the detail.
+  explicit GrazeContacts(SceneSettings settings);
+
+  /// Adds the surface of the next body: the first call is for body 0. A body that nothing pushes is fixed.
+  /// The object's name, groups and filters are taken from `object`. Returns its id in the scene.
+  ObjectId add(std::shared_ptr<const Mesh> mesh, const Body& body, ObjectSettings object = {});
+
+  void find(std::span<const Body> bodies, std::vector<Contact>& contacts) override;
+
+  [[nodiscard]] Scene& scene() { return scene_; }
+  /// Returns what the last search saw.
+  [[nodiscard]] const ReportHandle& report() const { return report_; }
+
+ private:
+  void add_contacts(const PairReport& pair, std::vector<Contact>& contacts) const;
+
+  Scene scene_;
+  std::vector<ObjectId> ids_;
+  ReportHandle report_;
+};
+
+}  // namespace graze::rigid
