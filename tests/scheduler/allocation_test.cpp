@@ -454,7 +454,7 @@ TEST_CASE("no allocation: hidden faces in pairs that come and go") {
   AllocationCount::begin();
   play(60);
   AllocationCount::end();
-  CHECK(contacts > 1000);
+  CHECK(contacts > 100);
   check_none_thrown();
 }
 

@@ -147,7 +147,7 @@ Slid play(const Slide& slide) {
                                 Eigen::AngleAxisd(slide.yaw, Vector::UnitZ()));
   Crate crate(half, start, speed * along);
   Slid slid{speed, slide.height, 0};
-  for (int frame = 0; frame < 300 && slid.end < columns - 1.5; ++frame) {
+  for (int frame = 0; frame < 340 && slid.end < columns - 1.5; ++frame) {
     scene.set_pose(id, crate.pose());
     const ReportHandle report = scene.step();
     std::vector<Crate::Hold> holds;

@@ -360,7 +360,8 @@ TEST_CASE(
     CHECK(same_bits(read->pairs[1].way_out.point, marked.pairs()[1].way_out.point));
   }
   const std::string text = text_of(plain, {});
-  for (const char* word : {"sunk", "way_out", "ways_out", "carrying"}) {
+  CHECK((text.find("\"sunk\":true") != std::string::npos) == (graze::tests::sunk_count(plain) > 0));
+  for (const char* word : {"way_out", "ways_out", "carrying"}) {
     INFO(word);
     CHECK(text.find(word) == std::string::npos);
   }

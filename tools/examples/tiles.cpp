@@ -114,9 +114,9 @@ bool walk(double way, double aside, double lift) {
         const double missing = contact_distance - contact.separation();
         if (missing > push.norm()) push = missing * contact.push();
       }
-      const graze::WayOut& way = pair.way_out;  // counts where no contact is half as deep as the pair
-      if (!way.direction.isZero() && push.norm() < contact_distance + way.thickness / 2)
-        push = (contact_distance + way.thickness) * way.direction;
+      const graze::WayOut& out = pair.way_out;  // counts where no contact is half as deep as the pair
+      if (!out.direction.isZero() && push.norm() < contact_distance + out.thickness / 2)
+        push = (contact_distance + out.thickness) * out.direction;
     }
     pose.translation() += push;
   }

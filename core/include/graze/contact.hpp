@@ -79,7 +79,8 @@ enum class ContactDetail : std::uint8_t {
   /// that pierces a face. Each pair of features is listed once. Distances are between surfaces.
   features,
   /// The closest point on the other surface of each vertex that is nearer to it than the threshold. Exact
-  /// ties go to the smallest kind, then feature. Every pair of edges of `features` that is locally closest, or
+  /// ties go to the smallest kind, then feature. Every pair of edges of `features` that is locally closest,
+  /// or
   /// that bounds a patch, is listed too, and every edge that pierces a face. Where none of these is below the
   /// threshold or pierces, but the fold of a quad is, the nearest such contact of `features` is listed. There
   /// are fewer contacts than in `features`, and enough to push objects apart. Distances are between surfaces.

@@ -92,7 +92,7 @@ GRAZE_API ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a,
 /// The points, the normal and the distance are those of the two features, as the other form gives them. The
 /// sign is that of the report, continued. The push is the direction of the two features that makes an angle
 /// of at most 90 degrees with Contact::push() of `contact`. The direction is the cross product of two edges,
-/// the normal of a face for a vertex or an edge, and #ContactGeometry::normal otherwise. The separation is
+/// the normal of a face for a vertex or an edge, and ContactGeometry::normal otherwise. The separation is
 /// the gap from point_a to point_b along the push. So it passes through 0 without a jump when the features
 /// move through each other. At the positions of the report it is Contact::separation(). It also follows what
 /// the report knows of solids by the winding number, and no face is searched.
@@ -101,7 +101,7 @@ GRAZE_API ContactGeometry evaluate(const Mesh& mesh_a, PositionView positions_a,
 /// report has distance 0 they are `none`. Where a face or two edges are closest at a border, the separation
 /// is still that of the plane of the face, or of the lines of the edges. Its size is less than the distance
 /// then, and `is_interior` is false. Edges that are parallel by now have no cross product: their direction is
-/// #ContactGeometry::normal.
+/// ContactGeometry::normal.
 ///
 /// `contact` is from a report about the two meshes, a and b as there. Memory, threads and errors are as with
 /// the other form.

@@ -169,7 +169,7 @@ void deepest_contacts_are_kept() {
                                  Eigen::AngleAxisd(0.9, Vector3d(1, 0.8, 0).normalized()));
   const auto step = [&](std::size_t limit) {
     graze::SceneSettings settings = nearest_settings(0.02);
-    settings.max_contacts_per_pair = limit;
+    if (limit > 0) settings.max_contacts_per_pair = limit;
     TwoBoxes boxes(settings, {2, 2, 0.5}, {0.5, 0.5, 0.5});
     return boxes.step_at(Eigen::Translation3d(0, 0, 0.5) * tipped);
   };

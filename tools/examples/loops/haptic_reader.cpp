@@ -102,9 +102,8 @@ void HapticReader::add_planes(const graze::FrameReport& report, std::size_t inst
     for (const graze::Contact& contact : report.contacts(pair)) {
       report_planes_.push_back(
           plane_for_hand(contact.push(), contact.separation(), held_of_report_[instrument]));
-      const graze::ContactGeometry now =
-          graze::evaluate(*organs_[pair.user_data_a], organ_points_[pair.user_data_a], mesh,
-                          instrument_points_, contact);
+      const graze::ContactGeometry now = graze::evaluate(
+          *organs_[pair.user_data_a], organ_points_[pair.user_data_a], mesh, instrument_points_, contact);
       moved_planes_.push_back(plane_for_hand(now.push, now.separation, held));
     }
   }
