@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,6 +28,21 @@ inline SeenFaces seen_faces(const FaceGroups& groups, const IndexedMesh& mesh, s
     else
       seen.faces.push_back(face);
   return seen;
+}
+
+/// Whether a corner is across from an edge in a triangle of a face.
+inline bool is_across_in(const IndexedMesh& mesh, std::uint32_t face, std::uint32_t edge,
+                         std::uint32_t corner) {
+  const auto corners = mesh.face(face);
+  const auto [low, high] = mesh.edge(edge);
+  for (std::size_t last = 2; last < corners.size(); ++last) {
+    const std::array<std::uint32_t, 3> triangle{corners[0], corners[last - 1], corners[last]};
+    const auto has = [&](std::uint32_t vertex) {
+      return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
+    };
+    if (has(low) && has(high) && has(corner)) return true;
+  }
+  return false;
 }
 
 }  // namespace graze

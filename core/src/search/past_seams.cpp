@@ -39,10 +39,9 @@ class SurfaceWithSeams {
     const IndexedMesh& mesh = surface_.mesh();
     const SeenFaces seen = seen_faces(groups_, mesh, edge);
     if (!seen.are_at_seam()) return false;
-    const auto corners = mesh.face(seen.faces[0]);
     const std::array<std::uint32_t, 2> ends = mesh.edge(edge);
     for (const std::uint32_t corner : mesh.edge_across(edge))
-      if (has(corners, corner) && leads_past(ends, corner, way)) return true;
+      if (is_across_in(mesh, seen.faces[0], edge, corner) && leads_past(ends, corner, way)) return true;
     return false;
   }
   /// Whether `way` leads away from a corner across an edge by more than 10.2° from square to their triangle.
