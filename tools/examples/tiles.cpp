@@ -114,8 +114,8 @@ bool walk(double way, double aside, double lift) {
         const double missing = contact_distance - contact.separation();
         if (missing > push.norm()) push = missing * contact.push();
       }
-      const graze::WayOut& way = pair.way_out;  // counts where no contact is half as deep as the pair
-      if (!way.direction.isZero() && push.norm() < contact_distance + way.thickness / 2)
+      const graze::WayOut& way = pair.way_out;  // counts where no contact is a quarter as deep
+      if (!way.direction.isZero() && push.norm() < contact_distance + way.thickness / 4)
         push = (contact_distance + way.thickness) * way.direction;
     }
     pose.translation() += push;
