@@ -136,7 +136,7 @@ Contact leader_of(const std::vector<Contact>& all, const WasListed& was_listed, 
     if (was_listed(each) && each.separation() <= deepest_of(all) + band / 4) leaders.push_back(each);
   if (leaders.empty()) leaders = all;
   const double least = deepest_of(leaders);
-  std::erase_if(leaders, [&](const Contact& each) { return each.separation() > least + band / 64; });
+  std::erase_if(leaders, [&](const Contact& each) { return each.separation() > least + band * 0x1p-16; });
   return *std::max_element(leaders.begin(), leaders.end(), [&](const auto& one, const auto& other) {
     return (middle_of(one) - middle).norm() < (middle_of(other) - middle).norm();
   });

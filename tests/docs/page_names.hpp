@@ -37,13 +37,14 @@ struct Vertex {
 extern graze::Scene scene;
 extern graze::SceneSettings settings;
 extern graze::ReportHandle report;
-extern std::shared_ptr<const graze::Mesh> mesh, cloth_mesh, body_mesh, tool_mesh;
+extern std::shared_ptr<const graze::Mesh> mesh, cloth_mesh, body_mesh, tool_mesh, tile_mesh;
 extern graze::ObjectId id, object, cloth, body, tool, ground;
 extern std::vector<graze::ObjectId> ids;
 extern std::vector<Eigen::Isometry3d> poses;
 extern std::vector<graze::PositionView> views;
 extern std::vector<Eigen::Vector3d> positions, points, rest, rest_positions, cloth_positions;
 extern std::vector<std::uint32_t> faces_at_the_seam;
+extern std::vector<std::uint32_t> inner_walls;
 extern std::vector<std::array<std::uint32_t, 3>> triangles;
 extern std::vector<std::array<std::uint32_t, 4>> quads;
 extern std::vector<Particle> particles;

@@ -186,7 +186,7 @@ class HiddenScenes {
 };
 
 /// The plate of two triangles: group 0 has the corner (1, -1), group 5 the corner (-1, 1).
-std::shared_ptr<const Mesh> split_plate() {
+std::shared_ptr<const Mesh> plate_in_two_groups() {
   constexpr std::array<std::array<std::uint32_t, 3>, 2> triangles{{{0, 1, 2}, {0, 2, 3}}};
   return std::make_shared<const Mesh>(Mesh::from_triangles(plate_mesh()->rest(), triangles));
 }
@@ -198,7 +198,7 @@ struct NeedleOverHidden {
     ObjectSettings settings;
     settings.face_groups = {0, 5};
     settings.hidden_groups = hidden;
-    plate = scene.add(split_plate(), settings);
+    plate = scene.add(plate_in_two_groups(), settings);
     needle = scene.add(needle_mesh());
     scene.set_positions(needle, lifted(*needle_mesh(), 0.25));
   }
@@ -299,10 +299,10 @@ TEST_CASE("hidden groups: an object that is hidden whole meets nothing until ano
     CHECK(report->statistics().pairs_apart == 1);
     CHECK(report->statistics().pairs_tested == 0);
     const std::vector<std::uint32_t> same{0, 1, 2, 3};
-    stage.scene.replace_mesh(stage.plate, split_plate(), same, Groups{5, 6});
+    stage.scene.replace_mesh(stage.plate, plate_in_two_groups(), same, Groups{5, 6});
     CHECK(only_pair(*stage.scene.step()).phase != PairPhase::ended);
     const bool touches = is_about_surfaces(detail);  // at 0.25; no two vertices are as near
-    stage.scene.replace_mesh(stage.plate, split_plate(), same);
+    stage.scene.replace_mesh(stage.plate, plate_in_two_groups(), same);
     const ReportHandle hidden = stage.scene.step();
     REQUIRE(hidden->pairs().size() == (touches ? 1 : 0));
     if (touches) CHECK(hidden->pairs()[0].phase == PairPhase::ended);

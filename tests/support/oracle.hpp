@@ -67,8 +67,8 @@ std::vector<Named> features(const Shape& a, const Shape& b, double threshold, co
 /// - For each used vertex strictly nearer to the other surface than `threshold`, its closest point there. If
 ///   several features hold that point, or several points are equally close, the lowest feature names it.
 /// - Each pair of edges whose closest points are inside both, strictly nearer than `threshold`, if no face at
-///   one of them leads nearer to the other, or if it bounds a patch (oracle_edges.hpp). The diagonal of a
-///   quad is no edge. The shapes at rest decide which edges are creases.
+///   one of them leads nearer and none lies flat, or if the pair bounds a patch (oracle_edges.hpp). The
+///   diagonal of a quad is no edge. The shapes at rest decide which edges are creases.
 /// - Each face that an edge pierces, at any threshold.
 /// - If there is none of these, the nearest EF or FF of `features`, which is at the fold of a quad. Exact
 /// ties

@@ -80,6 +80,21 @@ bool is_near_cone(const ExactShape& shape, const Segment& edge, const Beside& be
   return height * height * squared_length(along) * 32 <= squared_length(direction) * width_squared;
 }
 
+/// Whether the triangles beside an edge lie on both sides of it, with an area, all square to a direction.
+bool is_within_level(const ExactShape& shape, const Segment& edge, const std::vector<Beside>& beside,
+                     const Point& direction) {
+  const Point& p = shape.points[edge.ends[0]];
+  const Point across = cross(direction, shape.points[edge.ends[1]] - p);
+  bool is_before = false;
+  bool is_behind = false;
+  for (const Beside& triangle : beside) {
+    const int side = sgn(dot(shape.points[triangle.corner] - p, across));
+    if (side == 0 || height_of(shape, edge, triangle, direction) != 0) return false;
+    (side < 0 ? is_before : is_behind) = true;
+  }
+  return is_before && is_behind;
+}
+
 /// Which edges pierce a face of the other shape that they may be looked at with.
 template <typename May>
 std::vector<bool> piercing_edges(const ExactShape& shape, const ExactShape& other, const May& may) {
@@ -185,14 +200,10 @@ EdgePair EdgeOracle::judged(const Segment& edge_a, const Segment& edge_b, Segmen
 
   const bool is_crease_a = creases.a[pair.a.index];
   const bool is_crease_b = creases.b[pair.b.index];
-  const auto is_level_beside_a = [&](const Beside& beside) {
-    return is_seen_beside_a(beside) && height_of(a_.shape, edge_a, beside, direction) == 0;
-  };
-  const auto is_level_beside_b = [&](const Beside& beside) {
-    return is_seen_beside_b(beside) && height_of(b_.shape, edge_b, beside, direction) == 0;
-  };
-  pair.lies_flat = (!is_crease_a && std::all_of(beside_a.begin(), beside_a.end(), is_level_beside_a)) ||
-                   (!is_crease_b && std::all_of(beside_b.begin(), beside_b.end(), is_level_beside_b));
+  pair.lies_flat = (!is_crease_a && is_within_level(a_.shape, edge_a, beside_a, direction) &&
+                    std::all_of(beside_a.begin(), beside_a.end(), is_seen_beside_a)) ||
+                   (!is_crease_b && is_within_level(b_.shape, edge_b, beside_b, direction) &&
+                    std::all_of(beside_b.begin(), beside_b.end(), is_seen_beside_b));
   pair.bounds_patch =
       is_crease_a && is_crease_b &&
       (pair.is_sunk ? holds(is_near, opposite, direction) : holds(is_near, direction, opposite));

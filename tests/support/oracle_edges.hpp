@@ -53,7 +53,8 @@ struct EdgePair {
   bool is_sunk = false;
   /// On no triangle beside either edge does a way square to the edge lead nearer to the other one.
   bool is_locally_closest = false;
-  /// One of the edges is no crease, its two triangles are looked at, and both are square to the direction.
+  /// One of the edges is no crease, and its triangles lie on both sides of it, square to the direction. All
+  /// of them have an area and are looked at.
   bool lies_flat = false;
   /// Both are creases. The direction from a to b, or its opposite if the pair is sunk, is within 10.2° of the
   /// normal cone of the edge of a, and the opposite of that is as near to the cone of the edge of b.

@@ -138,6 +138,7 @@ std::optional<Contour> contour(const Shape& a, const Shape& b, const FacePairs& 
       result.area += part;
       all += part.norm();
     }
+  result.spread = all;
   if (all > 0) result.fullness = result.area.norm() / all;
   return result;
 }

@@ -18,6 +18,7 @@ struct Contour {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of all segments, weighted by their lengths
   double fullness = 0;
   double length = 0;  ///< of all segments
+  double spread = 0;  ///< half of ½ Σ |(p − middle) × (q − middle)|: next to nothing for a line
 
   [[nodiscard]] bool is_empty() const { return up.empty() && down.empty(); }
   /// How far the contour and other points reach along a direction.

@@ -169,12 +169,42 @@ TEST_CASE("bench: soft bodies move under contacts of graze, and of Bullet where 
   CHECK(lines.find("two soft balls inside each other,5,graze,") != std::string::npos);
 }
 
+TEST_CASE(
+    "bench: rigid bodies move under contacts of graze, of clipped faces, and of Bullet where it is there") {
+  const TemporaryFolder folder;
+  const std::string csv = (folder / "rigid_bodies.csv").string();
+  const ProgramResult result = run_graze({"bench", "--rigid-bodies", "--quick", "--csv", csv});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const std::string lines = read_file(csv);
+  INFO(lines);
+  CHECK(lines.starts_with("scene,contacts_from,standing,height_error_mm,through,"));
+  const bool has_bullet = result.out.find("No rows of Bullet") == std::string::npos;
+  CHECK(std::count(lines.begin(), lines.end(), '\n') == 1 + 9 * (has_bullet ? 5 : 3));
+  for (const std::string placed : {"one outline", "shifted", "turned by 2.7°", "turned by 45°", "at random"})
+    for (const char* const source : {"graze", "clipped faces", "Bullet's boxes"}) {
+      if (source[0] == 'B' && !has_bullet) continue;
+      const std::string row = "\"three crates, " + placed + "\"," + source + ",";
+      INFO(row);
+      const std::size_t at = lines.find(row);
+      REQUIRE(at != std::string::npos);
+      std::istringstream numbers(lines.substr(at + row.size()));
+      double standing = 0, error = 0, through = 0;
+      char comma = 0;
+      numbers >> standing >> comma >> error >> comma >> through;
+      CHECK(standing == 3);
+      CHECK(error < 2);
+      CHECK(through == 0);
+    }
+}
+
 TEST_CASE("bench: bad arguments are one line") {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"bench", "--scenes", "S11"},
         {"bench", "--tasks", "C"},
         {"bench", "--scenes", "S1", "--peers", "nobody"},
         {"bench", "--instruction-set", "abacus"},
+        {"bench", "--quick"},
         {"bench", "--scenes", "S1", "--json", "/no/such/folder/file.json"}}) {
     const ProgramResult result = run_graze(arguments);
     INFO(result.err);

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <optional>
 
+#include "closest_features/seen_faces.hpp"
+#include "mesh/creases.hpp"
+
 namespace graze {
 namespace {
 
@@ -111,11 +114,16 @@ class EdgeSide {
   /// `gap` is the sign of the way from this edge to the other one along n.
   EdgeSide(const SurfacePair& pair, const EdgePair& edges, bool is_of_a, std::uint32_t edge,
            std::uint32_t other, int gap)
-      : pair_(pair), edges_(edges), is_of_a_(is_of_a), edge_(edge), other_(other), gap_(gap) {}
+      : pair_(pair), edges_(edges), is_of_a_(is_of_a), edge_(edge), other_(other), gap_(gap) {
+    if (pair.groups != nullptr && groups().hides_some()) seen_ = seen_faces(groups(), surface().mesh(), edge);
+  }
 
+  [[nodiscard]] bool is_seam() const { return seen_.are_at_seam(); }
   /// Whether the edge allows that the two edges are locally closest.
-  [[nodiscard]] bool is_locally_closest() const {
-    return !any_across([&](std::uint32_t corner) { return lead(corner) > 0; }) && !is_within_flat_surface();
+  [[nodiscard]] bool is_locally_closest() const { return !leads_nearer() && !is_within_flat_surface(); }
+  /// Whether the way into a triangle leads nearer to the other point.
+  [[nodiscard]] bool leads_nearer() const {
+    return any_across([&](std::uint32_t corner) { return lead(corner) > 0; });
   }
   /// Whether the edge is a crease, and the way to the other point within τ of its normal cone. The way is the
   /// opposite if `sign` is −1.
@@ -124,10 +132,17 @@ class EdgeSide {
       return lead(corner) == sign && !edges_.is_within_tolerance(surface().position(corner), ends());
     });
   }
-  [[nodiscard]] bool is_crease() const { return surface().mesh().is_crease(edge_); }
+  [[nodiscard]] bool is_crease() const {
+    if (!seen_.hides_some) return surface().mesh().is_crease(edge_);
+    const auto& faces = seen_.faces;
+    return faces.size() != 2 || is_crease_between(surface().mesh(), edge_, {faces[0], faces[1]});
+  }
 
  private:
   [[nodiscard]] const Surface& surface() const { return is_of_a_ ? pair_.a : pair_.b; }
+  [[nodiscard]] const FaceGroups& groups() const {
+    return is_of_a_ ? pair_.groups->of_a() : pair_.groups->of_b();
+  }
   [[nodiscard]] const EdgePair::Ends& ends() const { return is_of_a_ ? edges_.a() : edges_.b(); }
   [[nodiscard]] int lead(std::uint32_t corner) const {
     return edges_.sign_along_normal(surface().position(corner), ends()[0]) * gap_;
@@ -136,15 +151,23 @@ class EdgeSide {
   /// bounds nothing, and any tilt would make it lead nearer.
   [[nodiscard]] bool is_within_flat_surface() const {
     const IndexedMesh& mesh = surface().mesh();
-    const auto across = mesh.edge_across(edge_);
+    if (is_crease()) return false;
+    std::size_t triangles = 0;
+    for (const std::uint32_t corner : mesh.edge_across(edge_)) {
+      if (!is_across_in_seen_face(corner)) continue;
+      if (lead(corner) != 0 || !edges_.has_area(surface().position(corner), ends())) return false;
+      ++triangles;
+    }
     const auto faces = mesh.edge_faces(edge_);
-    return !is_crease() && across.size() >= 2 &&
-           std::all_of(across.begin(), across.end(),
-                       [&](std::uint32_t corner) {
-                         return lead(corner) == 0 && edges_.has_area(surface().position(corner), ends());
-                       }) &&
-           (pair_.groups == nullptr ||
-            std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) { return may(face); }));
+    return triangles >= 2 &&
+           (pair_.groups == nullptr || std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
+              return groups().hides(face) || may(face);
+            }));
+  }
+  [[nodiscard]] bool is_across_in_seen_face(std::uint32_t corner) const {
+    return !seen_.hides_some || std::any_of(seen_.faces.begin(), seen_.faces.end(), [&](std::uint32_t face) {
+      return is_across_in(surface().mesh(), face, edge_, corner);
+    });
   }
   /// Whether `holds` for a corner across the edge in a face that counts. Without groups all faces count, and
   /// none is asked for.
@@ -171,6 +194,7 @@ class EdgeSide {
   std::uint32_t edge_;
   std::uint32_t other_;
   int gap_;
+  SeenFaces seen_;  ///< left empty where the surface hides no faces
 };
 
 }  // namespace
@@ -183,6 +207,8 @@ EdgesListed listed_edges(const SurfacePair& pair, std::uint32_t edge_a, std::uin
   if (gap == 0) return EdgesListed::always;
   const EdgeSide a(pair, edges, true, edge_a, edge_b, gap);
   const EdgeSide b(pair, edges, false, edge_b, edge_a, -gap);
+  if (a.is_seam() || b.is_seam())
+    return a.leads_nearer() || b.leads_nearer() ? EdgesListed::never : EdgesListed::only_alone;
   if (a.is_locally_closest() && b.is_locally_closest()) return EdgesListed::always;
   if (!a.is_crease() || !b.is_crease()) return EdgesListed::never;
   const bool if_not_sunk = a.has_in_cone(1) && b.has_in_cone(1);

@@ -8,7 +8,13 @@ namespace graze {
 
 /// Whether `ContactDetail::nearest` lists two edges. That two edges are sunk is known only when all edges
 /// that pierce have been found.
-enum class EdgesListed : std::uint8_t { never, if_not_sunk, if_sunk, always };
+enum class EdgesListed : std::uint8_t {
+  never,
+  only_alone,  ///< if there is no other contact, so that surfaces in contact are known to be
+  if_not_sunk,
+  if_sunk,
+  always,
+};
 
 /// Whether two edges are listed whose closest points lie inside both.
 ///
@@ -20,6 +26,10 @@ enum class EdgesListed : std::uint8_t { never, if_not_sunk, if_sunk, always };
 /// beside the edge of a leads along u by more than τ = 10.2°, and none beside the edge of b along −u. Where
 /// the edges are sunk, u is the opposite. A triangle counts only if its face may be looked at with the other
 /// edge.
+///
+/// At a seam the seen face goes on behind the edge. So a seam is no crease, and two edges of which one is a
+/// seam are listed only where they cross. If they are locally closest but for that, they are listed alone.
+/// Where several faces of an edge are seen, these alone say whether it is a crease.
 EdgesListed listed_edges(const SurfacePair& pair, std::uint32_t edge_a, std::uint32_t edge_b);
 
 }  // namespace graze

@@ -48,16 +48,26 @@ void NearestFeatures::take(const FeaturePairKey& key, const SquaredRange& square
 
 /// Takes two edges, or features of which one is a fold, that are below the threshold.
 void NearestFeatures::take_near(const FeaturePairKey& key, const SquaredRange& squared) {
-  if (key.kind() == ContactKind::EE) return take_edges(key);
+  if (key.kind() == ContactKind::EE)
+    take_edges(key, squared);
+  else
+    take_alone(key, squared);
+}
+
+/// Takes two features that are a contact only where there is no other.
+void NearestFeatures::take_alone(const FeaturePairKey& key, const SquaredRange& squared) {
   if (found_.fold)
     keep_nearer(pair_, *found_.fold, {key, squared});
   else
     found_.fold = {key, squared};
 }
 
-void NearestFeatures::take_edges(const FeaturePairKey& key) {
+void NearestFeatures::take_edges(const FeaturePairKey& key, const SquaredRange& squared) {
   switch (listed_edges(pair_, key.index_a(), key.index_b())) {
     case EdgesListed::never:
+      break;
+    case EdgesListed::only_alone:
+      take_alone(key, squared);
       break;
     case EdgesListed::always:
       found_.keys.push_back(key);

@@ -25,8 +25,8 @@ struct NearestFound {
   std::vector<FeaturePairKey>& keys;        ///< edges that pierce faces, and edges below the threshold
   std::vector<EdgesIfSunk>& edges_if_sunk;  ///< further edges below the threshold
   PiercingEdges& piercing;                  ///< the edges that pierce
-  /// The nearest where one feature is the fold of a quad, of those below the threshold. It is a contact only
-  /// where there is no other.
+  /// The nearest where one feature is the fold of a quad, or one edge a seam of hidden faces, of those below
+  /// the threshold. It is a contact only where there is no other.
   std::optional<NearKey>& fold;
   /// What may be nearest to each vertex. It is complete when all leaves have been added.
   NearestOfVertices& vertices;
@@ -57,7 +57,8 @@ class NearestFeatures {
   void with_names(const Use& use);
   void take(const FeaturePairKey& key, const SquaredRange& squared);
   void take_near(const FeaturePairKey& key, const SquaredRange& squared);
-  void take_edges(const FeaturePairKey& key);
+  void take_edges(const FeaturePairKey& key, const SquaredRange& squared);
+  void take_alone(const FeaturePairKey& key, const SquaredRange& squared);
 
   const SurfacePair& pair_;
   double threshold_;

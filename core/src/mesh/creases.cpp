@@ -73,13 +73,17 @@ bool bends(const Triangle& left, const Triangle& right) {
 
 bool is_crease(const IndexedMesh& mesh, std::uint32_t edge) {
   const auto faces = mesh.edge_faces(edge);
-  if (faces.size() != 2) return true;
+  return faces.size() != 2 || is_crease_between(mesh, edge, {faces[0], faces[1]});
+}
+
+}  // namespace
+
+bool is_crease_between(const IndexedMesh& mesh, std::uint32_t edge,
+                       const std::array<std::uint32_t, 2>& faces) {
   const auto left = triangle_at(mesh, faces[0], edge);
   const auto right = triangle_at(mesh, faces[1], edge);
   return left && right && bends(*left, *right);
 }
-
-}  // namespace
 
 std::vector<bool> find_creases(const IndexedMesh& mesh) {
   std::vector<bool> creases(mesh.edge_count());

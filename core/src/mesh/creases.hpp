@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,5 +13,9 @@ class IndexedMesh;
 /// quad counts by its triangle that has the edge. A triangle without area bends nothing. It is decided
 /// exactly.
 [[nodiscard]] std::vector<bool> find_creases(const IndexedMesh& mesh);
+
+/// Whether an edge would be a crease if it had these two of its faces alone.
+[[nodiscard]] bool is_crease_between(const IndexedMesh& mesh, std::uint32_t edge,
+                                     const std::array<std::uint32_t, 2>& faces);
 
 }  // namespace graze

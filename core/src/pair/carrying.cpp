@@ -12,8 +12,9 @@ namespace {
 /// A contact that was listed leads while it is at most this part of the band less deep than the deepest.
 constexpr double part_to_lead = 1.0 / 4;
 
-/// Contacts that differ by at most this part of the band are equally deep. The outermost of these leads.
-constexpr double part_of_even = 1.0 / 64;
+/// Contacts that differ by at most this part of the band are equally deep: what rounding leaves of a flat
+/// place. The outermost of these leads.
+constexpr double part_of_even = 0x1p-16;
 
 /// The cosine of 26°: pushes that differ by more do not carry together.
 constexpr double least_cosine = 0.898794;

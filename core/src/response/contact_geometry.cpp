@@ -15,6 +15,8 @@
 namespace graze {
 namespace {
 
+// What most calls go through is inlined into both forms of evaluate(): a call takes a tenth of their time.
+
 /// One side of a contact.
 struct PlacedFeature {
   PlacedMesh placed;
@@ -22,7 +24,7 @@ struct PlacedFeature {
 
   [[nodiscard]] bool is(FeatureKind kind) const { return feature.kind == kind; }
   [[nodiscard]] Eigen::Vector3d vertex() const { return placed.point(feature.index); }
-  [[nodiscard]] Segment edge() const {
+  [[nodiscard, gnu::always_inline]] Segment edge() const {
     const auto [start, end] = placed.mesh.edge(feature.index);
     return {placed.point(start), placed.point(end)};
   }
@@ -161,7 +163,9 @@ Eigen::Vector3d touching_normal(const PlacedFeature& a, const PlacedFeature& b, 
 }
 
 /// What needs no sign: neither the push nor the separation, nor a side.
-ContactGeometry unsigned_geometry(const PlacedFeature& a, const PlacedFeature& b, const ClosestPoints& at) {
+[[gnu::always_inline]] inline ContactGeometry unsigned_geometry(const PlacedFeature& a,
+                                                                const PlacedFeature& b,
+                                                                const ClosestPoints& at) {
   ContactGeometry geometry;
   geometry.point_a = at.a;
   geometry.point_b = at.b;

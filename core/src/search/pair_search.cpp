@@ -5,6 +5,7 @@
 #include "core/search/pair_detector.hpp"
 #include "pair/time_limit.hpp"
 #include "search/deepest_contacts.hpp"
+#include "search/past_seams.hpp"
 #include "search/search_worker.hpp"
 #include "search/solid_search.hpp"
 #include "search/way_out_search.hpp"
@@ -57,8 +58,9 @@ void PairSearch::next_stage(SearchWorker& worker) {
   if (progress == SearchProgress::gave_up) return give_up();
   if (progress != SearchProgress::answered) return;
   phase_ = Phase::done;
-  if (pair_.query.detail == ContactDetail::nearest && pair_.query.contact_limit > 0)
-    keep_deepest(*pair_.answer, pair_.query.contact_limit);
+  if (pair_.query.detail != ContactDetail::nearest) return;
+  leave_out_past_seams(worker.pair, pair_.query, *pair_.answer);
+  if (pair_.query.contact_limit > 0) keep_deepest(*pair_.answer, pair_.query.contact_limit);
 }
 
 /// Completes an answer about a pair with a solid. Where it asks for the closest points, these may be known at

@@ -229,7 +229,9 @@ ContourArea Contour::area() const {
     all += part.norm();
   }
   result.middle = origin + middle * size;
-  if (all > 0) result.fullness = std::min(1.0, result.area.norm() / all);
+  // A contour as narrow as the shift, such as a line, has an area by chance alone.
+  const double by_chance = 8 * shift_length() / size * length_of_all;
+  if (all > by_chance) result.fullness = std::min(1.0, result.area.norm() / all);
   return result;
 }
 

@@ -44,7 +44,9 @@ struct ContourArea {
   /// ½ Σ (p − middle) × (q − middle) over the segments p-q, relative to the square of the contour's size.
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  double fullness = 0;  ///< the length of the area, divided by the sum of the lengths of its terms
+  /// The length of the area, divided by the sum of the lengths of its terms. It is 0 for a contour that is no
+  /// wider than the shift.
+  double fullness = 0;
 };
 
 /// Working memory for contours.

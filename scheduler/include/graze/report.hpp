@@ -69,7 +69,8 @@ struct PairReport {
   /// The number of region distances of the pair.
   std::size_t region_distance_count = 0;
   /// How b leaves a, if SceneSettings::ways_out asks for it and the surfaces pass through each other: if
-  /// #inside is Inside::crossing, or an edge pierces a face. Otherwise all of it is 0.
+  /// #inside is Inside::crossing, or an edge pierces a face, or surfaces that share planes have sunk into each
+  /// other. Otherwise all of it is 0.
   WayOut way_out;
 };
 

@@ -165,6 +165,7 @@ struct SceneCapacity {
   /// If the number is not 0, each object also gets room for the bounds of its regions, even if it is added
   /// later. Each thread gets room for a pair of 1,024 contacts, 1,024 leaf pairs, and 1,024 contacts at the
   /// least distance. If an object is a solid, it also gets room for 8,192 edges that touch another surface.
+  /// With SceneSettings::ways_out it gets room for 4,096 places where an edge crosses a face.
   std::size_t near_pairs = 0;
   /// The number of contacts of all pairs together, in the answers of a step and in a report.
   std::size_t contacts = 0;

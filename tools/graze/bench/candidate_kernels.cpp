@@ -149,7 +149,8 @@ class CandidateKernels final : public Contender {
     const LocalObject& of_b = brought_up(b);
     const SurfacePair pair{of_a.surface, of_b.surface, count_};
     names_.clear();
-    CloseFeatures features(pair, world_.distance, scratch_, names_);
+    piercing_.clear();
+    CloseFeatures features(pair, world_.distance, scratch_, names_, piercing_);
     for (std::size_t begin = 0; begin < candidates.size();) {
       const std::uint32_t triangle = candidates[begin].triangle_a;
       beside_.clear();
@@ -198,6 +199,7 @@ class CandidateKernels final : public Contender {
   LeafScratch scratch_;
   DecisionCount count_;
   std::vector<FeaturePairKey> names_;
+  PiercingEdges piercing_;
   KeyOrder order_;
   MeasureScratch measuring_;
   std::vector<Contact> contacts_;

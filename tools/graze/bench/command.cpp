@@ -12,6 +12,7 @@
 
 #include "bench/aims.hpp"
 #include "bench/growth_figures.hpp"
+#include "bench/rigid_body_study.hpp"
 #include "bench/run.hpp"
 #include "bench/slow_motion.hpp"
 #include "bench/soft_body_study.hpp"
@@ -38,6 +39,8 @@ struct BenchOptions {
   bool aims = false;
   bool details = false;
   bool soft_bodies = false;
+  bool rigid_bodies = false;
+  bool is_quick = false;
   std::size_t slow = 1;
   std::vector<std::string> instruction_sets;
   std::string data = GRAZE_SHARED_DATA;
@@ -128,6 +131,18 @@ void compare_soft_bodies(const BenchOptions& options) {
   if (options.csv) write_text_file(*options.csv, csv_of(table));
 }
 
+void compare_rigid_bodies(const BenchOptions& options) {
+  const bench::PeerModule module;
+  const auto has_name_of_bullet = [](const bench::RigidContactEntry& entry) {
+    return entry.name.starts_with("Bullet");
+  };
+  if (std::ranges::none_of(module.rigid_contact_finders(), has_name_of_bullet))
+    print("No rows of Bullet: it was not there when this program was built.\n\n");
+  const ResultTable table = bench::compare_rigid_bodies(module, options.is_quick);
+  print(markdown_of(table));
+  if (options.csv) write_text_file(*options.csv, csv_of(table));
+}
+
 std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
                                 const bench::PeerModule& module) {
   std::vector<bench::Run> runs;
@@ -174,6 +189,7 @@ void run(const BenchOptions& options) {
   check_outputs(options);
   if (options.details) return compare_details(options);
   if (options.soft_bodies) return compare_soft_bodies(options);
+  if (options.rigid_bodies) return compare_rigid_bodies(options);
   const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);
   const bench::PeerModule module;
   const bench::Surroundings surroundings = bench::surroundings(module, sets);
@@ -221,6 +237,11 @@ void add_bench_command(CLI::App& app) {
   command->add_flag(
       "--soft-bodies", options->soft_bodies,
       "Instead compare graze and Bullet as the source of contacts of one solver of soft bodies");
+  CLI::Option* const rigid_bodies = command->add_flag("--rigid-bodies", options->rigid_bodies,
+                                                      "Instead compare graze, clipped faces and Bullet as "
+                                                      "the source of contacts of one solver of rigid bodies");
+  command->add_flag("--quick", options->is_quick, "With --rigid-bodies: few bodies and few steps")
+      ->needs(rigid_bodies);
   command->add_flag("--recorded", options->is_recorded, "Measure graze once more, with a recorder attached");
   command->add_flag("--evict", options->evict, "Touch 64 MB of other memory before each turn");
   command->add_option("--slow", options->slow, "Play scenes so many times slower")

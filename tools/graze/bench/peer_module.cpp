@@ -15,8 +15,12 @@ PeerModule::PeerModule() {
     throw io::InputError(std::string(dlerror()) +
                          "; graze bench runs from the folder it is built in, beside that file");
   const auto list = reinterpret_cast<ListPeers>(dlsym(module, "graze_bench_peers"));
-  if (list == nullptr) throw io::InputError(file.string() + ": is not what graze bench was built with");
+  const auto list_rigid =
+      reinterpret_cast<ListRigidContactFinders>(dlsym(module, "graze_bench_rigid_contacts"));
+  if (list == nullptr || list_rigid == nullptr)
+    throw io::InputError(file.string() + ": is not what graze bench was built with");
   list(entries_, compiled_for_);
+  list_rigid(rigid_contact_finders_);
   make_soft_contact_finder_ =
       reinterpret_cast<MakeSoftContactFinder>(dlsym(module, "graze_bench_soft_contacts"));
 }

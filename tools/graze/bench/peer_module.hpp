@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bench/contender.hpp"
+#include "bench/rigid_contacts.hpp"
 #include "bench/soft_contacts.hpp"
 
 namespace graze::bench {
@@ -24,6 +25,10 @@ class PeerModule {
   /// Returns null where it was not.
   [[nodiscard]] std::unique_ptr<SoftContactFinder> soft_contact_finder(
       std::span<const SoftBodyView> bodies, const SoftContactSettings& settings) const;
+  /// All ways to find contacts of rigid bodies.
+  [[nodiscard]] std::span<const RigidContactEntry> rigid_contact_finders() const {
+    return rigid_contact_finders_;
+  }
   /// Compiler flags.
   [[nodiscard]] std::string compiled_for() const { return std::string(compiled_for_); }
 
@@ -31,6 +36,7 @@ class PeerModule {
   PeerList entries_;
   std::string_view compiled_for_;
   MakeSoftContactFinder make_soft_contact_finder_ = nullptr;
+  std::span<const RigidContactEntry> rigid_contact_finders_;
 };
 
 }  // namespace graze::bench

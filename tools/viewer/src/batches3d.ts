@@ -97,10 +97,10 @@ const SPHERE_FRAGMENT = /* glsl */ `
 
 type Uniforms = Record<string, THREE.IUniform>;
 
-function overlay(vertexShader: string, fragmentShader: string, uniforms: Uniforms, behind: boolean): THREE.ShaderMaterial {
+function overlay(vertexShader: string, fragmentShader: string, uniforms: Uniforms, behind: boolean, hidden = BEHIND): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     vertexShader, fragmentShader, transparent: true, depthWrite: false, side: THREE.DoubleSide,
-    uniforms: { ...uniforms, opacity: { value: behind ? BEHIND : 1 } },
+    uniforms: { ...uniforms, opacity: { value: behind ? hidden : 1 } },
     depthFunc: behind ? THREE.GreaterDepth : THREE.LessEqualDepth,
   });
 }
@@ -200,8 +200,8 @@ export class SegmentBatch {
   private readonly uniforms: { resolution: { value: THREE.Vector2 }; width: { value: number }; pull: { value: number };
                                near: { value: number }; taper: { value: number } };
 
-  /** Segments that are pointed narrow to nothing at their end. */
-  constructor(order: number, private readonly width: number, isPointed = false) {
+  /** Segments that are pointed narrow to nothing at their end. `hidden` is how strong they are behind a surface. */
+  constructor(order: number, private readonly width: number, isPointed = false, hidden = BEHIND) {
     this.uniforms = { resolution: { value: new THREE.Vector2(1, 1) }, width: { value: width }, pull: { value: PULL },
                       near: { value: 0.01 }, taper: { value: isPointed ? 1 : 0 } };
     this.geometry.setAttribute('position', new THREE.Float32BufferAttribute([-1, 0, 0, 1, 0, 0, 1, 1, 0, -1, 1, 0], 3));
@@ -210,7 +210,7 @@ export class SegmentBatch {
     this.ends = new Column(this.geometry, 'end', 3, false, true);
     this.tints = new Column(this.geometry, 'tint', 4, true, true);
     this.object = twice((behind) => new THREE.Mesh(
-      this.geometry, overlay(SEGMENT_VERTEX, SEGMENT_FRAGMENT, this.uniforms, behind)), order);
+      this.geometry, overlay(SEGMENT_VERTEX, SEGMENT_FRAGMENT, this.uniforms, behind, hidden)), order);
   }
 
   clear(): void {

@@ -6,12 +6,15 @@ import type { DrawnLine } from './lines3d';
 import { palette } from './palette';
 import type { Layer, Stage } from './scene3d';
 
+/** A way out begins inside the two objects, so it is hardly fainter there. */
+const HIDDEN = 0.8;
+
 /** An arrow for each pair: from the middle of where its surfaces cross, as long as the way is thick, or a little longer so that it is seen. */
 export class WaysLayer implements Layer {
   /** What is drawn and can be picked. */
   shown: DrawnLine[] = [];
-  private readonly shafts = new SegmentBatch(34, 3.6);
-  private readonly heads = new SegmentBatch(36, 13, true);
+  private readonly shafts = new SegmentBatch(34, 3.6, false, HIDDEN);
+  private readonly heads = new SegmentBatch(36, 13, true, HIDDEN);
   private readonly starts = new PointBatch(38);
   readonly objects = [this.shafts.object, this.heads.object, this.starts.object];
 
@@ -36,7 +39,7 @@ export class WaysLayer implements Layer {
       const way = block.wayOutOf(pair);
       const [a, b] = [block.pairA[pair]!, block.pairB[pair]!];
       if (!way?.direction.some((x) => x !== 0) || (!stage.isDrawn(a) && !stage.isDrawn(b))) continue;
-      const length = Math.max(way.thickness, 2 * display.arrowLength * arrowLength(stage, a, b));
+      const length = Math.max(way.thickness, 2.5 * display.arrowLength * arrowLength(stage, a, b));
       const [from, to] = addArrow(this.shafts, this.heads, stage.local(way.point), way.direction, length, crossing);
       this.starts.add(from, crossing, SHAPE.disc, 8);
       this.shown.push({ a: from, b: to, pair, level: 0 });
