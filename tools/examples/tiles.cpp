@@ -114,8 +114,8 @@ bool walk(double way, double aside, double lift) {
         const double missing = contact_distance - contact.separation();
         if (missing > push.norm()) push = missing * contact.push();
       }
-      const graze::WayOut& out = pair.way_out;  // counts where no contact is half as deep as the pair
-      if (!out.direction.isZero() && push.norm() < contact_distance + out.thickness / 2)
+      const graze::WayOut& out = pair.way_out;  // counts where no contact is a quarter as deep
+      if (!way.direction.isZero() && push.norm() < contact_distance + way.thickness / 4)
         push = (contact_distance + out.thickness) * out.direction;
     }
     pose.translation() += push;

@@ -41,6 +41,7 @@ void GrazeContacts::find(std::span<const Body> bodies, std::vector<Contact>& con
 void GrazeContacts::add_contacts(const PairReport& pair, std::vector<Contact>& contacts) const {
   const auto a = static_cast<std::uint32_t>(pair.user_data_a);
   const auto b = static_cast<std::uint32_t>(pair.user_data_b);
+  const std::size_t first = contacts.size();
   double deepest = 0;
   for (const graze::Contact& contact : report_->contacts(pair)) {
     if (contact.kind == ContactKind::EF && contact.distance == 0) continue;
@@ -49,8 +50,9 @@ void GrazeContacts::add_contacts(const PairReport& pair, std::vector<Contact>& c
     deepest = std::max(deepest, -contact.separation());
   }
   const WayOut& way = pair.way_out;
-  if (!way.direction.isZero() && deepest < way.thickness / 2)
-    contacts.push_back({a, b, way.point, way.point, way.direction, 0});
+  if (way.direction.isZero() || deepest >= way.thickness / 4) return;
+  contacts.resize(first);
+  contacts.push_back({a, b, way.point, way.point, way.direction, 0});
 }
 
 }  // namespace graze::rigid

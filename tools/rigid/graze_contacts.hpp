@@ -13,8 +13,8 @@ namespace graze::rigid {
 /// Finds contacts by a scene of graze, with ContactDetail::nearest. All objects are solids.
 ///
 /// Edges that pierce are left out, since they do not say how deep they are. A pair whose surfaces pass
-/// through each other, and of which no contact is half as deep as it is thick there, has one contact more: in
-/// the middle of its contour, along the way out.
+/// through each other, and of which no contact is a quarter as deep as it is thick there, has another contact
+/// in place of these: in the middle of its contour, along the way out.
 class GrazeContacts : public ContactSource {
  public:
   /// Takes the settings of a scene, but for the detail.

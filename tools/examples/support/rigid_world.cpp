@@ -10,7 +10,6 @@ graze::SceneSettings scene_settings(const RigidWorldSettings& settings) {
   graze::SceneSettings scene;
   scene.contact_distance = settings.contact_distance;
   scene.carrying = settings.carrying;
-  scene.carrying_band = settings.carrying_band;
   scene.ways_out = settings.ways_out;
   scene.threads = 1;
   return scene;

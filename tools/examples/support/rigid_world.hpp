@@ -15,8 +15,7 @@ namespace examples {
 
 struct RigidWorldSettings {
   double contact_distance = 0.02;  ///< m: the gap, and how far surfaces come nearer in one step
-  double carrying_band = 0.005;    ///< m: how much less deep than the deepest a contact is that carries
-  std::size_t carrying = 8;        ///< contacts of each pair
+  std::size_t carrying = 8;        ///< contacts of each pair. 0 is all of them
   bool ways_out = true;
   graze::rigid::SolverSettings solver;
 };
