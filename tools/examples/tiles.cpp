@@ -115,7 +115,7 @@ bool walk(double way, double aside, double lift) {
         if (missing > push.norm()) push = missing * contact.push();
       }
       const graze::WayOut& out = pair.way_out;  // counts where no contact is a quarter as deep
-      if (!way.direction.isZero() && push.norm() < contact_distance + way.thickness / 4)
+      if (!out.direction.isZero() && push.norm() < contact_distance + out.thickness / 4)
         push = (contact_distance + out.thickness) * out.direction;
     }
     pose.translation() += push;
