@@ -2,7 +2,7 @@
 // heap comes to rest.
 //
 // What falls comes nearer by up to 7 cm in 1/120 s. So the contact distance is 8 cm, and contacts are found
-// twice a frame.
+// twice a frame. All of them count: those that carry a body now are not those that stop it next.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -26,6 +26,7 @@ constexpr double time_step = 1.0 / 120;
 examples::RigidWorldSettings settings() {
   examples::RigidWorldSettings settings;
   settings.contact_distance = 0.08;
+  settings.carrying = 0;
   settings.solver.substeps = 5;
   return settings;
 }
@@ -82,7 +83,7 @@ bool holds(const char* name, void (*add)(examples::RigidWorld&), int frames, int
       world.step(time_step);
       silent += world.silent_crossings();
     }
-    if (frame % 5 == 4) deepest = std::max(deepest, world.deepest_overlap());
+    if (frame % 10 == 9) deepest = std::max(deepest, world.deepest_overlap());
   }
   std::size_t crossing = 0;
   for (const graze::PairReport& pair : world.report().pairs())
@@ -93,14 +94,14 @@ bool holds(const char* name, void (*add)(examples::RigidWorld&), int frames, int
       "%zu %s after %d frames: %zu of %zu pairs cross, deepest ever %.1f mm, %zu at rest, %zu silent\n",
       world.bodies().size() - 1, name, frames, crossing, world.report().pairs().size(), 1e3 * deepest,
       resting - 1, silent);
-  return crossing == 0 && deepest < 0.02 && silent == 0 && resting >= world.bodies().size() * 9 / 10;
+  return crossing == 0 && deepest < 0.01 && silent == 0 && resting >= world.bodies().size() * 8 / 10;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool crates = holds("crates", add_crates, 360, argc, argv);
-  const bool logs = holds("logs", add_logs, 360, argc, argv);
+  const bool crates = holds("crates", add_crates, 240, argc, argv);
+  const bool logs = holds("logs", add_logs, 240, argc, argv);
   std::printf("the heaps %s\n", crates && logs ? "are whole" : "are not as they should be");
   return crates && logs ? 0 : 1;
 }
