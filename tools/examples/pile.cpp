@@ -100,8 +100,8 @@ bool holds(const char* name, void (*add)(examples::RigidWorld&), int frames, int
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool crates = holds("crates", add_crates, 240, argc, argv);
-  const bool logs = holds("logs", add_logs, 240, argc, argv);
+  const bool crates = holds("crates", add_crates, 270, argc, argv);
+  const bool logs = holds("logs", add_logs, 200, argc, argv);
   std::printf("the heaps %s\n", crates && logs ? "are whole" : "are not as they should be");
   return crates && logs ? 0 : 1;
 }

@@ -87,9 +87,9 @@ bool keeps_its_speed(int argc, char** argv) {
   return holds;
 }
 
-/// Moves a crate by `way` a step towards another, and pushes it out by the longest push. Returns whether it
+/// Moves a crate by `pace` a step towards another, and pushes it out by the longest push. Returns whether it
 /// is stopped. Both are 1 m wide, and the other one is at the origin.
-bool walk(double way, double aside, double lift) {
+bool walk(double pace, double aside, double lift) {
   constexpr double contact_distance = 0.05;
   graze::Scene scene({.contact_distance = contact_distance,
                       .detail = graze::ContactDetail::nearest,
@@ -103,7 +103,7 @@ bool walk(double way, double aside, double lift) {
       scene.add(mesh, {.name = "crate", .motion = graze::Motion::rigid, .solid = true});
   Eigen::Isometry3d pose(Eigen::Translation3d(1.3, aside, lift));
   for (int step = 0; step < 200; ++step) {
-    pose.translation().x() -= way;
+    pose.translation().x() -= pace;
     scene.set_pose(crate, pose);
     const graze::ReportHandle report = scene.step();
     Vector3d push = Vector3d::Zero();
@@ -120,16 +120,16 @@ bool walk(double way, double aside, double lift) {
   }
   const Vector3d place = pose.translation();
   const bool is_stopped = place.x() > 1 && std::abs(place.y()) < 0.5 && std::abs(place.z()) < 0.5;
-  std::printf("walks %.0f cm a step, %.1f m aside, %.2f m higher: ends at (%.3f %.3f %.3f)\n", 1e2 * way,
+  std::printf("walks %.0f cm a step, %.1f m aside, %.2f m higher: ends at (%.3f %.3f %.3f)\n", 1e2 * pace,
               aside, lift, place.x(), place.y(), place.z());
   return is_stopped;
 }
 
 bool is_stopped() {
   bool holds = true;
-  for (const double way : {0.04, 0.08})
+  for (const double pace : {0.04, 0.08})
     for (const double aside : {0.0, 0.3})
-      for (const double lift : {0.0, 0.02}) holds = walk(way, aside, lift) && holds;
+      for (const double lift : {0.0, 0.02}) holds = walk(pace, aside, lift) && holds;
   return holds;
 }
 
