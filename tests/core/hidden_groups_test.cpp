@@ -220,7 +220,8 @@ bool goes_on_nowhere(const Shape& shape, const HiddenGroups& groups) {
 bool leads_past(const Shape& shape, const HiddenGroups& groups, const std::vector<std::uint32_t>& feature,
                 const Eigen::Vector3d& way, bool& is_tie) {
   for (const auto& [from, to, across] : seams_of(shape, groups)) {
-    const auto is_end = [&](std::uint32_t vertex) { return vertex == from || vertex == to; };
+    const std::array ends{from, to};
+    const auto is_end = [&](std::uint32_t vertex) { return vertex == ends[0] || vertex == ends[1]; };
     if (feature.size() > 2 || !std::all_of(feature.begin(), feature.end(), is_end)) continue;
     const Eigen::Vector3d along = (shape.positions[to] - shape.positions[from]).normalized();
     const Eigen::Vector3d beside = shape.positions[across] - shape.positions[from];

@@ -41,7 +41,8 @@ class NudgedTriangle {
   /// How the segment turns about the side from a corner to the next: as its second end's side of the plane,
   /// if it passes within. The segment is not parallel to the side.
   [[nodiscard]] int turn_about(std::size_t side) const {
-    const auto& [p, q] = segment_;
+    const Eigen::Vector3d& p = segment_[0];
+    const Eigen::Vector3d& q = segment_[1];
     const Eigen::Vector3d& from = corner_[side];
     const Eigen::Vector3d& to = corner_[(side + 1) % 3];
     const int turn = decide_sign(count_, [&]<typename Number>() {
