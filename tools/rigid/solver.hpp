@@ -34,7 +34,7 @@ class Solver {
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
 
  private:
-  /// What a contact has pushed in the last substep: impulses on b, in kg m/s.
+  /// The impulses on b of a contact in the last substep, in kg m/s.
   struct Impulse {
     double pressure = 0;  ///< along the push, never below 0
     Eigen::Vector3d drag = Eigen::Vector3d::Zero();

@@ -94,12 +94,14 @@ enum class ContactDetail : std::uint8_t {
 
 /// @cond internal
 /// Returns whether the separation of two features is negative. `is_behind_a` says whether the point of b lies
-/// behind the surface of a, and `is_behind_b` the opposite. Each is asked only if the answer needs it.
-template <typename IsBehindA, typename IsBehindB>
+/// behind the surface of a, and `is_behind_b` the opposite. `is_sunk` says it of two edges. Each is asked
+/// only if the answer needs it.
+template <typename IsBehindA, typename IsBehindB, typename IsSunk>
 [[nodiscard]] bool has_negative_separation(FeatureKind a, FeatureKind b, const IsBehindA& is_behind_a,
-                                           const IsBehindB& is_behind_b) {
+                                           const IsBehindB& is_behind_b, const IsSunk& is_sunk) {
   const bool has_vertex_a = a == FeatureKind::vertex;
   const bool has_vertex_b = b == FeatureKind::vertex;
+  if (a == FeatureKind::edge && b == FeatureKind::edge) return is_sunk();
   if (!has_vertex_a && !has_vertex_b) return is_behind_a() && is_behind_b();
   return (has_vertex_b && is_behind_a()) || (has_vertex_a && is_behind_b());
 }
@@ -150,9 +152,9 @@ struct Contact {
   /// Returns the direction, of length 1, along which b is moved relative to a to make separation() grow. It
   /// is #normal, or its opposite if the separation is negative.
   ///
-  /// Where an edge pierces a face it is the normal of the face by its winding if the face is a's, and its
-  /// opposite if the face is b's. With ContactDetail::nearest it leads out of a solid, also if that is wound
-  /// inside out: the side of the pierced object is `back` then, and turns it.
+  /// The push of an edge that pierces a face is the normal of the face by its winding if the face is a's, and
+  /// its opposite if the face is b's. With ContactDetail::nearest it leads out of a solid, also if that is
+  /// wound inside out: the side of the pierced object is `back` then, and turns it.
   [[nodiscard]] Eigen::Vector3d push() const {
     return is_behind() || leads_in() ? Eigen::Vector3d(-normal) : normal;
   }
@@ -160,10 +162,9 @@ struct Contact {
  private:
   /// At distance 0 nothing is behind, so that no separation is -0.
   [[nodiscard]] bool is_behind() const {
-    if (kind == ContactKind::EE) return sunk;
     return !is_at_zero() && has_negative_separation(
                                 feature_a.kind, feature_b.kind, [&] { return side_a == Side::back; },
-                                [&] { return side_b == Side::back; });
+                                [&] { return side_b == Side::back; }, [&] { return sunk; });
   }
   /// Whether the distance is 0, by its bits. Where the caller flushes denormals, a comparison would take a
   /// denormal distance for 0.

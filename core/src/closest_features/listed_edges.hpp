@@ -22,10 +22,10 @@ enum class EdgesListed : std::uint8_t {
 /// square to the edge, lead nearer to the other point. Edges that cross are locally closest. An edge that is
 /// no crease does not count where both its triangles lie square to the way between the points.
 ///
-/// They are, too, if both are creases and the way u from a to b is close to the normal cones: no triangle
-/// beside the edge of a leads along u by more than τ = 10.2°, and none beside the edge of b along −u. Where
-/// the edges are sunk, u is the opposite. A triangle counts only if its face may be looked at with the other
-/// edge.
+/// They are, too, if both are creases and the way u from a to b is close to the normal cones. That is so if
+/// no triangle beside the edge of a leads along u by more than τ = 10.2°, and none beside the edge of b along
+/// −u. Where the edges are sunk, u is the opposite. A triangle counts only if its face may be looked at with
+/// the other edge.
 ///
 /// At a seam the seen face goes on behind the edge. So a seam is no crease, and two edges of which one is a
 /// seam are listed only where they cross. If they are locally closest but for that, they are listed alone.

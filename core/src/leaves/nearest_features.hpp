@@ -20,7 +20,7 @@ struct EdgesIfSunk {
   bool if_sunk = false;
 };
 
-/// Where NearestFeatures puts what it finds.
+/// The lists that NearestFeatures fills.
 struct NearestFound {
   std::vector<FeaturePairKey>& keys;        ///< edges that pierce faces, and edges below the threshold
   std::vector<EdgesIfSunk>& edges_if_sunk;  ///< further edges below the threshold
@@ -28,7 +28,7 @@ struct NearestFound {
   /// The nearest where one feature is the fold of a quad, or one edge a seam of hidden faces, of those below
   /// the threshold. It is a contact only where there is no other.
   std::optional<NearKey>& fold;
-  /// What may be nearest to each vertex. It is complete when all leaves have been added.
+  /// The features that may be nearest to each vertex. It is complete when all leaves have been added.
   NearestOfVertices& vertices;
 };
 

@@ -15,8 +15,8 @@ Contact measure_without_sides(const SurfacePair& pair, const FeaturePairKey& key
 Contact measure_parallel(const SurfacePair& pair, const FeaturePairKey& key, const Eigen::Vector3d& point_a,
                          const Eigen::Vector3d& point_b);
 
-/// Where a segment meets the plane of a triangle, for ends that are not on one side of it nor both in it. Its
-/// error is as small as that of a contact's point.
+/// The point where a segment meets the plane of a triangle. Its ends are not on one side of the plane, nor
+/// both in it. The error is as small as that of a contact's point.
 Eigen::Vector3d crossing_point(const Simplex& segment, const Simplex& triangle, DecisionCount& count);
 
 Witness witness_of(const Contact& contact);

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+
+#include "core/pair/contact_rank.hpp"
 
 namespace graze {
 namespace {
@@ -18,28 +19,20 @@ constexpr double part_of_even = 1.0 / 64;
 /// The cosine of 26°: pushes that differ by more do not carry together.
 constexpr double least_cosine = 0.898794;
 
-/// So many contacts push as the first leader does. Half of what is left goes to other directions.
+/// This many contacts push as the first leader does. Other directions get half of the remaining places.
 constexpr std::size_t least_of_first = 4;
 
 /// A contact that was listed is taken if it gains this part of what the best one gains.
 constexpr double part_to_stay = 3.0 / 5;
 
-/// What is outside the outline of those chosen by less than this part of its extent stands on them.
+/// A contact stands on those chosen if it is outside their outline by less than this part of its extent.
 constexpr double part_of_extent = 1.0 / 16;
 
 /// A point that is this near to the line of an edge, as an angle, is on the edge.
 constexpr double least_sine = 1e-9;
 
-auto key_of(const Contact& contact) {
-  return std::tie(contact.kind, contact.feature_a, contact.feature_b);
-}
-
 bool comes_before(const Contact& left, const Contact& right) {
-  return key_of(left) < key_of(right);
-}
-
-bool pierces(const Contact& contact) {
-  return contact.kind == ContactKind::EF && contact.distance == 0;
+  return contact_order(left) < contact_order(right);
 }
 
 Eigen::Vector3d middle_of(const Contact& contact) {
@@ -116,7 +109,8 @@ bool CarryingChoice::choose(std::vector<Contact>& contacts, std::span<const Cont
 void CarryingChoice::collect(std::span<const Contact> contacts) {
   candidates_.clear();
   for (std::uint32_t i = 0; i < contacts.size(); ++i)
-    if (!pierces(contacts[i])) candidates_.push_back({.index = i, .separation = contacts[i].separation()});
+    if (!is_piercing(contacts[i]))
+      candidates_.push_back({.index = i, .separation = contacts[i].separation()});
 }
 
 /// Marks the contacts that the last report lists. One that is listed there by other features, because its
@@ -125,7 +119,7 @@ void CarryingChoice::find_listed(std::span<const Contact> contacts, std::span<co
   lost_.clear();
   auto candidate = candidates_.begin();
   for (std::uint32_t i = 0; i < last.size(); ++i) {
-    if (pierces(last[i])) continue;
+    if (is_piercing(last[i])) continue;
     while (candidate != candidates_.end() && comes_before(contacts[candidate->index], last[i])) ++candidate;
     if (candidate != candidates_.end() && !comes_before(last[i], contacts[candidate->index]))
       candidate->was_listed = true;

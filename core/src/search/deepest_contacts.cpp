@@ -1,21 +1,16 @@
 #include "search/deepest_contacts.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "core/pair/contact_rank.hpp"
 
 namespace graze {
 namespace {
 
-auto key_of(const Contact& contact) {
-  return std::tie(contact.kind, contact.feature_a, contact.feature_b);
-}
-
 bool is_kept_before(const Contact& left, const Contact& right) {
   const double rank_left = contact_rank(ContactDetail::nearest, left);
   const double rank_right = contact_rank(ContactDetail::nearest, right);
-  return rank_left != rank_right ? rank_left < rank_right : key_of(left) < key_of(right);
+  return rank_left != rank_right ? rank_left < rank_right : contact_order(left) < contact_order(right);
 }
 
 }  // namespace
@@ -27,8 +22,9 @@ void keep_deepest(PairAnswer& answer, std::size_t most) {
   const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(most);
   std::nth_element(contacts.begin(), end, contacts.end(), is_kept_before);
   contacts.erase(end, contacts.end());
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& left, const Contact& right) { return key_of(left) < key_of(right); });
+  std::sort(contacts.begin(), contacts.end(), [](const Contact& left, const Contact& right) {
+    return contact_order(left) < contact_order(right);
+  });
 }
 
 }  // namespace graze

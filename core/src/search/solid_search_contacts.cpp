@@ -4,23 +4,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <tuple>
 
 #include "closest_features/piercing.hpp"
 #include "core/base/growth_policy.hpp"
+#include "core/pair/contact_rank.hpp"
 #include "measure/measure_batch.hpp"
 #include "search/solid_search.hpp"
 #include "solid/nearest_on_surface.hpp"
 #include "solid/point_in_solid.hpp"
 
 namespace graze {
-namespace {
-
-auto key_of(const Contact& contact) {
-  return std::tie(contact.kind, contact.feature_a, contact.feature_b);
-}
-
-}  // namespace
 
 /// Adds a contact for each vertex inside that is further from the surface than the threshold. The others have
 /// one already.
@@ -61,7 +54,7 @@ void SolidSearch::merge_contacts() {
   if (all.capacity() < to) all.reserve(with_growth_room(to));
   all.resize(to);
   for (std::size_t i = added.size(); i > 0;) {
-    const bool takes_added = left == 0 || key_of(all[left - 1]) < key_of(added[i - 1]);
+    const bool takes_added = left == 0 || contact_order(all[left - 1]) < contact_order(added[i - 1]);
     all[--to] = takes_added ? added[--i] : all[--left];
   }
 }

@@ -34,7 +34,7 @@ class NudgedTriangle {
       return dot(normal<Number>(), difference<Number>(end, corner_[0]));
     });
   }
-  /// The same of an end that is in the plane. It is 0 if the triangle has no area.
+  /// The side of an end that is in the plane, after the nudge. It is 0 if the triangle has no area.
   [[nodiscard]] int nudged_side() const {
     return -nudge_ * sign_along_nudge(count_, [&]<typename Number>() { return normal<Number>(); });
   }

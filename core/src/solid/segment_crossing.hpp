@@ -25,7 +25,7 @@ enum class Nudge : std::uint8_t { triangle_up, triangle_down };
 CrossingWay crossing_way(const std::array<Eigen::Vector3d, 2>& segment,
                          const std::array<Eigen::Vector3d, 3>& triangle, Nudge nudge, DecisionCount& count);
 
-/// What double is certain of, however the two are moved against each other within a distance.
+/// The crossings that double is certain of, however the two are moved against each other within a distance.
 enum class LastingCrossing : std::uint8_t { none, to_front, to_back, unsure };
 
 /// Which way a segment crosses a triangle if it does so wherever the two are moved against each other by at

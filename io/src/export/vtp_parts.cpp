@@ -93,7 +93,7 @@ class ContactPoints {
   std::vector<std::uint32_t> features_;
 };
 
-/// What a line of a pair shows.
+/// The things that lines of a pair show.
 enum class VtpLine : std::uint8_t { witness, region_distance, way_out };
 
 /// A line for the witness of each pair, for each of its region distances, and for its way out. A way out is

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "core/base/bytes_of.hpp"
 
@@ -15,11 +14,6 @@ constexpr std::size_t least_to_spare = 1024;
 /// How many contacts are gathered until the nearest are selected.
 std::size_t room_for_limit(std::size_t most) {
   return most + std::max(most, least_to_spare);
-}
-
-auto features_of(const Contact& contact) {
-  return std::tuple(contact.kind, contact.feature_a.kind, contact.feature_a.index, contact.feature_b.kind,
-                    contact.feature_b.index);
 }
 
 }  // namespace
@@ -53,7 +47,7 @@ void NearestContacts::keep_nearest() {
     const Contact& a = contacts_[left];
     const Contact& b = contacts_[right];
     if (rank_of(a) != rank_of(b)) return rank_of(a) < rank_of(b);
-    return jobs_[left] != jobs_[right] ? jobs_[left] < jobs_[right] : features_of(a) < features_of(b);
+    return jobs_[left] != jobs_[right] ? jobs_[left] < jobs_[right] : contact_order(a) < contact_order(b);
   });
   limit_ = rank_of(contacts_[*(end - 1)]);
   // The order in which they were added is restored: the contacts of a job stay adjacent and sorted.
