@@ -291,8 +291,9 @@ TEST_CASE("separation: a vertex behind a face, two edges, and an edge through a 
 }
 
 TEST_CASE("separation: which side counts, by kind") {
-  const auto contact_of = [](FeatureKind a, FeatureKind b, Side side_a, Side side_b) {
+  const auto contact_of = [](FeatureKind a, FeatureKind b, Side side_a, Side side_b, bool sunk = false) {
     Contact contact;
+    contact.sunk = sunk;
     contact.feature_a.kind = a;
     contact.feature_b.kind = b;
     contact.side_a = side_a;
@@ -312,7 +313,8 @@ TEST_CASE("separation: which side counts, by kind") {
   CHECK(contact_of(vertex, vertex, back, front) == -0.5);
   CHECK(contact_of(vertex, vertex, front, back) == -0.5);
   CHECK(contact_of(vertex, vertex, Side::none, front) == 0.5);
-  CHECK(contact_of(edge, edge, back, back) == -0.5);
+  CHECK(contact_of(edge, edge, back, back, true) == -0.5);
+  CHECK(contact_of(edge, edge, back, back) == 0.5);
   CHECK(contact_of(edge, edge, back, front) == 0.5);
   Contact touching;
   touching.normal = Vector3d(0, 0, 1);

@@ -215,8 +215,8 @@ bool goes_on_nowhere(const Shape& shape, const HiddenGroups& groups) {
   });
 }
 
-/// Whether the way from a feature leads past a seam by more than 10.2° from square to the seen face. `is_tie`
-/// is set where that is a matter of rounding.
+/// Whether the way from a feature leads past a seam by more than 10.2° from square to the seen face. Of a
+/// vertex it may also lead as far over the face. `is_tie` is set where that is a matter of rounding.
 bool leads_past(const Shape& shape, const HiddenGroups& groups, const std::vector<std::uint32_t>& feature,
                 const Eigen::Vector3d& way, bool& is_tie) {
   for (const auto& [from, to, across] : seams_of(shape, groups)) {
@@ -227,7 +227,8 @@ bool leads_past(const Shape& shape, const HiddenGroups& groups, const std::vecto
     const Eigen::Vector3d beside = shape.positions[across] - shape.positions[from];
     const Eigen::Vector3d inward = along.cross(beside.cross(along));
     if (!(inward.norm() > 1e-12)) continue;
-    const double past = -way.normalized().dot(inward.normalized()) - std::sqrt(1.0 / 32);
+    const double lean = -way.normalized().dot(inward.normalized());
+    const double past = (feature.size() == 1 ? std::abs(lean) : lean) - std::sqrt(1.0 / 32);
     if (std::abs(past) < 1e-9) is_tie = true;
     if (past > 0) return true;
   }

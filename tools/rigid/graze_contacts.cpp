@@ -27,15 +27,27 @@ GrazeContacts::GrazeContacts(SceneSettings settings) : scene_(with_nearest(std::
 ObjectId GrazeContacts::add(std::shared_ptr<const Mesh> mesh, const Body& body, ObjectSettings object) {
   object.motion = body.inverse_mass > 0 ? Motion::rigid : Motion::fixed;
   object.solid = true;
+  meshes_.push_back(mesh);
   object.user_data = ids_.size();
   return ids_.emplace_back(scene_.add(std::move(mesh), object));
 }
 
 void GrazeContacts::find(std::span<const Body> bodies, std::vector<Contact>& contacts) {
-  for (std::size_t i = 0; i < ids_.size(); ++i) scene_.set_pose(ids_[i], bodies[i].pose());
+  rotations_.clear();
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const Eigen::Isometry3d pose = bodies[i].pose();
+    rotations_.emplace_back(pose.linear());
+    scene_.set_pose(ids_[i], pose);
+  }
   report_ = scene_.step();
   contacts.clear();
   for (const PairReport& pair : report_->pairs()) add_contacts(pair, contacts);
+}
+
+bool GrazeContacts::bears(std::uint32_t body, const Feature& feature, const Eigen::Vector3d& way) const {
+  if (feature.kind == FeatureKind::face) return true;
+  const Mesh& mesh = *meshes_[body];
+  return in_normal_cone(mesh, mesh.rest(), feature, rotations_[body].transpose() * way);
 }
 
 void GrazeContacts::add_contacts(const PairReport& pair, std::vector<Contact>& contacts) const {
@@ -45,6 +57,8 @@ void GrazeContacts::add_contacts(const PairReport& pair, std::vector<Contact>& c
   double deepest = 0;
   for (const graze::Contact& contact : report_->contacts(pair)) {
     if (contact.kind == ContactKind::EF && contact.distance == 0) continue;
+    if (!bears(a, contact.feature_a, contact.push()) || !bears(b, contact.feature_b, -contact.push()))
+      continue;
     contacts.push_back(
         {a, b, contact.point_a, contact.point_b, contact.push(), contact.separation(), key_of(contact)});
     deepest = std::max(deepest, -contact.separation());

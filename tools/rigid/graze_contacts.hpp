@@ -12,7 +12,8 @@ namespace graze::rigid {
 
 /// Finds contacts by a scene of graze, with ContactDetail::nearest. All objects are solids.
 ///
-/// Edges that pierce are left out, since they do not say how deep they are. A pair whose surfaces pass
+/// Edges that pierce are left out, since they do not say how deep they are. So are contacts whose vertices or
+/// edges do not bear: see in_normal_cone(). A pair whose surfaces pass
 /// through each other, and of which no contact is a quarter as deep as it is thick there, has another contact
 /// in place of these: in the middle of its contour, along the way out.
 class GrazeContacts : public ContactSource {
@@ -31,10 +32,14 @@ class GrazeContacts : public ContactSource {
   [[nodiscard]] const ReportHandle& report() const { return report_; }
 
  private:
+  /// Whether a feature bears along a way in the world. Faces do.
+  [[nodiscard]] bool bears(std::uint32_t body, const Feature& feature, const Eigen::Vector3d& way) const;
   void add_contacts(const PairReport& pair, std::vector<Contact>& contacts) const;
 
   Scene scene_;
   std::vector<ObjectId> ids_;
+  std::vector<std::shared_ptr<const Mesh>> meshes_;
+  std::vector<Eigen::Matrix3d> rotations_;  ///< of the bodies, as the last search saw them
   ReportHandle report_;
 };
 

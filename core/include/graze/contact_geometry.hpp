@@ -34,6 +34,25 @@ struct SurfaceWeights {
 GRAZE_API SurfaceWeights weights(const Mesh& mesh, PositionView positions, const Feature& feature,
                                  const Eigen::Vector3d& point);
 
+/// Says whether a direction is within 10.2° of the normal cone of a feature: whether the surface about the
+/// feature stays behind it, seen along the direction. The sine of that angle squared is 1/32.
+///
+/// A contact of a vertex or an edge bears only along such a direction. A floor of cells that a box slides over has
+/// vertices in front of the box. With ContactDetail::nearest each of them has a contact with the front of the
+/// box, for that is what is nearest to it. Its push would stop the box. So a solver asks for a vertex or an
+/// edge of a with Contact::push(), and for one of b with the opposite. It leaves the contact out if the
+/// answer is no. A contact with a face inside it needs no question: it is square to the face.
+///
+/// Of a vertex, all edges from it are tested. Of an edge, the triangles beside it are, square to the edge. Of
+/// a face, one of its triangles has to be square to the direction or its opposite. The direction may have any
+/// length but 0, where the answer means nothing. It is in the frame of the positions. For a rigid body turn
+/// the direction into the frame of its mesh, and give the rest positions.
+///
+/// The call computes in double, in any floating-point mode of the caller. Memory, threads and errors are as
+/// with evaluate(). It takes time in proportion to the number of edges at the vertex.
+GRAZE_API bool in_normal_cone(const Mesh& mesh, PositionView positions, const Feature& feature,
+                              const Eigen::Vector3d& direction);
+
 /// Says where two features are at positions of the caller's. evaluate() computes it.
 struct ContactGeometry {
   /// The closest point on the feature of a.

@@ -15,7 +15,8 @@ class SurfaceWithSeams {
  public:
   SurfaceWithSeams(const Surface& surface, const FaceGroups& groups) : surface_(surface), groups_(groups) {}
 
-  /// Whether `way`, of length 1, leads past a seam that has the feature.
+  /// Whether `way`, of length 1, leads past a seam that has the feature. The surface goes on to both sides of
+  /// a vertex of a seam. So for a vertex the way may also lead back over the seen face.
   [[nodiscard]] bool leads_past(const Feature& feature, const Eigen::Vector3d& way) const {
     if (!groups_.hides_some()) return false;
     if (feature.kind == FeatureKind::edge) return leads_past_edge(feature.index, way);
@@ -24,7 +25,8 @@ class SurfaceWithSeams {
     for (const std::uint32_t face : mesh.vertex_faces(feature.index)) {
       if (groups_.hides(face)) continue;
       for (const std::uint32_t edge : mesh.face_edges(face))
-        if (edge != IndexedMesh::no_edge && has(mesh.edge(edge), feature.index) && leads_past_edge(edge, way))
+        if (edge != IndexedMesh::no_edge && has(mesh.edge(edge), feature.index) &&
+            (leads_past_edge(edge, way) || leads_past_edge(edge, -way)))
           return true;
     }
     return false;

@@ -68,6 +68,36 @@ Shape floor_box(double width, double thickness) {
   return moved(box({width, width, thickness}), {0, 0, -thickness / 2});
 }
 
+Shape box_of_cells(const Eigen::Vector3d& size, int columns, int rows) {
+  Shape shape;
+  for (const double z : {0.0, 1.0})
+    for (int row = 0; row <= rows; ++row)
+      for (int column = 0; column <= columns; ++column)
+        shape.points.push_back(size.cwiseProduct(
+            Eigen::Vector3d(1.0 * column / columns - 0.5, 1.0 * row / rows - 0.5, z - 0.5)));
+  const auto vertex = [&](int column, int row, int level) {
+    return static_cast<std::uint32_t>((level * (rows + 1) + row) * (columns + 1) + column);
+  };
+  const auto add = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k, std::uint32_t l) {
+    shape.triangles.push_back({i, j, k});
+    shape.triangles.push_back({i, k, l});
+  };
+  for (int x = 0; x < columns; ++x)
+    for (int y = 0; y < rows; ++y) {
+      add(vertex(x, y, 1), vertex(x + 1, y, 1), vertex(x + 1, y + 1, 1), vertex(x, y + 1, 1));
+      add(vertex(x, y, 0), vertex(x, y + 1, 0), vertex(x + 1, y + 1, 0), vertex(x + 1, y, 0));
+    }
+  for (int x = 0; x < columns; ++x) {
+    add(vertex(x, 0, 0), vertex(x + 1, 0, 0), vertex(x + 1, 0, 1), vertex(x, 0, 1));
+    add(vertex(x, rows, 0), vertex(x, rows, 1), vertex(x + 1, rows, 1), vertex(x + 1, rows, 0));
+  }
+  for (int y = 0; y < rows; ++y) {
+    add(vertex(0, y, 0), vertex(0, y, 1), vertex(0, y + 1, 1), vertex(0, y + 1, 0));
+    add(vertex(columns, y, 0), vertex(columns, y + 1, 0), vertex(columns, y + 1, 1), vertex(columns, y, 1));
+  }
+  return shape;
+}
+
 Shape sheet(double width, int vertices) {
   Shape shape;
   const double edge = width / (vertices - 1);

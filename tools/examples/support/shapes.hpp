@@ -34,6 +34,9 @@ Shape box(const Eigen::Vector3d& size);
 /// Returns a closed box whose top is the middle of the plane z = 0. A floor is a large and thick one.
 Shape floor_box(double width, double thickness);
 
+/// Returns a closed box about the origin, whose top and bottom have columns × rows cells, along x and y.
+Shape box_of_cells(const Eigen::Vector3d& size, int columns, int rows);
+
 /// Returns an open square sheet about the origin in the plane z = 0, facing up, of vertices × vertices
 /// points.
 Shape sheet(double width, int vertices);
