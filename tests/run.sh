@@ -1,10 +1,21 @@
 #!/bin/sh
-# The test command. It installs what is missing and checks how the sources are written. It builds graze as users do and
-# runs all tests. It runs them once more under the address and undefined-behaviour sanitizers, with the structure
-# validators on, and with each fuzzer for a short time. It runs those with threads under the thread sanitizer. The last
-# line counts tests.
+# The test command. It installs what is missing, builds graze with its tests, and runs them. The last line counts tests.
+#
+#   tests/run.sh          the libraries as users build them, and all tests of them, of the program and of the pages
+#   tests/run.sh --all    what a change must pass: also what measures graze, clang-tidy, the installed package, each test
+#                         under the address and undefined-behaviour sanitizers with the structure validators on, each fuzzer
+#                         for a short time, and tests with threads under the thread sanitizer
 set -eu
 cd "$(dirname "$0")/.."
+
+case "$*" in
+  '') runs_all=false ;;
+  --all) runs_all=true ;;
+  *)
+    echo "usage: tests/run.sh [--all]" >&2
+    exit 2
+    ;;
+esac
 
 tools/install_packages.sh peers
 results=$(mktemp -d)
@@ -27,28 +38,42 @@ run_preset() {
   ctest --preset "$preset" --output-junit "$results/$preset.xml" "$@" || status=1
 }
 
-# How the sources are written; counts as one test.
-echo "== lint"
+# How the sources are written; counts as one test. "$@" are the checks.
 lint_failed=0
-tests/lint/run.sh || lint_failed=1
+run_lint() {
+  echo "== lint"
+  tests/lint/run.sh "$@" || lint_failed=1
+}
 
-run_preset release --parallel "$(nproc)"
 # The sanitizers' builds leave out and change what would take long and says nothing new:
 # - What measures graze is left out. It runs the library as the other programs do, and takes a third of the build.
 # - Undefined behaviour's checks of null, of object sizes and of virtual tables are left out. With them the build takes
 #   a tenth to a fifth longer. The address sanitizer sees what such accesses do, and the preset `fuzz` has them.
 # - The contract's programs are left out, since they build libraries of their own. So are the checks of pages and
 #   of includes, which run nothing of graze.
+# - The longest examples of rigid bodies are left out. They step small scenes many thousand times.
 # - An allocation is remembered with two of its callers. With thirty, what the exact oracles allocate takes a third of
 #   all tests' time.
 # - The libraries' sources are compiled in batches, as those of the demonstration are.
 # - The fuzzers are built here, with counters of what they reach. A build of their own took a fifth of all the time. The
 #   preset `fuzz` is for long runs: there comparisons guide them too (docs/fuzzing.md).
-run_preset asan-ubsan --parallel "$(nproc)" --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_'
+run_sanitizers() {
+  run_preset asan-ubsan --parallel "$(nproc)" \
+    --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_|^example_(pile|rigid)$'
+  # The tests with threads once more under the thread sanitizer.
+  tests/tsan_tbb.sh build/tsan-tbb
+  run_preset tsan --parallel "$(nproc)"
+}
 
-# The tests with threads once more under the thread sanitizer.
-tests/tsan_tbb.sh build/tsan-tbb
-run_preset tsan --parallel "$(nproc)"
+if $runs_all; then
+  run_lint text order tidy
+  run_preset release --parallel "$(nproc)"
+  run_sanitizers
+else
+  run_lint text order
+  # Two tests build graze and install it once more, as static and as shared libraries.
+  run_preset check --parallel "$(nproc)" --exclude-regex '^contract_(static|shared)$'
+fi
 
 # ctest counts in each results file's first element.
 count() {

@@ -13,6 +13,7 @@
 #include "core/pair/pair_answer.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -134,7 +135,7 @@ TEST_CASE("coinciding corners: the closest points are those of brute force") {
   const FloatingPointScope scope;
   std::array<std::size_t, 6> contacts{};
   for (const Kind& kind : kinds)
-    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    for (std::uint64_t seed = 0; seed < repeats(4); ++seed) {
       INFO(kind.name << ", seed " << seed);
       const Sheets sheets = sheets_of(kind, seed);
       ++contacts[static_cast<std::size_t>(check(sheets.a, sheets.b))];

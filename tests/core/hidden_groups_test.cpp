@@ -25,6 +25,7 @@
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/details.hpp"
+#include "support/effort.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -256,7 +257,7 @@ TEST_CASE("hidden groups: random scenes are those of brute force") {
   std::size_t contacts = 0;
   std::size_t further = 0;
   std::size_t nothing = 0;
-  for (std::uint64_t seed = 1; seed < 2400; seed += seed % 16 == 15 ? 1 : 2) {
+  for (std::uint64_t seed = 1; seed < repeats(2'400); seed += seed % 16 == 15 ? 1 : 2) {
     const oracle::RandomScene scene = oracle::random_scene(seed);
     Random random(seed);
     const HiddenPair pair(random, scene.a, scene.b);
@@ -331,7 +332,7 @@ TEST_CASE("hidden groups: at seams nearest lists what a surface that goes on beh
   std::size_t fewer_edges = 0;
   std::size_t vertices = 0;
   std::size_t past = 0;
-  for (std::uint64_t seed = 1; seed < 4000; seed += 2) {
+  for (std::uint64_t seed = 1; seed < repeats(4'000); seed += 2) {
     const oracle::RandomScene scene = oracle::random_scene(seed);
     Random random(seed + 9);
     HiddenPair pair(random, scene.a, scene.b);

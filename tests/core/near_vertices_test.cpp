@@ -20,6 +20,7 @@
 #include "core/shapes.hpp"
 #include "core/surface/surface.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/model_shape.hpp"
 #include "support/random_scenes.hpp"
 
@@ -155,7 +156,7 @@ TEST_CASE("near vertices: small surfaces of all kinds, in either precision") {
 
 TEST_CASE("near vertices: limits that are met exactly, at any scale and place") {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < repeats(60); ++seed) {
     oracle::Random random(seed);
     const double step = std::ldexp(1.0, static_cast<int>(seed % 3) * 90 - 96);
     const double away = seed % 4 == 0 ? 0x1p20 : 0;  // exact in double, and in float it is not

@@ -20,6 +20,7 @@
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/edge_comparison.hpp"
+#include "support/effort.hpp"
 #include "support/random_creases.hpp"
 #include "support/reduce.hpp"
 
@@ -33,8 +34,8 @@ using oracle::Random;
 using oracle::Shape;
 
 constexpr std::uint64_t edge_part_count = 4;
-constexpr std::uint64_t edge_scenes = GRAZE_RANDOM_SCENES / 2 / edge_part_count;
-constexpr std::uint64_t edge_plays = GRAZE_RANDOM_SCENES / 100;
+constexpr std::uint64_t edge_scenes = repeats(5'000) / edge_part_count;
+constexpr std::uint64_t edge_plays = repeats(100);
 
 /// Two groups on each side, of which some are ignored against each other; or none.
 class RandomGroups {

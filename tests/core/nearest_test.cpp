@@ -12,6 +12,7 @@
 #include "core/search/pair_detector.hpp"
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/random_scenes.hpp"
 #include "support/reduce.hpp"
 
@@ -19,7 +20,7 @@ namespace graze::tests {
 namespace {
 
 constexpr std::uint64_t nearest_part_count = 5;
-constexpr std::uint64_t nearest_grid_scenes = GRAZE_RANDOM_SCENES / nearest_part_count;
+constexpr std::uint64_t nearest_grid_scenes = repeats(10'000) / nearest_part_count;
 constexpr std::uint64_t nearest_generic_scenes = nearest_grid_scenes / 5;
 
 std::string nearest_difference(const PairAnswer& answer, const Expected& expected,

@@ -8,13 +8,14 @@
 
 #include "core/comparison.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/reduce.hpp"
 
 namespace graze::tests {
 namespace {
 
 constexpr std::uint64_t part_count = 10;
-constexpr std::uint64_t grid_scenes_of_part = GRAZE_RANDOM_SCENES / part_count;
+constexpr std::uint64_t grid_scenes_of_part = repeats(10'000) / part_count;
 constexpr std::uint64_t generic_scenes_of_part = grid_scenes_of_part / 5;
 
 /// Describes how the library's answers about two shapes at rest, at every detail, differ from brute force.

@@ -6,6 +6,7 @@
 
 #include "core/comparison.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/random_scenes.hpp"
 #include "support/reduce.hpp"
 
@@ -16,7 +17,7 @@ using Eigen::Vector3d;
 using oracle::Random;
 using oracle::Shape;
 
-constexpr std::uint64_t scene_count = GRAZE_RANDOM_SCENES / 16;
+constexpr std::uint64_t scene_count = repeats(10'000) / 16;
 
 std::vector<std::uint32_t> used_vertices(const Shape& shape) {
   std::vector<std::uint32_t> used;

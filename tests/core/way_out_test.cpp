@@ -16,6 +16,7 @@
 #include "core/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/details.hpp"
+#include "support/effort.hpp"
 #include "support/exact_winding.hpp"
 #include "support/oracle_way_out.hpp"
 #include "support/random_scenes.hpp"
@@ -171,7 +172,7 @@ TEST_CASE("Ways out of solids are those of brute force", "[way_out]") {
 TEST_CASE("Ways out of open surfaces are those of brute force", "[way_out]") {
   const FloatingPointScope scope;
   Met met;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+  for (std::uint64_t seed = 0; seed < repeats(120); ++seed) {
     INFO("seed " << seed);
     const Shape a = random_soup(2 * seed, 9, 12);
     compare_with_brute_force(a, random_soup(2 * seed + 1000, 9, 12), {false, false}, met);

@@ -11,6 +11,7 @@
 #include "hard_cases/scene_comparison.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 
 namespace graze::tests {
 namespace {
@@ -179,6 +180,9 @@ class GridMotion {
 
 }  // namespace
 
+/// Motions that are compared with scenes built afresh, for each detail.
+constexpr std::uint64_t motions = 2 * repeats(4);
+
 static_assert(all_details.size() == 6, "add the number of a new detail to each list of numbers here");
 
 TEMPLATE_TEST_CASE_SIG(
@@ -189,7 +193,7 @@ TEMPLATE_TEST_CASE_SIG(
   std::size_t contacts = 0;
   std::size_t frames = 0;
   std::set<PairPhase> phases;
-  for (std::uint64_t seed = 0; seed < GRAZE_MOTIONS; ++seed) {
+  for (std::uint64_t seed = 0; seed < motions; ++seed) {
     SceneSettings settings = settings_of(0.05, seed % 3 == 0 ? infinity : 0.3, detail);
     settings.threads = 1 + static_cast<unsigned>(seed % 2);
     Judge judge(seed, settings);
@@ -250,7 +254,7 @@ TEMPLATE_TEST_CASE_SIG("shapes on a grid that part and meet by little: as built 
                        ((int number), number), 0, 1, 2, 3, 4, 5) {
   const auto detail = static_cast<ContactDetail>(number);
   std::size_t rows = 0;
-  for (std::uint64_t seed = 0; seed < std::uint64_t{12} * GRAZE_MOTIONS; ++seed) {
+  for (std::uint64_t seed = 0; seed < 12 * motions; ++seed) {
     GridMotion motion(seed);
     const double range = seed % 2 == 0 ? 1 : 0;
     const SceneSettings settings = settings_of(seed % 4 < 2 ? motion.threshold() : 0, range, detail);
@@ -265,7 +269,7 @@ TEMPLATE_TEST_CASE_SIG("shapes on a grid that part and meet by little: as built 
       motion.move();
     }
   }
-  CHECK(rows > std::size_t{144} * GRAZE_MOTIONS);
+  CHECK(rows > 144 * motions);
   std::cout << "compared " << rows << " pairs on a grid\n";
 }
 

@@ -9,6 +9,7 @@
 #include "hard_cases/scene_comparison.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -172,7 +173,7 @@ TEST_CASE("one exploded but finite vertex: the rest exact and at most 1.5 times 
 }
 
 TEST_CASE("2,000 objects in one place: memory bounded, degradation reported") {
-  constexpr std::size_t count = GRAZE_CROWD;
+  constexpr std::size_t count = repeats(2'000);
   SceneSettings settings = settings_of(0.01, 0, ContactDetail::features);
   // Too small a budget for the crowd: about 2 million pairs at full size.
   constexpr std::uint64_t budget = 10 * count;

@@ -13,6 +13,7 @@
 #include "scenes/report_hash.hpp"
 #include "scheduler/gathering_memory.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 
 namespace graze::tests {
 namespace {
@@ -106,7 +107,7 @@ TEST_CASE("golden: the hash of all reports, for any number of threads and in eve
   const auto allowed = allow(thread_counts.back());
   REQUIRE(scenes::played_scene_names().size() == golden.size());
   for (const Golden& expected : golden)
-    for (int repeat = 0; repeat < GRAZE_GOLDEN_REPEATS; ++repeat)
+    for (std::uint64_t repeat = 0; repeat < repeats(3); ++repeat)
       for (const unsigned threads : thread_counts) {
         INFO(expected.scene << ", " << threads << " threads, repeat " << repeat);
         const Played played = play(expected.scene, threads);

@@ -10,11 +10,12 @@
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
 #include "support/details.hpp"
+#include "support/effort.hpp"
 
 namespace graze::tests {
 namespace {
 
-constexpr std::size_t frame_count = 30;
+constexpr std::size_t frame_count = 10 + repeats(20);
 SceneSettings settings_for(ContactDetail detail, unsigned threads) {
   SceneSettings settings = settings_of(0.05, 0.25, detail);
   settings.threads = threads;

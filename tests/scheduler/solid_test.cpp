@@ -16,6 +16,7 @@
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
 #include "support/details.hpp"
+#include "support/effort.hpp"
 #include "support/exact_winding.hpp"
 #include "support/random_solids.hpp"
 #include "support/reduce.hpp"
@@ -361,7 +362,7 @@ TEST_CASE("solids: rigid objects are inside by their poses") {
 
 TEST_CASE("solids: contacts, and what is inside, are exact in AccuracyMode::within too") {
   std::size_t inside = 0;
-  for (std::uint64_t seed = 1; seed < 400; seed += 2) {
+  for (std::uint64_t seed = 1; seed < repeats(400); seed += 2) {
     const RandomSolids given = oracle::random_solids(seed);
     INFO("seed " << seed);
     SceneSettings settings = settings_of(given.threshold, 3, ContactDetail::nearest);

@@ -4,6 +4,7 @@
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
 #include "support/details.hpp"
+#include "support/effort.hpp"
 #include "support/random_scenes.hpp"
 
 namespace graze::tests {
@@ -28,7 +29,7 @@ constexpr double rounding = 0x1p-40;
 
 TEST_CASE("within a tolerance bounds hold, and are no wider than it") {
   std::size_t loose = 0;
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < repeats(200); ++seed) {
     const oracle::RandomScene given = oracle::random_scene(3000 + seed);
     for (const ContactDetail detail : all_details)
       for (const double tolerance : {0.0, 0.125, 10.0}) {
