@@ -1,6 +1,11 @@
 // Ids are given once and for ever; pairs come in the order in which their objects were added.
 
+#include <Eigen/Core>
+#include <array>
 #include <set>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
@@ -22,6 +27,18 @@ std::vector<std::pair<ObjectId, ObjectId>> all_pairs_of(const std::vector<Object
   return pairs;
 }
 
+template <typename Points>
+concept Bindable = requires(Scene& scene, ObjectId id, Points&& points) {
+  scene.bind_positions(id, std::forward<Points>(points));
+};
+// Memory that ends with the call cannot be bound. Views and what stays can.
+static_assert(!Bindable<Positions> && !Bindable<const Positions> &&
+              !Bindable<std::array<Eigen::Vector3f, 3>>);
+static_assert(!Bindable<Eigen::MatrixXd> && !Bindable<Eigen::Matrix3Xf>);
+static_assert(Bindable<Positions&> && Bindable<const Positions&> && Bindable<Eigen::MatrixXd&>);
+static_assert(Bindable<PositionView> && Bindable<std::span<const Eigen::Vector3d>>);
+static_assert(Bindable<Eigen::Map<const Eigen::MatrixXd>>);
+
 }  // namespace
 
 TEST_CASE("every call on an id that names nothing leaves one diagnostic with that id") {
@@ -35,6 +52,7 @@ TEST_CASE("every call on an id that names nothing leaves one diagnostic with tha
     CHECK_FALSE(scene.contains(bad));
     CHECK(scene.mesh(bad) == nullptr);
     CHECK(scene.object_settings(bad).name.empty());
+    CHECK(scene.name(bad).empty());
     scene.remove(bad);
     scene.set_pose(bad, lift_pose(1));
     scene.set_positions(bad, positions);
@@ -82,6 +100,7 @@ TEST_CASE("an id that is given again names another object") {
   CHECK_FALSE(scene.contains(first));
   CHECK(scene.contains(second));
   CHECK(scene.object_settings(second).name == "second");
+  CHECK(scene.name(second) == "second");
 
   // The second object must not get anything that is said of the first: neither the pair ignored before, nor
   // the positions set now.
@@ -195,6 +214,10 @@ TEST_CASE("a scene tells what an object was added with") {
   CHECK(told.kind == 255);
   CHECK(told.user_data == 42);
   CHECK(scene.settings().threads == 1);
+}
+
+TEST_CASE("the library is of the version of its headers") {
+  CHECK(library_version() == header_version);
 }
 
 }  // namespace graze::tests

@@ -37,11 +37,11 @@ GRAZE_API SurfaceWeights weights(const Mesh& mesh, PositionView positions, const
 /// Says whether a direction is within 10.2° of the normal cone of a feature: whether the surface about the
 /// feature stays behind it, seen along the direction. The sine of that angle squared is 1/32.
 ///
-/// A contact of a vertex or an edge bears only along such a direction. A floor of cells that a box slides over has
-/// vertices in front of the box. With ContactDetail::nearest each of them has a contact with the front of the
-/// box, for that is what is nearest to it. Its push would stop the box. So a solver asks for a vertex or an
-/// edge of a with Contact::push(), and for one of b with the opposite. It leaves the contact out if the
-/// answer is no. A contact with a face inside it needs no question: it is square to the face.
+/// A contact of a vertex or an edge bears only along such a direction. A floor of cells that a box slides
+/// over has vertices in front of the box. With ContactDetail::nearest each of them has a contact with the
+/// front of the box, for that is what is nearest to it. Its push would stop the box. So a solver asks for a
+/// vertex or an edge of a with Contact::push(), and for one of b with the opposite. It leaves the contact out
+/// if the answer is no. A contact with a face inside it needs no question: it is square to the face.
 ///
 /// Of a vertex, all edges from it are tested. Of an edge, the triangles beside it are, square to the edge. Of
 /// a face, one of its triangles has to be square to the direction or its opposite. The direction may have any

@@ -60,6 +60,15 @@ concept PositionMatrix = MatrixInMemory<Matrix> &&
     (int(Matrix::ColsAtCompileTime) == 3 || int(Matrix::RowsAtCompileTime) == 3 ||
      int(Matrix::ColsAtCompileTime) == Eigen::Dynamic);
 
+/// @cond internal
+/// A temporary that owns the memory of its points, such as a vector that a function returns.
+template <typename Points>
+concept TemporaryPoints =
+    !std::is_lvalue_reference_v<Points> &&
+    ((std::ranges::range<Points> && !std::ranges::borrowed_range<Points>) ||
+     std::derived_from<std::remove_cv_t<Points>, Eigen::PlainObjectBase<std::remove_cv_t<Points>>>);
+/// @endcond
+
 /// Describes positions in the caller's memory: size() points of three floats or three doubles. A view copies
 /// nothing and owns nothing, so the memory must stay valid as long as the view is used.
 ///

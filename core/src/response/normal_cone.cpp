@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <graze/contact_geometry.hpp>
 
 #include "core/base/floating_point_scope.hpp"
@@ -25,11 +26,12 @@ bool is_ahead_of_vertex(const PlacedMesh& placed, std::uint32_t vertex, const Ei
 }
 
 bool is_ahead_of_edge(const PlacedMesh& placed, std::uint32_t edge, const Eigen::Vector3d& direction) {
-  const auto [start, end] = placed.mesh.edge(edge);
-  const Eigen::Vector3d along = placed.point(end) - placed.point(start);
+  const std::array<std::uint32_t, 2> ends = placed.mesh.edge(edge);
+  const Eigen::Vector3d start = placed.point(ends[0]);
+  const Eigen::Vector3d along = placed.point(ends[1]) - start;
   const auto corners = placed.mesh.edge_across(edge);
   return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
-    const Eigen::Vector3d to_corner = placed.point(corner) - placed.point(start);
+    const Eigen::Vector3d to_corner = placed.point(corner) - start;
     const Eigen::Vector3d inward = along.squaredNorm() * to_corner - along * to_corner.dot(along);
     return leads_ahead(inward, direction);
   });

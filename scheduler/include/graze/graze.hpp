@@ -14,4 +14,5 @@
 #include <graze/report.hpp>
 #include <graze/scene.hpp>
 #include <graze/settings.hpp>
+#include <graze/version.hpp>
 #include <graze/weld.hpp>

@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace graze {
 
@@ -40,19 +41,19 @@ class Replay;
 /// wrong.
 ///
 /// @par Without memory
-/// Constructors, add(), replace_mesh(), reserve(), object_settings() and steps throw `std::bad_alloc`. After
-/// add(), replace_mesh() and reserve() the scene is as before. After a step the last report stays the latest
-/// one, and no call is lost. The next step begins afresh from where the objects are. All other calls never
-/// throw. If there is no memory for such a call, the next report has a Diagnostic of kind
-/// DiagnosticKind::out_of_memory. A call that ends a binding ends it in any case. docs/embedding.md has the
-/// details.
+/// Constructors, add(), replace_mesh(), reserve(), object_settings(), name() and steps throw
+/// `std::bad_alloc`. After add(), replace_mesh() and reserve() the scene is as before. After a step the last
+/// report stays the latest one, and no call is lost. The next step begins afresh from where the objects are.
+/// All other calls never throw. If there is no memory for such a call, the next report has a Diagnostic of
+/// kind DiagnosticKind::out_of_memory. A call that ends a binding ends it in any case. docs/embedding.md has
+/// the details.
 ///
 /// @par When memory is taken
-/// add(), replace_mesh(), set_rule(), object_settings() with a long name, and calls that leave a Diagnostic
-/// always take memory. Other calls take memory only if more calls wait for a step than ever before, or than
-/// were reserved. In addition, set_positions() and unbind_positions() take memory for an object's first
-/// copies, and beyond four copies that wait. A step takes memory if it needs more than any step before it,
-/// and more than was reserved.
+/// add(), replace_mesh(), set_rule(), object_settings() and name() with a long name, and calls that leave a
+/// Diagnostic always take memory. Other calls take memory only if more calls wait for a step than ever
+/// before, or than were reserved. In addition, set_positions() and unbind_positions() take memory for an
+/// object's first copies, and beyond four copies that wait. A step takes memory if it needs more than any
+/// step before it, and more than was reserved.
 ///
 /// @par Calls for many objects
 /// A call with spans means the same as one call for each object, in the order of `objects`. No call of
@@ -130,7 +131,10 @@ class GRAZE_API Scene {
   /// Returns the mesh that an object has by all calls made so far, or null if the id names no object.
   [[nodiscard]] std::shared_ptr<const Mesh> mesh(ObjectId object) const;
   /// Returns the settings that an object was added with, or default settings if the id names no object.
+  /// Groups of faces are copied too, so it takes time and memory for each face. For the name take name().
   [[nodiscard]] ObjectSettings object_settings(ObjectId object) const;
+  /// Returns a copy of the name that an object was added with. It is empty if the id names no object.
+  [[nodiscard]] std::string name(ObjectId object) const;
 
   /// @}
 
@@ -214,6 +218,10 @@ class GRAZE_API Scene {
   /// object is frozen: its listed pairs repeat their last values as `stale`. A Diagnostic repeats until good
   /// positions are read.
   void bind_positions(ObjectId object, PositionView positions, BindPolicy policy = BindPolicy::every_step);
+  /// Does not compile: steps would read the memory of a vector or a matrix that ends with the call.
+  template <TemporaryPoints Points>
+  void bind_positions(ObjectId object, Points&& positions,
+                      BindPolicy policy = BindPolicy::every_step) = delete;
   /// Binds many deformable objects to memory. Both spans have the same size.
   void bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                       BindPolicy policy = BindPolicy::every_step);

@@ -92,6 +92,10 @@ ObjectSettings Scene::object_settings(ObjectId object) const {
   const auto named = state_->staging.find(object);
   return named ? named->settings : ObjectSettings{};
 }
+std::string Scene::name(ObjectId object) const {
+  const auto named = state_->staging.find(object);
+  return named ? named->settings.name : std::string();
+}
 
 void Scene::set_pose_rows(ObjectId object, const std::array<double, 12>& rows) {
   state_->staging.set_pose(object, rows);
