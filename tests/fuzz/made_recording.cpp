@@ -219,8 +219,8 @@ class RecordMaker {
   void fill(SetRule& record) {
     record.kind_a = wrong() ? 256 : bytes_.below(3);
     record.kind_b = bytes_.below(3);
-    record.rule.contact_distance = bytes_.below(4) / 8.0;
-    record.rule.range = wrong() ? -1.0 : bytes_.below(4) / 2.0;
+    if (bytes_.flag()) record.rule.contact_distance = bytes_.below(4) / 8.0;
+    if (bytes_.flag()) record.rule.range = wrong() ? -1.0 : bytes_.below(4) / 2.0;
   }
   void fill(Reserve& record) { record.capacity.objects = bytes_.raw<std::size_t>(); }
   void fill(Diagnostic& record) { record = {object().id, any_kind(), std::string(made_message)}; }

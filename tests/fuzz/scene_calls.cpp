@@ -204,8 +204,11 @@ void make_call(ByteReader& reader, SceneModel& model) {
   if (call == 1) return model.remove(body);
   if (call == 2) return model.set_ignored(body, any_body(), reader.flag());
   if (call == 3) {
-    const double contact_distance = length(reader);
-    return model.set_rule(reader.below(3), reader.below(300) % 3, {contact_distance, length(reader)});
+    PairRule rule;
+    if (reader.flag()) rule.contact_distance = length(reader);
+    if (reader.flag()) rule.range = length(reader);
+    const std::uint32_t kind = reader.below(3);
+    return model.set_rule(kind, reader.below(300) % 3, rule);
   }
   if (call == 4) return model.unbind(body);
   if (call == 5) return model.give_bad_view(body, reader.flag());

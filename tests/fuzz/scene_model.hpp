@@ -98,6 +98,8 @@ class SceneModel {
   void read_bound(ModelBody& body);
 
   [[nodiscard]] PairRule rule_of(const BodyPair& pair) const;
+  /// Below which distance the pair is listed.
+  [[nodiscard]] double range_of(const BodyPair& pair) const;
   [[nodiscard]] double threshold_of(const BodyPair& pair) const;
   [[nodiscard]] std::map<BodyPair, Fresh> build_afresh() const;
   void check_diagnostics(const FrameReport& report);

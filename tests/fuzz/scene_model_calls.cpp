@@ -267,8 +267,8 @@ void SceneModel::replace_mesh(std::size_t index, const std::shared_ptr<const Mes
 
 void SceneModel::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, const PairRule& rule) {
   scene_.set_rule(kind_a, kind_b, rule);
-  if (kind_a > 255 || kind_b > 255 || !(rule.contact_distance >= 0) || std::isinf(rule.contact_distance) ||
-      !(rule.range >= 0))
+  if (kind_a > 255 || kind_b > 255 || !(rule.contact_distance.value_or(0) >= 0) ||
+      std::isinf(rule.contact_distance.value_or(0)) || !(rule.range.value_or(0) >= 0))
     return expect_diagnostic({}, DiagnosticKind::bad_rule);
   rules_[std::minmax(kind_a, kind_b)] = rule;
 }

@@ -66,13 +66,16 @@ bool SceneModel::is_frozen(const BodyPair& pair) const {
 PairRule SceneModel::rule_of(const BodyPair& pair) const {
   const auto kinds = std::minmax(bodies_[pair.first].settings.kind, bodies_[pair.second].settings.kind);
   const auto rule = rules_.find(kinds);
-  if (rule != rules_.end()) return rule->second;
-  return {scene_.settings().contact_distance, scene_.settings().range};
+  return rule == rules_.end() ? PairRule{} : rule->second;
 }
 
 double SceneModel::threshold_of(const BodyPair& pair) const {
-  return rule_of(pair).contact_distance +
+  return rule_of(pair).contact_distance.value_or(scene_.settings().contact_distance) +
          (bodies_[pair.first].settings.margin + bodies_[pair.second].settings.margin);
+}
+
+double SceneModel::range_of(const BodyPair& pair) const {
+  return std::max(rule_of(pair).range.value_or(scene_.settings().range), threshold_of(pair));
 }
 
 std::map<SceneModel::BodyPair, SceneModel::Fresh> SceneModel::build_afresh() const {
@@ -172,7 +175,7 @@ void SceneModel::check_diagnostics(const FrameReport& report) {
 }
 
 bool SceneModel::must_be_listed(const BodyPair& pair, const Fresh& fresh) const {
-  const double reach = std::max(rule_of(pair).range, threshold_of(pair));
+  const double reach = range_of(pair);
   // Bounds are the distance rounded down and up: it is below a double exactly where the lower one is.
   return fresh.in_contact || fresh.row->distance.lower < reach;
 }
@@ -225,9 +228,8 @@ void SceneModel::check_row(const FrameReport& report, const PairReport& row, con
                                                : (was ? PairPhase::ended : PairPhase::near);
   if (row.phase != expected)
     finding("phase " + std::string(to_string(row.phase)) + " instead of " + std::string(to_string(expected)));
-  expect(
-      expected != PairPhase::near || row.distance.lower < std::max(rule_of(pair).range, threshold_of(pair)),
-      "a pair that is not near is listed");
+  expect(expected != PairPhase::near || row.distance.lower < range_of(pair),
+         "a pair that is not near is listed");
 }
 
 void SceneModel::check_values(const FrameReport& report, const PairReport& row, const BodyPair& pair,

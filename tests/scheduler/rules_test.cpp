@@ -131,6 +131,22 @@ TEST_CASE("a rule's threshold and range take the place of the scene's, smaller o
   CHECK(only_pair(*pair.step_at(4096)).phase == PairPhase::near);
 }
 
+TEST_CASE("what a rule does not name is that of the scene, and an empty rule takes the last one back") {
+  NeedleOverPlate pair(settings_of(0.5, 4));
+  pair.scene.set_rule(0, 0, {.contact_distance = 1});
+  CHECK(in_contact(pair.step_at(below(1))));
+  CHECK(only_pair(*pair.step_at(below(4))).phase == PairPhase::ended);
+  CHECK(only_pair(*pair.step_at(below(4))).phase == PairPhase::near);
+  pair.scene.set_rule(0, 0, {.range = 2});
+  CHECK(pair.step_at(below(4))->pairs().empty());
+  CHECK(only_pair(*pair.step_at(1)).phase == PairPhase::near);
+  CHECK(in_contact(pair.step_at(below(0.5))));
+  pair.scene.set_rule(0, 0, {});
+  CHECK(only_pair(*pair.step_at(below(4))).phase == PairPhase::ended);
+  CHECK(only_pair(*pair.step_at(below(4))).phase == PairPhase::near);
+  CHECK(pair.step_at(4)->pairs().empty());
+}
+
 TEST_CASE("a rule's threshold has the margins too") {
   ObjectSettings plate = with_margin(0.25);
   plate.kind = 1;

@@ -77,14 +77,14 @@ struct Player::State {
     group_ignored(loaded, description);
     for (LoadedSceneObject& object : loaded.objects) add(object, description.objects[object.entry]);
     index_names(description);
-    for (const RuleDescription& rule : description.rules) set_rule(rule, description.settings);
+    for (const RuleDescription& rule : description.rules) set_rule(rule);
     for (const IgnoreDescription& ignored : description.ignore) ignore(ignored);
     frame_count = description.frames.value_or(longest_motion(playbacks));
   }
 
   void add(LoadedSceneObject& loaded, const ObjectDescription& entry);
   void take_warnings(Playback& playback);
-  void set_rule(const RuleDescription& rule, const SceneSettings& settings);
+  void set_rule(const RuleDescription& rule);
   void ignore(const IgnoreDescription& ignored);
   void ignore_groups(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second,
                      const std::array<std::uint8_t, 2>& groups);
@@ -136,14 +136,10 @@ void Player::State::take_warnings(Playback& playback) {
   playback.said = playback.source->warnings().size();
 }
 
-void Player::State::set_rule(const RuleDescription& rule, const SceneSettings& settings) {
+void Player::State::set_rule(const RuleDescription& rule) {
   static_assert(are_all_fields<PairRule, &PairRule::contact_distance, &PairRule::range, &PairRule::epsilon>(),
                 "each field of PairRule is set here");
-  PairRule pair_rule;
-  pair_rule.contact_distance = rule.contact_distance.value_or(settings.contact_distance);
-  pair_rule.range = rule.range.value_or(settings.range);
-  pair_rule.epsilon = rule.epsilon;
-  scene.set_rule(rule.kinds[0], rule.kinds[1], pair_rule);
+  scene.set_rule(rule.kinds[0], rule.kinds[1], {rule.contact_distance, rule.range, rule.epsilon});
 }
 
 void Player::State::index_names(const SceneDescription& description) {

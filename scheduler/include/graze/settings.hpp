@@ -73,12 +73,13 @@ struct ObjectSettings {
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the
-/// scene. This is how experiment 2 of the paper uses its equation 6.
+/// scene. What a rule does not name stays that of the scene, so an empty rule takes the last one back. This
+/// is how experiment 2 of the paper uses its equation 6.
 struct PairRule {
   /// Replaces SceneSettings::contact_distance. It is finite, and 0 or more.
-  double contact_distance = 0;
+  std::optional<double> contact_distance = {};
   /// Replaces SceneSettings::range. It is 0 or more, and may be infinite.
-  double range = 0;
+  std::optional<double> range = {};
   /// Replaces the numbers of Accuracy::paper(). If it is empty, the scene's own numbers count.
   std::vector<double> epsilon = {};
 };

@@ -71,9 +71,9 @@ std::optional<std::string> problem_of(std::uint32_t kind_a, std::uint32_t kind_b
   const std::string kinds =
       "rule of kinds " + std::to_string(kind_a) + " and " + std::to_string(kind_b) + ": ";
   if (std::max(kind_a, kind_b) >= kind_count) return kinds + "kinds are 0 to 255";
-  if (!is_distance(rule.contact_distance))
-    return not_a_distance((kinds + "contact_distance").c_str(), rule.contact_distance);
-  if (!is_range(rule.range)) return not_a_range((kinds + "range").c_str(), rule.range);
+  if (rule.contact_distance && !is_distance(*rule.contact_distance))
+    return not_a_distance((kinds + "contact_distance").c_str(), *rule.contact_distance);
+  if (rule.range && !is_range(*rule.range)) return not_a_range((kinds + "range").c_str(), *rule.range);
   for (const double epsilon : rule.epsilon)
     if (!is_distance(epsilon)) return not_a_distance((kinds + "an epsilon").c_str(), epsilon);
   return std::nullopt;

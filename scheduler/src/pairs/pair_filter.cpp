@@ -27,7 +27,8 @@ PairFilter::Distances PairFilter::distances_of(const PairRule& rule) const {
   std::span<const double> epsilon;
   if (settings_.accuracy.mode() == AccuracyMode::paper)
     epsilon = rule.epsilon.empty() ? std::span<const double>(settings_.accuracy.epsilon()) : rule.epsilon;
-  return {base_distance(rule.contact_distance, epsilon), rule.range, epsilon};
+  return {base_distance(rule.contact_distance.value_or(settings_.contact_distance), epsilon),
+          rule.range.value_or(settings_.range), epsilon};
 }
 
 void PairFilter::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule rule) {

@@ -168,7 +168,7 @@ void ReplayedScene::take(const UnbindRecord& record) {
 }
 
 void ReplayedScene::take(const SetRule& record) {
-  least_range_ = std::min(least_range_, record.rule.range);
+  if (record.rule.range) least_range_ = std::min(least_range_, *record.rule.range);
   scene_.set_rule(record.kind_a, record.kind_b, record.rule);
 }
 

@@ -165,13 +165,13 @@ void plates_that_lie_on_each_other() {
 }
 
 void deepest_contacts_are_kept() {
-  const Eigen::Isometry3d tipped(Eigen::Translation3d(0.1, 0.2, 0.75) *
-                                 Eigen::AngleAxisd(0.9, Vector3d(1, 0.8, 0).normalized()));
+  const Eigen::Isometry3d tipped(Eigen::Translation3d(0.1, 0.2, 0.93) *
+                                 Eigen::AngleAxisd(0.15, Vector3d(1, 0.8, 0).normalized()));
   const auto step = [&](std::size_t limit) {
     graze::SceneSettings settings = nearest_settings(0.02);
     if (limit > 0) settings.max_contacts_per_pair = limit;
     TwoBoxes boxes(settings, {2, 2, 0.5}, {0.5, 0.5, 0.5});
-    return boxes.step_at(Eigen::Translation3d(0, 0, 0.5) * tipped);
+    return boxes.step_at(tipped);
   };
   const graze::ReportHandle all = step(0);
   std::vector<double> separations;
@@ -181,7 +181,8 @@ void deepest_contacts_are_kept() {
     if (contact.kind != graze::ContactKind::EF) separations.push_back(contact.separation());
   }
   std::sort(separations.begin(), separations.end());
-  expect(has_piercing && separations.size() >= 3 && separations[0] < -0.05, "a corner is deep in the ground");
+  expect(has_piercing && separations.size() >= 3 && separations[2] < -0.05,
+         "three corners are deep in the ground");
   for (std::size_t limit = 1; limit <= 3; ++limit) {
     const graze::ReportHandle some = step(limit);
     expect(some->contacts().size() == limit, "no more contacts than the limit");
