@@ -47,7 +47,7 @@ struct Ball {
   static constexpr double slack = 1 + 0x1p-20;  ///< for the rounding of the radii themselves
 };
 
-/// The sign of a number where it is certain; otherwise `unsure` is set and the answer means nothing.
+/// The sign of a number where it is certain. Otherwise `unsure` is set and the answer means nothing.
 inline int sign(const Ball& number, bool& unsure) {
   if (std::abs(number.value) > number.radius * Ball::slack) return number.value > 0 ? 1 : -1;
   if (!number.is_zero()) unsure = true;

@@ -42,15 +42,15 @@ enum class VoronoiRegion : std::uint8_t {
   no_area
 };
 
-/// Finds the Voronoi region of `point`; false where double is not certain of it.
+/// Finds the Voronoi region of `point`. Returns false where double is not certain of it.
 bool certain_voronoi(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner,
                      VoronoiRegion& region, SquaredRange& squared);
 
 /// The position of a closest point on a segment.
 enum class Along : std::uint8_t { first, second, inside };
 
-/// Finds the positions of two segments' closest points; false where double is not certain. They are then one
-/// pair of points, and not inside a common stretch.
+/// Finds the positions of two segments' closest points. Returns false where double is not certain. They are
+/// then one pair of points, and not inside a common stretch.
 bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
                    std::array<Along, 2>& along, SquaredRange& squared);
 

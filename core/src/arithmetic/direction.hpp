@@ -12,7 +12,7 @@
 namespace graze {
 
 /// The unit vector along a vector of which the leading bits are given, each component to a relative error of
-/// some 2^-50; nothing for zero.
+/// some 2^-50. Returns nothing for zero.
 inline std::optional<Eigen::Vector3d> unit(const std::array<Exact::Scaled, 3>& scaled) {
   std::optional<int> exponent;
   for (const Exact::Scaled& part : scaled)
@@ -27,8 +27,8 @@ inline std::optional<Eigen::Vector3d> unit(const std::array<Exact::Scaled, 3>& s
   return result.normalized();
 }
 
-/// The unit vector along `vector.operator()<Number>()`, within some 2^-44 of the true one; nothing where that
-/// is zero.
+/// The unit vector along `vector.operator()<Number>()`, within some 2^-44 of the true one. Returns nothing
+/// where that is zero.
 template <typename VectorOf>
 std::optional<Eigen::Vector3d> unit_direction(DecisionCount& count, const VectorOf& vector) {
   const Vector<Ball> ball = vector.template operator()<Ball>();

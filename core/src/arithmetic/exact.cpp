@@ -151,7 +151,7 @@ Exact operator*(const Exact& left, const Exact& right) {
 
 Exact::Scaled Exact::scaled() const {
   if (sign_ == 0) return {};
-  // The top three halves of limbs hold at least 65 bits; each addition rounds once.
+  // The top three halves of limbs hold at least 65 bits. Each addition rounds once.
   constexpr int half_bits = limb_bits / 2;
   const auto half_at = [&](int position) {
     const Limb whole = limb_at(position >> 1);
@@ -176,7 +176,7 @@ double Exact::rough_quotient(const Exact& left, const Exact& right) {
 
 double Exact::quotient(const Exact& left, const Exact& right) {
   const double rough = rough_quotient(left, right);
-  // The remainder of the rough quotient is exact; only this sum rounds.
+  // The remainder of the rough quotient is exact. Only this sum rounds.
   return rough + rough_quotient(left - Exact(rough) * right, right);
 }
 

@@ -78,8 +78,8 @@ class Exact {
 
   int sign_ = 0;
   int exponent_ = 0;                  ///< of the lowest limb, in limbs
-  int size_ = 0;                      ///< limbs in use; neither the lowest nor the highest is 0
-  std::array<Limb, capacity> limbs_;  ///< lowest first; only the first size_ are ever read
+  int size_ = 0;                      ///< limbs in use. Neither the lowest nor the highest is 0
+  std::array<Limb, capacity> limbs_;  ///< lowest first. Only the first size_ are ever read
 };
 
 inline Exact::Exact(double value) {

@@ -11,7 +11,7 @@
 namespace graze {
 
 /// Which flat piece of a feature a closest point lies in. A quad is two triangles, split from its first
-/// corner, that meet in its fold; every other feature is one piece.
+/// corner, that meet in its fold. Every other feature is one piece.
 enum class Piece : std::uint8_t { fold, first, second };
 
 /// A flat piece of a feature: a vertex, an edge, a triangle of a face, or a quad's fold.

@@ -14,8 +14,8 @@ enum class Ties : std::uint8_t { lowest, all };
 /// The keys at the least distance among some, and a bound on that distance.
 struct Closest {
   KeySet keys;
-  /// An upper bound of the least distance; infinite before the first offer. It may be known from elsewhere,
-  /// before a key at that distance has been offered.
+  /// An upper bound of the least distance. It is infinite before the first offer. It may be known from
+  /// elsewhere, before a key at that distance has been offered.
   double upper = std::numeric_limits<double>::infinity();
   /// Whether an edge pierces a face, among the keys offered.
   bool pierced = false;
@@ -31,7 +31,7 @@ struct Closest {
   }
 };
 
-/// Takes offers of keys; the bound only shrinks.
+/// Takes offers of keys. The bound only shrinks.
 class ClosestSet {
  public:
   /// Continues from the content of `closest`.
@@ -69,7 +69,7 @@ class ClosestSet {
   void merge_runs() { keys_.merge_runs(); }
 
   [[nodiscard]] double upper() const { return closest_.upper; }
-  /// One of the keys; the lowest with Ties::lowest, or after `merge_runs`.
+  /// One of the keys. It is the lowest with Ties::lowest, or after `merge_runs`.
   [[nodiscard]] const FeaturePairKey& front() const { return keys_.front(); }
 
  private:

@@ -26,7 +26,7 @@ class KeySet {
     begins_.assign(1, 0);
   }
   [[nodiscard]] bool empty() const { return keys_.empty(); }
-  /// One of the keys; the lowest after `merge_runs`.
+  /// One of the keys. It is the lowest after `merge_runs`.
   [[nodiscard]] const FeaturePairKey& front() const { return keys_.front(); }
   /// All keys; ascending after `merge_runs`.
   [[nodiscard]] const std::vector<FeaturePairKey>& keys() const { return keys_; }

@@ -236,7 +236,7 @@ bool meet(const Outline& outline, const Outline& other) {
   return !common.empty();
 }
 
-/// Moves the middles of a whole by the same way; the gap between them stays.
+/// Moves the middles of a whole by the same way. The gap between them stays.
 void move_middles(Overlap& whole, const Eigen::Vector3d& way) {
   whole.middle_a += way;
   whole.middle_b += way;

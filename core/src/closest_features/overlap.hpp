@@ -43,7 +43,7 @@ struct Overlap {
 bool do_overlap(const Simplex& a, std::size_t fold_side_a, const Simplex& b, std::size_t fold_side_b,
                 DecisionCount& count);
 
-/// Returns the common part of two pieces that overlap; rounded.
+/// Returns the common part of two pieces that overlap. It is rounded.
 Overlap overlap_of(const Simplex& a, const Simplex& b, const LocalFrame& frame, DecisionCount& count);
 
 /// The overlaps of two features' pieces. Each feature has at most two pieces.

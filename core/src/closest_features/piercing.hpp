@@ -8,10 +8,10 @@
 
 namespace graze {
 
-/// The triangle of a face, one of its one or two, that a segment passes through; nothing where there is none.
-/// The segment's ends lie strictly on opposite sides of the triangle's plane, and the crossing is inside the
-/// face. That is so at the side where two triangles meet, if it is a fold. Where a bent quad is pierced
-/// twice, the crossing nearer the segment's first point counts.
+/// The triangle of a face, one of its one or two, that a segment passes through. Returns nothing where there
+/// is none. The segment's ends lie strictly on opposite sides of the triangle's plane, and the crossing is
+/// inside the face. That is so at the side where two triangles meet, if it is a fold. Where a bent quad is
+/// pierced twice, the crossing nearer the segment's first point counts.
 std::optional<Piece> pierced_triangle(const Simplex& segment, std::span<const Simplex> triangles,
                                       bool has_fold, DecisionCount& count);
 

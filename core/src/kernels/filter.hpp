@@ -145,7 +145,7 @@ struct Filter {
   Clip clip_points;
   Clip clip_segments;
   Clip clip_triangles;
-  /// Copies components of the features of a block that are listed; the list goes on up to a multiple of 4,
+  /// Copies components of the features of a block that are listed. The list goes on up to a multiple of 4,
   /// with anything of the block.
   void (*gather)(const Block& from, std::size_t components, const std::uint32_t* index, std::size_t count,
                  float* to, std::size_t to_stride);

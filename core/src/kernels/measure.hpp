@@ -25,7 +25,7 @@ struct NormalBatch {
   Points corner[3];
   // Filled in by the kernel.
   Points normal;                ///< the unit normals of the triangles
-  double error[contact_lanes];  ///< of them at most; infinite where double is not good enough
+  double error[contact_lanes];  ///< of them at most. It is infinite where double is not good enough
 };
 
 /// A weighted normal, of any length, and how far off it is at most: infinite where that is not known.
@@ -58,7 +58,7 @@ inline constexpr std::size_t vertices_at_once = 128;
 /// Contacts of vertices, of which there are rows up to a multiple of 4.
 struct VertexBatch {
   std::size_t count;
-  double a[vertices_at_once][4];  ///< points; the fourth is nothing
+  double a[vertices_at_once][4];  ///< points. The fourth is nothing
   double b[vertices_at_once][4];
   const RoughNormal* normal_a[vertices_at_once];
   const RoughNormal* normal_b[vertices_at_once];

@@ -16,7 +16,7 @@ struct PositionsSeen {
   Number min[3], max[3];
   Number furthest[3];  ///< the largest magnitudes of now - before, each rounded once
   bool changed;        ///< some bit is another than before
-  bool bad;            ///< some coordinate is beyond the limit or NaN; then the rest means nothing
+  bool bad;            ///< some coordinate is beyond the limit or NaN. Then the rest means nothing
 };
 
 /// A frame of points: kernels see p as `(p - origin) * scale`, computed in double and then rounded. The
@@ -60,7 +60,7 @@ struct PassesOf {
   std::size_t (*near_points)(const Number* block, std::size_t count, const Number* blocks,
                              const std::uint32_t* listed, std::size_t listed_count, Number reach_squared,
                              const NearPairs& out);
-  /// The least of the squared distances that `near_points` compares; infinity where there are none.
+  /// The least of the squared distances that `near_points` compares. It is infinite where there are none.
   Number (*least_squared)(const Number* block, std::size_t count, const Number* blocks,
                           const std::uint32_t* listed, std::size_t listed_count);
 };

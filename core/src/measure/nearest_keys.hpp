@@ -40,7 +40,7 @@ class NearestKeys {
   void add(const SurfacePair& pair, std::span<const FeaturePairKey> keys, MeasureScratch& measure,
            NearestKeysScratch& scratch);
   /// The distance from which on contacts are not kept. It is a little more than that of the furthest one
-  /// kept, by as much as reported distances are rounded. Any thread may ask; it shrinks meanwhile.
+  /// kept, by as much as reported distances are rounded. Any thread may ask. It shrinks meanwhile.
   [[nodiscard]] double limit(const SurfacePair& pair);
 
   // When all have been added:

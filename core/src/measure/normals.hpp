@@ -13,9 +13,10 @@ namespace graze {
 std::optional<Eigen::Vector3d> face_normal(const Surface& surface, const FeaturePiece& piece,
                                            DecisionCount& count);
 
-/// The angle-weighted normal of a feature, not normalised; zero where there is none (Baerentzen and Aanaes,
-/// "Signed distance computation using the angle weighted pseudonormal"). A vertex has its triangles' normals,
-/// weighted by their angles there. An edge has the sum of its triangles' normals, and a face its own.
+/// The angle-weighted normal of a feature, not normalised. It is zero where there is none (Baerentzen and
+/// Aanaes, "Signed distance computation using the angle weighted pseudonormal"). A vertex has its triangles'
+/// normals, weighted by their angles there. An edge has the sum of its triangles' normals, and a face its
+/// own.
 Eigen::Vector3d weighted_normal(const Surface& surface, const FeaturePiece& piece, DecisionCount& count);
 
 /// On which side of a surface, at a feature, the vector `gap` leads.

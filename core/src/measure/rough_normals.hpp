@@ -36,7 +36,7 @@ class NormalSums {
   std::tuple<kernels::FanBatch<float>, kernels::FanBatch<double>> fans_{};
 };
 
-/// Returns `side_of` a unit vector if a rough normal is enough to know it; otherwise nothing.
+/// Returns `side_of` a unit vector if a rough normal is enough to know it. Otherwise returns nothing.
 std::optional<Side> certain_side(const RoughNormal& normal, const Eigen::Vector3d& direction);
 
 }  // namespace graze

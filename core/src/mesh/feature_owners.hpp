@@ -37,7 +37,8 @@ class FeatureOwners {
   }
 
   const IndexedMesh& mesh_;
-  std::vector<std::uint32_t> faces_;  ///< how many there are of each vertex; empty if no vertex is a hub
+  std::vector<std::uint32_t>
+      faces_;  ///< how many there are of each vertex. It is empty if no vertex is a hub
 };
 
 }  // namespace graze

@@ -64,7 +64,7 @@ struct ScaledWay {
   std::array<LosslessSum, 3> axes;
   std::optional<Exact> square = std::nullopt;  ///< of its length, once it was asked for
 
-  /// The magnitudes along the axes, ascending; false where they need more than two doubles.
+  /// The magnitudes along the axes, ascending. Returns false where they need more than two doubles.
   [[nodiscard]] bool magnitudes(std::array<std::array<double, 2>, 3>& all) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto& [rounded, left] = all[axis];

@@ -36,7 +36,7 @@ class Fans {
 
  private:
   /// From one vertex around to the next, by a triangle. The first of those from a vertex, their head, tells
-  /// of all of them whether another leads to them, and how many are written; these are the first.
+  /// of all of them whether another leads to them, and how many are written. These come first.
   struct Link {
     std::uint32_t from = 0, to = 0;
     bool is_led_to = false;

@@ -67,7 +67,8 @@ class Paper {
     nearest_.offer(
         FeaturePairKey::of(vertex_piece(pair_.a.mesh().face(a)[0]), vertex_piece(pair_.b.mesh().face(b)[0])));
   }
-  /// Eq. 4: expand when the middle vertices are closer than the level's epsilon; the pair of roots always.
+  /// Eq. 4: expand when the middle vertices are closer than the level's epsilon. The pair of roots is always
+  /// expanded.
   bool expand(const RegionPair& regions, const Region& a, const Region& b) {
     if (std::max(a.level, b.level) == 0) return true;
     if (pair_.may_vertices(a.middle, b.middle)) nearest_.offer(middles_of(a, b));
@@ -103,7 +104,8 @@ class Paper {
                          });
   }
 
-  /// Moves both ends to the nearest of their neighbours and themselves; false where nothing is nearer.
+  /// Moves both ends to the nearest of their neighbours and themselves. Returns false where nothing is
+  /// nearer.
   bool step_to_neighbour(FeaturePairKey& key) {
     scratch_.leaf_closest.clear();
     ClosestSet around(pair_, Ties::lowest, scratch_.leaf_closest);

@@ -54,8 +54,8 @@ class VerticesInSolid {
   [[nodiscard]] bool join(const IndexedMesh& mesh, std::uint32_t first);
   [[nodiscard]] bool is_joined(std::uint32_t vertex, std::uint32_t other) const;
 
-  std::vector<State> states_;              ///< by vertex; all `outside` between two pairs
-  std::vector<std::uint8_t> beside_;       ///< by vertex: whether an edge of it touches; all 0 between pairs
+  std::vector<State> states_;         ///< by vertex. All are `outside` between two pairs
+  std::vector<std::uint8_t> beside_;  ///< by vertex: whether an edge of it touches. All are 0 between pairs
   std::vector<std::uint64_t> touching_;    ///< the edges that touch, by their ends, ascending
   std::vector<std::uint32_t> candidates_;  ///< the vertices in the solid's box
   std::vector<std::uint32_t> joined_;      ///< those that are decided together

@@ -239,7 +239,7 @@ Box box_of(const kernels::PositionsSeen<Number>& seen) {
   return box;
 }
 
-/// Surveys packed positions by fast passes; nothing where one of them is bad.
+/// Surveys packed positions by fast passes. Returns nothing where one of them is bad.
 template <typename Number>
 std::optional<Surface::PartSeen> seen_in_survey(const void* now, std::uint32_t begin, std::uint32_t end) {
   kernels::PositionsSeen<Number> seen{};
@@ -285,8 +285,8 @@ Surface::PartSeen seen_one_by_one(const IndexedMesh& mesh, const PositionView& v
   return part;
 }
 
-/// Compares positions by fast passes with those before, which lie in the same way; nothing where one of them
-/// is bad.
+/// Compares positions by fast passes with those before, which lie in the same way. Returns nothing where one
+/// of them is bad.
 template <typename Number>
 std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* before, std::uint32_t begin,
                                                 std::uint32_t end, Surface::Displacement displacement) {

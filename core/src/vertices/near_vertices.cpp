@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t block_size = VertexBlocks::block_size;
 constexpr std::size_t group_size = VertexBlocks::group_size;
 
-/// Up to so many blocks of b are tested in a line beside each block of a; more are tested by their levels.
+/// Up to so many blocks of b are tested in a line beside each block of a. More are tested by their levels.
 constexpr std::size_t most_blocks_to_scan = 8 * group_size;
 /// Up to so many boxes of b are tested for a block of a as quickly as they are sorted out for several blocks
 /// before.
@@ -111,8 +111,8 @@ void NearVertices::find_blocks() {
   if (near_.a.count > 0) lay_out_blocks_of_b();
 }
 
-/// Makes blocks of the part of each surface in the other's box, where it has no blocks of all; false where it
-/// has nothing there.
+/// Makes blocks of the part of each surface in the other's box, where it has no blocks of all. Returns false
+/// where it has nothing there.
 bool NearVertices::make_parts() {
   const auto make = [&](const Surface& surface, const Surface& other, NearPart& part) {
     if (surface.has_blocks()) return true;
@@ -227,8 +227,8 @@ kernels::BoxInFrame NearVertices::box_around(std::uint32_t block_of_a) const {
   return moved(in_frame(of_a_.box(block_of_a)), near_.shift, near_.reach);
 }
 
-/// The blocks of b whose boxes are near some blocks of a together; false where they are too many to be of
-/// use.
+/// The blocks of b whose boxes are near some blocks of a together. Returns false where they are too many to
+/// be of use.
 bool NearVertices::find_around(std::span<const std::uint32_t> blocks_of_a) {
   const kernels::BoxInFrame box = moved(around_all(of_a_, blocks_of_a), near_.shift, near_.reach);
   if (near_.is_linear_scan)

@@ -75,8 +75,8 @@ class NearVertices {
   /// once.
   bool append_near(std::size_t begin, std::size_t end, double threshold, WorkMeter& meter,
                    std::vector<FeaturePairKey>& keys, const NearListing& listing);
-  /// Offers the nearest pairs of all listed blocks, and those met before them; false when the budget ran out.
-  /// Does not search where pairs would be of no use beside the nearest so far.
+  /// Offers the nearest pairs of all listed blocks, and those met before them. Returns false when the budget
+  /// ran out. Does not search where pairs would be of no use beside the nearest so far.
   bool offer(WorkMeter& meter, ClosestRange& nearest);
 
  private:

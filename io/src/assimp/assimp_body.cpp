@@ -99,7 +99,7 @@ class BodyReader {
     }
   }
 
-  /// Meshes of one node name the same bones; each is kept once.
+  /// Meshes of one node name the same bones. Each is kept once.
   std::uint32_t number_of_bone(std::uint32_t node, const Eigen::Affine3d& offset) {
     const auto [begin, end] = joints_of_node_.equal_range(node);
     for (auto known = begin; known != end; ++known)

@@ -176,7 +176,7 @@ class PlyReader {
       surface_.add_face(face_);
   }
 
-  /// Every corner from the third on makes a triangle with the two before it; every other one is turned round.
+  /// Every corner from the third on makes a triangle with the two before it. Every other one is turned round.
   void add_strip() {
     for (std::size_t i = 2; i < face_.size(); ++i) {
       const bool is_turned = i % 2 == 1;

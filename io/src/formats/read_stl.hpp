@@ -6,7 +6,7 @@
 
 namespace graze::io {
 
-/// Reads a text or binary STL file; each solid of a text is an object, its equal vertices welded. Throws
+/// Reads a text or binary STL file. Each solid of a text is an object, its equal vertices welded. Throws
 /// InputError for a file that is cut off or announces no faces.
 RawFile read_stl(const std::filesystem::path& path);
 

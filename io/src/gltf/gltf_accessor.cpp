@@ -123,7 +123,7 @@ class AccessorReader {
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
-  /// Reads the elements of these numbers, which ascend; all where there are none.
+  /// Reads the elements of these numbers, which ascend. It reads all where there are none.
   GltfNumbers read(const GltfElements* elements) {
     if (elements != nullptr && !elements->empty() && elements->back() >= count_)
       document_.fail_at(here_, joined("there is no element ", elements->back(), "; export the file again"));

@@ -24,7 +24,7 @@ class GltfDocument {
   [[nodiscard]] bool is_version_1() const { return is_version_1_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const nlohmann::json& root() const { return root_; }
-  /// A list of the document, such as `meshes`; null where it is missing.
+  /// A list of the document, such as `meshes`. It is null where it is missing.
   [[nodiscard]] const nlohmann::json& list(const char* key) const;
 
   [[noreturn]] void fail_at(const std::string& json_path, const std::string& what) const;

@@ -7,7 +7,7 @@
 
 namespace graze::io {
 
-/// A member of an object; null where there is none.
+/// A member of an object. It is null where there is none.
 inline const nlohmann::json& member(const nlohmann::json& object, const char* key) {
   static const nlohmann::json nothing;
   if (!object.is_object()) return nothing;
@@ -15,7 +15,7 @@ inline const nlohmann::json& member(const nlohmann::json& object, const char* ke
   return found == object.end() ? nothing : *found;
 }
 
-/// An element of an array by a number in the file; null where there is none.
+/// An element of an array by a number in the file. It is null where there is none.
 inline const nlohmann::json& element(const nlohmann::json& array, const nlohmann::json& number) {
   static const nlohmann::json nothing;
   if (!array.is_array() || !number.is_number_unsigned() || number.get<std::uint64_t>() >= array.size())

@@ -211,7 +211,7 @@ class GltfMeshReader {
   GltfDocument& document_;
   const json& mesh_;
   std::string json_path_;
-  const std::vector<Bone>* joints_;  ///< of the skin; null where there is none
+  const std::vector<Bone>* joints_;  ///< of the skin. It is null where there is none
   std::map<std::string, std::size_t> set_by_key_;
   std::vector<VertexSet> sets_;
   std::vector<CornerRange> ranges_;  ///< one for each primitive

@@ -88,7 +88,8 @@ class GltfNodeReader {
     return roots;
   }
 
-  /// The default scene's; the first scene's where none is the default; all where there is no scene.
+  /// Those of the default scene. Where none is the default it is the first scene, and where there is none all
+  /// count.
   [[nodiscard]] std::vector<std::uint64_t> scene_roots() {
     const json& scenes = document_.list("scenes");
     if (scenes.empty()) return other_roots();

@@ -17,8 +17,8 @@ Eigen::Matrix3d z_up_from(UpAxis up);
 Eigen::Matrix3d z_up_from(const Eigen::Vector3d& right, const Eigen::Vector3d& up,
                           const Eigen::Vector3d& front);
 
-/// Puts into words what a file says of its axes and unit, such as "y up and 0.0254 m a unit"; empty where it
-/// says nothing.
+/// Puts into words what a file says of its axes and unit, such as "y up and 0.0254 m a unit". It is empty
+/// where it says nothing.
 std::string text_of_frame(const FileFrame& frame);
 
 /// Whether the file says anything but "metres, z up", in a format where that is the exporter's choice. glTF

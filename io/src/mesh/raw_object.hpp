@@ -34,7 +34,8 @@ void turn_faces(RawSurface& surface, const std::vector<bool>& is_marked);
 struct RawObject {
   std::string name;  ///< may be empty or not unique
   RawSurface surface;
-  /// For each vertex its number in the file, as in LoadedObject::file_vertices; empty where they are equal.
+  /// For each vertex its number in the file, as in LoadedObject::file_vertices. It is empty where they are
+  /// equal.
   std::vector<std::uint32_t> file_vertices = {};
   std::uint32_t file_vertex_count =
       0;  ///< how many vertices the file has, where `file_vertices` is not empty
@@ -50,7 +51,7 @@ struct RawFile {
 struct CutFaces {
   std::size_t faces = 0;
   std::size_t triangles = 0;
-  std::optional<std::size_t> too_complex;  ///< a face that takes too long to cut; the surface is as it was
+  std::optional<std::size_t> too_complex;  ///< a face that takes too long to cut. The surface is as it was
 };
 
 /// Cuts every face of more than four corners into triangles of its own corners, in place.

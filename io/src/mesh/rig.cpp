@@ -112,7 +112,7 @@ void add_morphs(const Body& body, const Clip* clip, double seconds, std::vector<
   }
 }
 
-/// The mean of where the vertex's bones take it, by weight; the node's place where it has none.
+/// The mean of where the vertex's bones take it, by weight. It is the node's place where it has none.
 void apply_bones(NodePlaces& places, const Body& body, std::vector<Eigen::Vector3d>& positions) {
   std::vector<Eigen::Affine3d> transforms;
   transforms.reserve(body.bones.size());

@@ -20,7 +20,8 @@ class UsedVertices {
 
  private:
   std::vector<std::uint32_t> old_numbers_;
-  std::vector<std::uint32_t> new_numbers_;  ///< by old number; empty where few of many vertices are used
+  std::vector<std::uint32_t>
+      new_numbers_;  ///< by old number. It is empty where few of many vertices are used
 };
 
 }  // namespace graze::io

@@ -30,7 +30,7 @@ struct PageWriter::State {
   [[nodiscard]] bool is_block_full() const;
   void end_block();
   [[nodiscard]] std::uint64_t size_with(const PackedBlock& packed) const;
-  /// Makes `options.every` larger if the page would become too large; false if it need not be.
+  /// Makes `options.every` larger if the page would become too large. Returns false if it need not be.
   bool take_fewer_frames(std::uint64_t size);
   void write_block(const PackedBlock& packed);
   void forget_block();

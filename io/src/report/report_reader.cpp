@@ -34,7 +34,7 @@ Enum named(const json& value) {
   return *found;
 }
 
-/// A whole number that `Whole` holds; the parser's own conversion takes any number, rounded or wrapped
+/// A whole number that `Whole` holds. The parser's own conversion takes any number, rounded or wrapped
 /// around.
 template <typename Whole>
 Whole read_whole(const json& value) {

@@ -25,7 +25,7 @@ class JsonPath {
   JsonPath(std::string file, const nlohmann::json& value) : file_(std::move(file)), value_(&value) {}
 
   [[nodiscard]] const nlohmann::json& value() const { return *value_; }
-  /// `scene.json: objects[2].margin`; the file alone for the whole document.
+  /// `scene.json: objects[2].margin`. It is the file alone for the whole document.
   [[nodiscard]] std::string where() const;
   /// The last key of the path, such as `margin`.
   [[nodiscard]] std::string_view key() const;

@@ -11,7 +11,7 @@
 
 namespace graze::io {
 
-/// The next word of `rest`, which is cut off it; empty at the end. Words are parted by blanks.
+/// The next word of `rest`, which is cut off it. It is empty at the end. Words are parted by blanks.
 inline std::string_view next_word(std::string_view& rest) {
   constexpr std::string_view blanks = " \t\r\n\v\f";
   const auto begin = rest.find_first_not_of(blanks);

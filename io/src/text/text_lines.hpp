@@ -13,7 +13,7 @@ class TextLines {
 
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
-  /// The next line without its end; empty at the end of the text.
+  /// The next line without its end. It is empty at the end of the text.
   std::string_view next() {
     const auto end = std::min(rest_.find_first_of("\r\n"), rest_.size());
     const std::string_view line = rest_.substr(0, end);

@@ -91,7 +91,7 @@ class GRAZE_API Recorder {
 
   /// Detaches from the scene, waits until all frames are written, and finishes the file. Throws Error if the
   /// file, or the one of RingSettings::on_diagnostic, could not be written. Throws std::bad_alloc if there is
-  /// no memory for the end of a file; then it may be called again. Other later calls do nothing.
+  /// no memory for the end of a file. Then it may be called again. Other later calls do nothing.
   void close();
   /// Waits for the frames of all steps that have returned, and writes the frames of the ring into a file.
   /// Returns what the file has. RecorderStatistics::dropped counts the frames that are missing in it, from

@@ -35,7 +35,7 @@ struct TaskPool::Arena {
 
 TaskPool::TaskPool(unsigned threads, ArenaPolicy policy)
     : worker_count_(threads == 0 ? processors() : std::min(threads, max_threads())) {
-  // The arena asks for no more threads than oneTBB gives in this process; otherwise oneTBB prints a warning.
+  // The arena asks for no more threads than oneTBB gives in this process. Otherwise oneTBB prints a warning.
   const std::size_t allowed =
       oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
   if (worker_count_ > 1 && policy == ArenaPolicy::own)

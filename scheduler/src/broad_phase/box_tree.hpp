@@ -17,7 +17,7 @@ namespace graze {
 ///
 /// Each box is in a leaf, in an order in which neighbours are near each other (BoxOrder). Eight leaves form a
 /// block, eight blocks a node above them, and so on up to one root. The tree is stored as its levels, without
-/// pointers. Results depend on the boxes only; the order decides how many boxes are tested.
+/// pointers. Results depend on the boxes only. The order decides how many boxes are tested.
 ///
 /// One thread changes the tree. While none does, any number of threads may query it.
 class BoxTree {

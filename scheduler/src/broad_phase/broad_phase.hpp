@@ -60,7 +60,7 @@ class BroadPhase {
   [[nodiscard]] const FilteredPairs& filtered() const { return classes_.filtered(); }
   /// The loose box of each object, by slot.
   [[nodiscard]] std::span<const Box> loose_boxes() const { return loose_; }
-  /// Reserves memory for that many objects and pairs; each task gets room for up to 4,096 pairs.
+  /// Reserves memory for that many objects and pairs. Each task gets room for up to 4,096 pairs.
   void reserve(std::size_t objects, std::size_t pairs);
   [[nodiscard]] std::size_t byte_count() const;
 
@@ -102,7 +102,7 @@ class BroadPhase {
 
   HalfReaches half_reaches_{};
   bool reaches_changed_ = false;
-  std::vector<Box> loose_;  ///< by slot; empty for a new object
+  std::vector<Box> loose_;  ///< by slot. It is empty for a new object
   BoxTree tree_;
   FilterClasses classes_;
   std::vector<SlotPair> pairs_;         ///< ascending

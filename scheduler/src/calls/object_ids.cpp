@@ -69,7 +69,7 @@ ObjectIds::Pin ObjectIds::pin(ObjectId object) noexcept {
   Slot* const slot = slots_.find(object.index);
   if (slot == nullptr) return {};
   std::uint64_t seen = slot->state.load(std::memory_order_relaxed);
-  // Acquire: what `allocate` wrote is visible; every change of the state since `publish` is a
+  // Acquire: what `allocate` wrote is visible. Every change of the state since `publish` is a
   // read-modify-write, which keeps its release.
   while (is_present(seen, object.generation))
     if (slot->state.compare_exchange_weak(seen, seen + 1, std::memory_order_acquire,

@@ -39,7 +39,7 @@ struct LostCalls {
   static constexpr std::uint8_t any = 1;      ///< a call that is not applied as it was made
   static constexpr std::uint8_t motion = 2;   ///< its positions may have changed: no promise about it holds
   static constexpr std::uint8_t binding = 4;  ///< the end of its binding
-  static constexpr std::uint8_t removal = 8;  ///< its removal; the slot stays pinned until a step knows of it
+  static constexpr std::uint8_t removal = 8;  ///< its removal. The slot stays pinned until a step knows of it
 };
 
 /// The ids of objects. Any thread may query and change them without a lock.
@@ -126,7 +126,7 @@ class ObjectIds {
     std::atomic<std::uint64_t> state{0};
     std::atomic<std::uint8_t> lost{0};  ///< LostCalls about the present object
     std::uint8_t collected =
-        0;  ///< the losses for the current step; this and the rest belong to the stepping thread
+        0;  ///< the losses for the current step. This and the rest belong to the stepping thread
     std::uint32_t collected_generation = 0;  ///< the generation of that object
     NamedObject named;
   };

@@ -68,7 +68,7 @@ class Staging {
     CallQueue::Chain(queue_).add(std::move(call));
   }
 
-  /// Pins the object that an id names; the pin is empty if it names none.
+  /// Pins the object that an id names. The pin is empty if it names none.
   [[nodiscard]] ObjectIds::Pin find(ObjectId object) { return ids_.pin(object); }
   [[nodiscard]] bool contains(ObjectId object) const {
     return ids_.standing(object) != ObjectIds::Standing::stale;
@@ -187,7 +187,7 @@ class Staging {
   std::uint64_t failed_after_ = 0;
   std::uint64_t failed_ = 0;
   std::atomic<bool> unnamed_lost_{false};  ///< calls about no object were lost
-  bool unnamed_collected_ = false;  ///< the same for the current step; only the stepping thread uses it
+  bool unnamed_collected_ = false;  ///< the same for the current step. Only the stepping thread uses it
 };
 
 }  // namespace graze

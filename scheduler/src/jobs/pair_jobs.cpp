@@ -43,7 +43,7 @@ constexpr std::size_t longest_copied = 65536;
 /// are adjacent in memory.
 constexpr std::size_t long_list = 4096;
 
-/// The largest number of leaf pairs in the fronts of all pairs of objects together; each takes 16 bytes.
+/// The largest number of leaf pairs in the fronts of all pairs of objects together. Each takes 16 bytes.
 constexpr std::size_t front_pairs_of_all = std::size_t{1} << 22;
 
 /// The number of contacts, of leaf pairs and of contacts at the least distance of one pair that each worker

@@ -42,7 +42,7 @@ class PairJobs {
   /// the answers of the other jobs hold their contacts only.
   [[nodiscard]] const KeptAnswer& answer(std::size_t index) const { return answers_[index]; }
   /// The longest list of contacts, if it has at least `longest_copied` contacts and so is better adopted than
-  /// copied; otherwise null.
+  /// copied. Otherwise it is null.
   [[nodiscard]] std::vector<Contact>* longest_list();
   [[nodiscard]] PairCounters counters() const;
 
@@ -129,17 +129,18 @@ class PairJobs {
   std::uint32_t lent_to_ = 0;                   ///< the job that has it
   NearestContacts nearest_;                     ///< of all jobs, if `max_contacts` is set
   std::mutex report_mutex_;
-  ReportBuilder* report_ = nullptr;     ///< set if there is a deadline; guarded by `report_mutex_`
-  std::size_t contacts_with_room_ = 0;  ///< contacts that the report has room for; guarded by `report_mutex_`
+  ReportBuilder* report_ = nullptr;  ///< set if there is a deadline. It is guarded by `report_mutex_`
+  std::size_t contacts_with_room_ =
+      0;  ///< contacts that the report has room for. It is guarded by `report_mutex_`
   PairAnswers answers_;
   std::vector<std::uint32_t> order_;       ///< jobs that test their pairs; by urgency if there is a budget
   std::vector<std::uint32_t> small_jobs_;  ///< the small jobs of the current group
-  std::vector<LargeJob> large_;  ///< the large jobs of the current group; never shrinks, to keep memory
+  std::vector<LargeJob> large_;  ///< the large jobs of the current group. It never shrinks, to keep memory
   std::size_t large_count_ = 0;
-  std::vector<PairAnswer> large_answers_;  ///< the answers of all groups' large jobs; never shrinks
+  std::vector<PairAnswer> large_answers_;  ///< the answers of all groups' large jobs. It never shrinks
   std::size_t large_answer_count_ = 0;     ///< the large answers of earlier groups
   std::vector<std::uint32_t> long_jobs_;   ///< small jobs with long lists in the last step, ascending
-  std::vector<PairAnswer> long_answers_;   ///< the answers of long_jobs_; never shrinks
+  std::vector<PairAnswer> long_answers_;   ///< the answers of long_jobs_. It never shrinks
   std::vector<LargeSlice> slices_;         ///< the slices of all large jobs of the group
   std::vector<Worker> workers_;
   PairRoom room_;               ///< the capacity that was reserved for each worker

@@ -148,7 +148,7 @@ struct IgnoredPartner {
 /// One object of a scene, as steps see it. `validate` says which states cannot be.
 struct Object {
   ObjectId id;
-  std::uint64_t serial = 0;  ///< ascends in the order of addition; never reused
+  std::uint64_t serial = 0;  ///< ascends in the order of addition. It is never reused
   ObjectSettings settings;
   std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
   std::unique_ptr<Surface> owned_surface;         ///< use the accessors below

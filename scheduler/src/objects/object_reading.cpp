@@ -266,7 +266,7 @@ void view_memory(Object& object) {
   Surface& surface = object.surface_to_write();
   surface.view(positions_of(object), object.box);
   object.is_unobserved = true;
-  // A copy stays valid; the caller's memory may go after the step.
+  // A copy stays valid. The caller's memory may go after the step.
   object.state = object.positions ? ReadState::read : ReadState::viewed;
   object.standing_positions = std::move(object.positions);
   object.version = surface.version();

@@ -116,8 +116,9 @@ class PairFilter final : public IgnoredPairs {
 
   const SceneSettings& settings_;
   std::vector<PairRule> rules_;
-  std::vector<Distances> distances_;    ///< the scene's own, then one for each rule
-  std::vector<std::uint16_t> rule_of_;  ///< into `distances_`, for each kind and kind; empty without rules
+  std::vector<Distances> distances_;  ///< the scene's own, then one for each rule
+  std::vector<std::uint16_t>
+      rule_of_;  ///< into `distances_`, for each kind and kind. It is empty without rules
   std::uint64_t rules_version_ = 0;
   std::uint64_t ignored_version_ = 0;
   BroadPhase::HalfReaches half_reaches_{};

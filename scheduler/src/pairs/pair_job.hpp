@@ -29,7 +29,7 @@ struct PairJob {
   SlotPair slots = 0;
   Object* a = nullptr;
   Object* b = nullptr;
-  const PairReport* last = nullptr;  ///< the row in the previous report; null if there was none
+  const PairReport* last = nullptr;  ///< the row in the previous report. It is null if there was none
   PairMemory* memory = nullptr;      ///< tasks use `memory_to_write`
   PairThresholds thresholds;
   PairGroups groups;

@@ -43,7 +43,7 @@ class ReplayedScene {
     ReplayObject object;
     ObjectId recorded;
     std::array<double, 12> pose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    KeptPositions positions;  ///< what it is bound to, or what it was given last; empty at rest
+    KeptPositions positions;  ///< what it is bound to, or what it was given last. It is empty at rest
     BindPolicy policy = BindPolicy::every_step;
     bool is_told = false;  ///< the scene knows of new memory, and has not been seen to read it
     bool is_removed = false;

@@ -34,11 +34,11 @@ class ReportPool {
   /// Ends the scene's ownership. Handles stay valid.
   void close();
 
-  /// The published report. Any thread may call this while the scene lives; it is wait-free.
+  /// The published report. Any thread may call this while the scene lives. It is wait-free.
   [[nodiscard]] ReportHandle latest() noexcept;
 
   /// Returns a report that nobody reads, to be filled. Stepping thread only. Throws Error if all slots are
-  /// held, and std::bad_alloc; nothing has begun then.
+  /// held, and std::bad_alloc. Nothing has begun then.
   [[nodiscard]] FrameReport& begin();
   /// Gives up the report of the last `begin`, and frees the memory of all reports that nobody reads.
   void cancel() noexcept;

@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// Cuts `begin` … `end` - 1 into ranges, each as short as has `each` of work in it; the last may have less.
+/// Cuts `begin` … `end` - 1 into ranges, each as short as has `each` of work in it. The last may have less.
 /// Calls `take(begin, end)` for every range, in order.
 template <typename WorkOf, typename AddRange>
 void cut_by_work(std::size_t begin, std::size_t end, std::size_t each, const WorkOf& work_of,

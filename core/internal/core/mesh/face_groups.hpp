@@ -66,7 +66,7 @@ class GRAZE_API FaceGroups {
   std::vector<GroupSet> sets_;
   std::vector<GroupSet> partners_;
   std::vector<std::uint32_t>
-      vertices_;  ///< numbers of sets; empty if all faces are in group 0, as the others
+      vertices_;  ///< numbers of sets. They are empty if all faces are in group 0, as the others
   std::vector<std::uint32_t> edges_;
   std::vector<std::uint32_t> faces_;
   std::vector<std::uint32_t> regions_;

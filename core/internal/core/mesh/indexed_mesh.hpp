@@ -157,12 +157,12 @@ class GRAZE_API IndexedMesh {
   std::vector<Eigen::Vector3d> rest_;
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t>
-      face_begin_;  ///< into `corners_`; empty if all faces have the same number of corners
+      face_begin_;  ///< into `corners_`. It is empty if all faces have the same number of corners
   std::uint32_t corners_each_ = 0;
   std::uint32_t face_count_ = 0;
   std::vector<std::uint32_t> face_edges_;
   std::vector<std::array<std::uint32_t, 2>> edges_;
-  std::vector<std::uint8_t> used_;  ///< by vertex; empty if all vertices are used
+  std::vector<std::uint8_t> used_;  ///< by vertex. It is empty if all vertices are used
   RegionTree regions_;
   LongRegions long_regions_;
   MadeOnce<Rows> neighbours_, vertex_faces_, edge_faces_, edge_across_, fans_;

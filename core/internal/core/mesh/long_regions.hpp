@@ -41,7 +41,7 @@ class GRAZE_API LongRegions {
 
  private:
   std::vector<LongRegion> all_;
-  std::vector<std::uint32_t> index_of_;  ///< by region; empty if there is no long one
+  std::vector<std::uint32_t> index_of_;  ///< by region. It is empty if there is no long one
 };
 
 }  // namespace graze

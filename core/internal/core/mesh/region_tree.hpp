@@ -32,7 +32,7 @@ struct Region {
 };
 
 /// The octree of regions of a mesh's rest shape. Fixed once built: while the object deforms only radii and
-/// boxes change (they belong to a Surface). Region 0 is the whole mesh; regions are stored level by level,
+/// boxes change (they belong to a Surface). Region 0 is the whole mesh. Regions are stored level by level,
 /// children of one parent together, so every child has a higher number than its parent.
 ///
 /// The root box is the box of the used vertices' rest positions. A region of more than `leaf_capacity`
@@ -65,7 +65,7 @@ class GRAZE_API RegionTree {
   /// The number of the first region of `level`; `level_count()` gives the number of regions.
   [[nodiscard]] std::uint32_t level_begin(std::uint32_t level) const { return level_begin_[level]; }
 
-  /// All used vertices, faces and edges in tree order; every region owns a contiguous range of each.
+  /// All used vertices, faces and edges in tree order. Every region owns a contiguous range of each.
   [[nodiscard]] std::span<const std::uint32_t> vertices() const { return vertices_; }
   [[nodiscard]] std::span<const std::uint32_t> faces() const { return faces_; }
   [[nodiscard]] std::span<const std::uint32_t> edges() const { return edges_; }

@@ -101,7 +101,7 @@ struct LeafFront {
     witness = {};
     touched = false;
   }
-  /// The list, where it says all that can be in contact below a threshold now; otherwise null.
+  /// The list, where it says all that can be in contact below a threshold now. Otherwise it is null.
   [[nodiscard]] const NearList* list_for(const Surface& a, const Surface& b, double threshold) const {
     return near != nullptr && near->serves(a, b, threshold) ? near.get() : nullptr;
   }

@@ -49,14 +49,14 @@ struct PairQuery {
   double region_distance_reach = 0;
   std::span<const double>
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
-  /// Says which features are looked at; null where all are. It leaves some. Fronts that are used were made
-  /// with the same groups, ignored in the same way.
+  /// Says which features are looked at. It is null where all are. It leaves some. Fronts that are used were
+  /// made with the same groups, ignored in the same way.
   const FeatureFilter* groups = nullptr;
   /// Region pairs that may be tested; beyond it the answer is not complete.
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
   static constexpr std::chrono::steady_clock::time_point no_deadline =
       std::chrono::steady_clock::time_point::max();
-  /// A search ends some tens of microseconds after its deadline; the answer is not complete then.
+  /// A search ends some tens of microseconds after its deadline. The answer is not complete then.
   std::chrono::steady_clock::time_point deadline = no_deadline;
   /// The search ends before its deadline by this for each contact found, so that the caller can take them.
   std::chrono::nanoseconds time_after_contact{0};

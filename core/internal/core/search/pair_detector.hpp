@@ -14,7 +14,7 @@
 namespace graze {
 
 /// Answers queries about pairs of surfaces: DMV, DV and contact determination (paper, sections 3.2 and 3.3).
-/// Keeps its working memory from query to query. One thread at a time; any number of detectors may share the
+/// Keeps its working memory from query to query. One thread at a time. Any number of detectors may share the
 /// surfaces.
 class GRAZE_API PairDetector {
  public:
@@ -24,10 +24,10 @@ class GRAZE_API PairDetector {
   PairDetector& operator=(PairDetector&&) noexcept;
 
   /// Both surfaces have been refitted, by `refit_vertices` for the details `regions` and `vertices`, by
-  /// `refit_faces` for the others: now for AccuracyMode::paper, otherwise ever; bounds are the looser the
+  /// `refit_faces` for the others: now for AccuracyMode::paper, otherwise ever. Bounds are the looser the
   /// further the surfaces have moved since. Where `wants_blocks` says so it is `make_blocks` instead, now, or
   /// `make_stretches`.
-  /// `answer` is overwritten, its memory used again; the work is added to `counters`.
+  /// `answer` is overwritten, its memory used again. The work is added to `counters`.
   ///
   /// `front` is that of an earlier query about this pair, or a new one, and is updated. It saves work and
   /// does not change the answer. Only in AccuracyMode::within it may change which of the allowed bounds are
@@ -39,7 +39,7 @@ class GRAZE_API PairDetector {
               PairCounters& counters);
 
   /// Lists the pair's distances of regions in `answer`, level by level, as PairQuery::region_distance_limit
-  /// says; both surfaces have been refitted now.
+  /// says. Both surfaces have been refitted now.
   void region_distances(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer);
 
   /// Makes as much room as `other` and this have needed, so that either could have done the work of both

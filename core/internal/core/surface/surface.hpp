@@ -47,7 +47,7 @@ class GRAZE_API Surface {
 
   [[nodiscard]] const IndexedMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const std::shared_ptr<const IndexedMesh>& shared_mesh() const { return mesh_; }
-  /// The position of a vertex; that of an unused one means nothing.
+  /// The position of a vertex. That of an unused one means nothing.
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t vertex) const {
     if (viewed_.data() != nullptr) return viewed_[vertex];
     if (in_double_.empty()) return in_float_[vertex].cast<double>();
@@ -67,7 +67,7 @@ class GRAZE_API Surface {
   /// The result of reading positions.
   struct ReadResult {
     static constexpr std::uint32_t no_vertex = IndexedMesh::no_edge;
-    /// The first used vertex that is not finite or has a coordinate beyond 2^120; then nothing was taken.
+    /// The first used vertex that is not finite or has a coordinate beyond 2^120. Then nothing was taken.
     std::uint32_t bad_vertex = no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
     /// How far the used vertex that moved furthest did; with Displacement::bound at least that.
@@ -90,7 +90,7 @@ class GRAZE_API Surface {
 
   /// The result of scanning some of the new positions.
   struct PartSeen {
-    /// The first bad vertex, as in ReadResult; no vertex after it was scanned.
+    /// The first bad vertex, as in ReadResult. No vertex after it was scanned.
     std::uint32_t bad_vertex = ReadResult::no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
     double furthest_squared = 0;
@@ -138,7 +138,7 @@ class GRAZE_API Surface {
   /// Changes whenever any used vertex does, by any bit.
   [[nodiscard]] std::uint64_t version() const { return version_; }
   [[nodiscard]] Travel travel() const { return travel_; }
-  /// At least how far any used vertex is from where it was at `then`; infinite where that is not known.
+  /// At least how far any used vertex is from where it was at `then`. It is infinite where that is not known.
   [[nodiscard]] double motion_since(const Travel& then) const;
   /// ReadResult::displacement of the last positions taken.
   [[nodiscard]] double displacement() const { return displacement_; }
@@ -146,7 +146,7 @@ class GRAZE_API Surface {
   /// the tree down to where most leaves are.
   [[nodiscard]] double leaf_size() const;
 
-  /// Makes the bounds of all regions those of the present positions; free if they are already.
+  /// Makes the bounds of all regions those of the present positions. It is free if they are already.
   void refit(RefitOf what);
   void refit_vertices() { refit(RefitOf::vertices); }
   void refit_faces() { refit(RefitOf::faces); }
@@ -163,7 +163,7 @@ class GRAZE_API Surface {
   /// The box of a region's vertices at the present positions, or of a leaf's faces.
   [[nodiscard]] Box box_now(const Region& region, RefitOf what) const;
 
-  /// Makes blocks of the vertices at the present positions; free if they are already.
+  /// Makes blocks of the vertices at the present positions. It is free if they are already.
   void make_blocks();
   /// The last ones made.
   [[nodiscard]] const VertexBlocks& blocks() const { return blocks_; }
@@ -194,7 +194,7 @@ class GRAZE_API Surface {
 
   [[nodiscard]] Eigen::Vector3d middle(const Region& region) const { return position(region.middle); }
 
-  /// Bytes held; the mesh is not counted.
+  /// Bytes held. The mesh is not counted.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
@@ -227,7 +227,7 @@ class GRAZE_API Surface {
   [[nodiscard]] double motion_since(const Refit& refit) const;
 
   std::shared_ptr<const IndexedMesh> mesh_;
-  // Positions in the precision in which they came; the other is empty, and both are before any came.
+  // Positions in the precision in which they came. The other is empty, and both are before any came.
   std::vector<Eigen::Vector3f> in_float_;
   std::vector<Eigen::Vector3d> in_double_;
   std::optional<std::array<double, 12>>
