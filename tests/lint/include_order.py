@@ -33,6 +33,7 @@ ORDER = {
         "solid": "what is inside a closed surface",
         "paper": "paper mode, region distances",
         "search": "one query, in stages",
+        "query": "two surfaces without a scene",
         "response": "contacts at other positions",
     },
     "scheduler": {

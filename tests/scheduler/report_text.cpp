@@ -16,7 +16,7 @@ void write(std::ostream& out, const Feature& feature) {
 }
 
 /// `phase` as a word of the caller's choice.
-std::string row_text(const FrameReport& report, const PairReport& pair, std::string_view phase) {
+std::string row_text(const PairReport& pair, std::span<const Contact> contacts, std::string_view phase) {
   std::ostringstream out;
   out << std::hexfloat;
   out << pair.a.index << ":" << pair.a.generation << " " << pair.b.index << ":" << pair.b.generation << " "
@@ -30,7 +30,7 @@ std::string row_text(const FrameReport& report, const PairReport& pair, std::str
   out << " way out " << pair.way_out.fullness << " " << pair.way_out.thickness << " " << pair.way_out.extent;
   write(out, pair.way_out.direction);
   write(out, pair.way_out.point);
-  for (const Contact& contact : report.contacts(pair)) {
+  for (const Contact& contact : contacts) {
     out << "\n  " << to_string(contact.kind) << " " << contact.distance << " " << to_string(contact.side_a)
         << " " << to_string(contact.side_b) << (contact.sunk ? " sunk" : "");
     write(out, contact.feature_a);
@@ -86,7 +86,11 @@ std::string problem_of(const FrameReport& report, const PairReport& pair) {
 }  // namespace
 
 std::string text_of(const FrameReport& report, const PairReport& pair) {
-  return row_text(report, pair, to_string(pair.phase));
+  return text_of(pair, report.contacts(pair));
+}
+
+std::string text_of(const PairReport& pair, std::span<const Contact> contacts) {
+  return row_text(pair, contacts, to_string(pair.phase));
 }
 
 std::vector<std::string> rows_of(const FrameReport& report) {
@@ -99,7 +103,7 @@ std::vector<std::string> timeless_rows_of(const FrameReport& report, double rang
   std::vector<std::string> rows;
   for (const PairReport& pair : report.pairs())
     if (in_contact(pair) || pair.distance.lower < range)
-      rows.push_back(row_text(report, pair, in_contact(pair) ? "contact" : "apart"));
+      rows.push_back(row_text(pair, report.contacts(pair), in_contact(pair) ? "contact" : "apart"));
   return rows;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <graze/report.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@ namespace graze::tests {
 
 /// Every bit of a pair's row and its contacts as text, but for where the contacts lie in the report.
 std::string text_of(const FrameReport& report, const PairReport& pair);
+
+/// The same of a row whose contacts stand elsewhere.
+std::string text_of(const PairReport& pair, std::span<const Contact> contacts);
 
 /// The rows of a report, each with its contacts.
 std::vector<std::string> rows_of(const FrameReport& report);

@@ -11,6 +11,7 @@
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
 #include <graze/position_view.hpp>
+#include <graze/query.hpp>
 #include <graze/report.hpp>
 #include <graze/scene.hpp>
 #include <graze/settings.hpp>

@@ -9,11 +9,12 @@
 #include <optional>
 #include <utility>
 
-#include "base/bad_vertex_text.hpp"
 #include "base/object_name.hpp"
 #include "base/pose.hpp"
 #include "base/settings_check.hpp"
+#include "core/base/bad_vertex_text.hpp"
 #include "core/base/floating_point_scope.hpp"
+#include "core/base/view_check.hpp"
 #include "core/mesh/closed.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/surface/surface.hpp"
@@ -56,23 +57,26 @@ void check_solid(const Mesh& mesh, const ObjectSettings& settings, const std::st
     throw Error(who + ": a solid has a closed surface; " + *problem);
 }
 
+DiagnosticKind diagnostic_kind_of(const ViewProblem& problem) {
+  switch (problem.kind) {
+    case ViewProblem::Kind::wrong_count:
+      return DiagnosticKind::wrong_count;
+    case ViewProblem::Kind::null_memory:
+      return DiagnosticKind::null_memory;
+    case ViewProblem::Kind::misaligned_memory:
+      break;
+  }
+  return DiagnosticKind::misaligned_memory;
+}
+
 /// Returns whether a view can be the positions of an object, and adds a diagnostic if not.
 bool check_view(CallQueue::Chain& calls, ObjectId object, const NamedObject& named, const Mesh& mesh,
                 const PositionView& view, const char* what) {
-  const auto problem = [&](DiagnosticKind kind, const std::string& got) {
-    add_problem(calls, object, kind, std::string(what) + ": " + name_of(object, named) + " got " + got);
-    return false;
-  };
-  if (view.size() != mesh.vertex_count())
-    return problem(DiagnosticKind::wrong_count, std::to_string(view.size()) + " positions for " +
-                                                    std::to_string(mesh.vertex_count()) + " vertices");
-  if (view.data() == nullptr) return problem(DiagnosticKind::null_memory, "null memory");
-  const std::size_t alignment = view.is_double() ? alignof(double) : alignof(float);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the address is looked at, not used
-  if (reinterpret_cast<std::uintptr_t>(view.data()) % alignment != 0 ||
-      view.stride_bytes() % alignment != 0 || view.coordinate_stride_bytes() % alignment != 0)
-    return problem(DiagnosticKind::misaligned_memory, "memory that is not aligned to its numbers");
-  return true;
+  const auto problem = problem_of_view(view, mesh.vertex_count());
+  if (!problem) return true;
+  add_problem(calls, object, diagnostic_kind_of(*problem),
+              std::string(what) + ": " + name_of(object, named) + " got " + problem->got);
+  return false;
 }
 
 /// The number of vertices that one pass copies and a second pass reads while they are in a cache.

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "base/bad_vertex_text.hpp"
 #include "base/object_name.hpp"
+#include "core/base/bad_vertex_text.hpp"
 #include "core/base/number_text.hpp"
 #include "objects/leaf_test_slack.hpp"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "base/bad_vertex_text.hpp"
 #include "base/pose.hpp"
 #include "base/settings_check.hpp"
+#include "core/base/bad_vertex_text.hpp"
 #include "core/base/floating_point_scope.hpp"
 #include "core/mesh/closed.hpp"
 #include "core/mesh/indexed_mesh.hpp"
