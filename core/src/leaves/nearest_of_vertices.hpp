@@ -18,6 +18,16 @@ struct VertexOfPair {
 
   static VertexOfPair of_a(std::uint32_t vertex) { return {vertex}; }
   static VertexOfPair of_b(std::uint32_t vertex) { return {std::uint64_t{1} << 32U | vertex}; }
+  /// How many there are, where both surfaces are looked at.
+  static std::size_t count(const Surface& a, const Surface& b) {
+    return std::size_t{a.mesh().vertex_count()} + b.mesh().vertex_count();
+  }
+  /// The vertex at an index below `count`, or after all of them.
+  static VertexOfPair at(std::size_t index, const Surface& a) {
+    const std::size_t of_a_count = a.mesh().vertex_count();
+    return index < of_a_count ? of_a(static_cast<std::uint32_t>(index))
+                              : of_b(static_cast<std::uint32_t>(index - of_a_count));
+  }
   [[nodiscard]] bool is_of_a() const { return number >> 32U == 0; }
   [[nodiscard]] std::uint32_t index() const { return static_cast<std::uint32_t>(number); }
 

@@ -3,15 +3,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
+#include <utility>
+#include <variant>
 
-#include "closest_features/feature_pair_key.hpp"
 #include "core/mesh/pair_room.hpp"
-#include "leaves/leaf_features.hpp"
-#include "leaves/nearest_features.hpp"
+#include "leaves/nearest_of_vertices.hpp"
+#include "leaves/touching_edges.hpp"
 #include "measure/nearest_keys.hpp"
-#include "pair/near_listing.hpp"
+#include "search/contact_measuring.hpp"
+#include "search/contact_sources.hpp"
+#include "search/key_finders.hpp"
+#include "search/key_ordering.hpp"
+#include "search/near_list_recorder.hpp"
+#include "search/nearest_choice.hpp"
 #include "search/search_progress.hpp"
 #include "search/search_slices.hpp"
 #include "search/search_worker.hpp"
@@ -21,7 +25,14 @@
 
 namespace graze {
 
-/// The search for all contacts of a detail: finds their keys, sorts them, and measures the contacts.
+/// The search for all contacts of a detail, in four stages: it finds candidates, collects the keys of
+/// contacts among them, orders the keys, and measures the contacts. It is put together when it begins:
+///
+/// - a source gives the candidates (contact_sources.hpp);
+/// - a finder says which keys the detail has of them (key_finders.hpp);
+/// - a collector takes all keys, or the closest (key_collectors.hpp), and an ordering goes with it
+///   (key_ordering.hpp);
+/// - observers watch: they list features that are near, and edges that touch or pierce.
 class ContactSearch {
  public:
   ContactSearch(SearchedPair& pair, SearchSlices& slices, NearBlocks& near_blocks)
@@ -52,104 +63,59 @@ class ContactSearch {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// The purpose of the slices that were made last.
   enum class Stage : std::uint8_t {
-    listed,    ///< the keys of all contacts among features that an earlier query listed
-    reach,     ///< pairs of leaves that may be in contact
-    contacts,  ///< the keys of all contacts in them
-    vertices,  ///< the keys of all pairs of vertices in blocks that may be near
-    nearest,   ///< the nearest keys of each vertex, out of what slices have found
-    ordered,   ///< all keys sorted, each once: one of the stretches that bins were cut into
-    measured,  ///< the contacts themselves
-  };
-  /// A range of all keys, and from where they come; sorted those that are contacts.
-  struct Stretch {
-    std::size_t begin;
-    std::size_t end;
-    struct {
-      std::size_t begin = 0;
-      std::size_t end = 0;
-    } runs;
-    bool complete = true;
+    find,     ///< the source finds candidates
+    collect,  ///< the keys of contacts among them
+    choose,   ///< still that: those keys that only all slices together can tell
+    order,    ///< all keys sorted, each once; only keys of many slices take a stage
+    measure,  ///< the contacts themselves
   };
 
-  // Keys, from leaves or from blocks of vertices:
-  SearchProgress begin_reach(SearchWorker& worker);
-  void run_reach(SearchSlice& slice, SearchWorker& worker);
-  SearchProgress begin_contacts(SearchWorker& worker);
-  void cut_leaves();
-  void run_contacts(SearchSlice& slice, SearchWorker& worker);
-  template <typename Features>
-  void test_leaves(SearchSlice& slice, SearchWorker& worker, Features& features);
-  void add_closest_vertices(const LeafOf& a, const LeafOf& b, SearchSlice& slice, SearchWorker& worker) const;
-  SearchProgress begin_vertices(SearchWorker& worker);
-  void run_vertices(SearchSlice& slice, SearchWorker& worker);
-  SearchProgress finish_keys(SearchWorker& worker);
-  [[nodiscard]] auto may_touch() const;
+  // The parts that a search is put together of:
+  void choose_parts();
+  template <typename Finder>
+  void choose_parts_for();
+  template <typename Finder>
+  void choose_source(bool nearest_first);
 
-  // Lists of near features:
-  SearchProgress begin_listed(const NearList& near);
-  void choose_list_slack();
-  [[nodiscard]] bool is_listing() const { return list_slack_ > 0; }
-  /// How near contacts are, or what is listed for the next steps.
-  [[nodiscard]] double wanted() const { return pair_.query.threshold + list_slack_; }
-  [[nodiscard]] NearListing listing_in(SearchSlice& slice) const;
-  [[nodiscard]] TouchingEdges* touching_in(SearchSlice& slice) const;
-  void run_listed(SearchSlice& slice, SearchWorker& worker);
-  template <typename Features>
-  void test_listed(SearchSlice& slice, SearchWorker& worker, Features& features);
-  void keep_list(SearchWorker& worker);
-
-  // The nearest of each vertex. Each slice finds its own, then each takes some vertices out of all slices:
-  [[nodiscard]] NearestFeatures nearest_features_in(SearchSlice& slice, SearchWorker& worker);
-  [[nodiscard]] bool has_nearest_to_choose() const;
-  void keep_nearest(SearchSlice& slice, SearchWorker& worker);
-  SearchProgress begin_nearest(SearchWorker& worker);
-  void find_nearest_fold(SearchWorker& worker);
-  SearchProgress finish_at_fold(SearchWorker& worker);
-  void find_sunk_edges(SearchWorker& worker);
-  void run_nearest(SearchSlice& slice, SearchWorker& worker);
-
-  // A limit of contacts. Slices hand their keys over to one list of the nearest. The detail `nearest` keeps
-  // the deepest instead, and which they are is known only when all have been measured:
-  [[nodiscard]] bool is_limited() const {
-    return pair_.query.contact_limit > 0 && pair_.query.detail != ContactDetail::nearest;
-  }
-  [[nodiscard]] double threshold_now(SearchWorker& worker);
-  void hand_over(SearchSlice& slice, SearchWorker& worker);
-  void hand_over_if_many(SearchSlice& slice, SearchWorker& worker);
-  SearchProgress finish_nearest(SearchWorker& worker);
-
-  // Sorted keys, and contacts:
-  void bin_keys(SearchSlice& slice, SearchWorker& worker);
-  SearchProgress begin_ordering();
-  void order(Stretch& stretch, SearchWorker& worker);
-  [[nodiscard]] std::size_t sort_keys(std::span<FeaturePairKey> keys, SearchWorker& worker) const;
+  // How the stages follow each other:
+  SearchProgress begin_collecting(SearchWorker& worker);
+  template <typename Finder>
+  void collect_all(SearchSlice& slice, SearchWorker& worker);
+  template <typename Finder>
+  void collect_closest(SearchSlice& slice, SearchWorker& worker);
+  [[nodiscard]] FinderInput input_of(SearchSlice& slice, SearchWorker& worker);
+  template <typename Collector>
+  void feed(SearchSlice& slice, SearchWorker& worker, Collector& collector);
+  [[nodiscard]] bool has_choice() const { return leaves_choice_ && slices_.size() > 1; }
+  SearchProgress end_collecting(SearchWorker& worker);
+  SearchProgress begin_ordering(SearchWorker& worker);
   SearchProgress begin_measuring(SearchWorker& worker);
   [[nodiscard]] SearchProgress finish_without_contacts(SearchWorker& worker);
-  void keep_time_back(std::size_t contacts, SearchWorker& worker);
-  void run_measured(SearchSlice& slice, SearchWorker& worker);
-  SearchProgress finish_measuring(SearchWorker& worker);
-  [[nodiscard]] std::span<const FeaturePairKey> keys_of(const SearchSlice& slice) const;
-  [[nodiscard]] std::span<Contact> contacts_of(const SearchSlice& slice) const;
-  [[nodiscard]] FeaturePairKey lowest_measured(SearchWorker& worker) const;
-  [[nodiscard]] static FeaturePairKey lower_of(SearchWorker& worker, const FeaturePairKey& left,
-                                               const FeaturePairKey& right);
+  SearchProgress finish_at_fold(SearchWorker& worker);
+  SearchProgress finish(SearchWorker& worker);
 
   SearchedPair& pair_;
   SearchSlices& slices_;
   NearBlocks& near_blocks_;
-  Stage stage_ = Stage::reach;
-  bool is_from_front_ = false;   ///< the pairs of leaves come from the last query's front, not from a walk
-  double list_slack_ = 0;        ///< `PairQuery::list_slack` where a new near list is made, otherwise 0
-  TouchingEdges touching_;       ///< of all slices, where the pair has a solid
-  SunkEdges sunk_edges_;         ///< by the edges that pierce of all slices
+  OrderedKeys ordered_;
+  NearestKeys nearest_keys_;  ///< of all slices, where contacts are limited
+  TouchingEdges touching_;    ///< of all slices, where the pair has a solid
+  SunkEdges sunk_edges_;      ///< by the edges that pierce of all slices
+  AllOrdering all_ordering_{pair_, slices_, ordered_};
+  ClosestOrdering closest_ordering_{pair_, slices_, ordered_, nearest_keys_};
+  NearestChoice choice_{pair_, slices_, sunk_edges_};
+  ContactMeasuring measuring_{pair_, slices_, ordered_};
+
+  // The parts of this search:
+  NearListRecorder recorder_{pair_};
+  ContactSource source_{std::in_place_type<ListSource>, pair_, slices_};
+  void (ContactSearch::*collect_)(SearchSlice&, SearchWorker&) = nullptr;
+  KeyOrdering* ordering_ = nullptr;
+  bool leaves_choice_ = false;  ///< the finder leaves keys for the stage `choose`
+
+  Stage stage_ = Stage::find;
   std::optional<NearKey> fold_;  ///< the nearest where one feature is a fold, for `ContactDetail::nearest`
-  std::vector<FeaturePairKey> keys_;
-  NearestKeys nearest_keys_;                           ///< of all slices, where contacts are limited
-  std::optional<FeaturePairKey> lowest_;               ///< the nearest of all, where contacts are limited
-  std::vector<Stretch> stretches_;                     ///< of `keys_`
-  std::vector<std::span<const FeaturePairKey>> runs_;  ///< of the slices' keys, by bins
 };
 
 }  // namespace graze

@@ -112,9 +112,8 @@ template <typename Keep, typename Meet>
 void SearchSlices::walk(SearchWorker& worker, const Keep& keep, const Meet& meet) {
   clear();
   SearchSlice& first = add();
-  const RegionPair root;
   const std::size_t most = may_cut_ ? roots_of_sliced_walk : std::numeric_limits<std::size_t>::max();
-  first.complete = worker.leaf_pairs.walk({&root, 1}, keep, meet, first.found, most);
+  first.complete = worker.leaf_pairs.walk_all(keep, meet, first.found, most);
   if (!first.complete) return;
   const auto rest = worker.leaf_pairs.front();
   roots_.assign(rest.begin(), rest.end());

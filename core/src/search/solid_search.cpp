@@ -77,10 +77,9 @@ bool SolidSearch::find_touching(double apart) {
   LeafPairs leaf_pairs(whole, pair_.query, worker_.scratch.leaf_pairs, worker_.meter);
   LeafPairList& found = scratch_.touching_leaves;
   found.clear();
-  const RegionPair root;
   const auto touches = [](double lower, double /*slack*/) { return lower == 0; };
-  if (!leaf_pairs.walk(
-          {&root, 1}, touches, [](const RegionPair&) {}, found))
+  if (!leaf_pairs.walk_all(
+          touches, [](const RegionPair&) {}, found))
     return false;
   worker_.begin_leaves(found);
   TouchingFeatures features(whole, worker_.pair.groups, worker_.scratch.features, scratch_.touching);

@@ -16,13 +16,15 @@ bool are_behind_each_other(const Contact& contact) {
 
 void SunkEdges::gather(std::span<const SearchSlice> slices) {
   piercing_.clear();
-  for (const SearchSlice& slice : slices) piercing_.add(slice.contacts.piercing);
-  piercing_.sort();
+  for (const SearchSlice& slice : slices)
+    if (!slice.contacts.piercing.empty()) piercing_.add(slice.contacts.piercing);
+  if (!piercing_.empty()) piercing_.sort();
 }
 
 void SunkEdges::settle(FoundContacts& found, SearchWorker& worker) const {
-  // Few pairs have an edge that pierces. Only of these it matters on which sides they are.
   std::vector<EdgesIfSunk>& undecided = found.edges_if_sunk;
+  if (undecided.empty()) return;
+  // Few pairs have an edge that pierces. Only of these it matters on which sides they are.
   const auto open = std::partition(undecided.begin(), undecided.end(), [&](const EdgesIfSunk& edges) {
     return !piercing_.has_one(edges.key.index_a(), edges.key.index_b());
   });

@@ -60,10 +60,9 @@ bool WayOutSearch::list_near(double distance) {
   auto& near = scratch_.near;
   near.clear();
   scratch_.leaves.clear();
-  const RegionPair root;
   const auto may_cross = [distance](double lower, double /*slack*/) { return lower <= distance; };
-  if (!worker_.leaf_pairs.walk(
-          {&root, 1}, may_cross, [](const RegionPair&) {}, scratch_.leaves))
+  if (!worker_.leaf_pairs.walk_all(
+          may_cross, [](const RegionPair&) {}, scratch_.leaves))
     return false;
   worker_.begin_leaves(scratch_.leaves);
   NearPiercings piercings(worker_.pair, distance, worker_.scratch.features, near);

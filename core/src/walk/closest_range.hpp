@@ -89,7 +89,7 @@ class ClosestRange {
   /// Offers two vertices of the surfaces before the search begins: the roots' middle vertices, or corners of
   /// faces that may be looked at.
   void offer_some() {
-    if (pair_.groups == nullptr) return offer_middles({});
+    if (pair_.groups == nullptr) return offer_middles(whole_surfaces);
     const auto& [a, b] = pair_.groups->some_faces();
     offer_apart(pair_.a.mesh().face(a)[0], pair_.b.mesh().face(b)[0]);
   }

@@ -26,6 +26,9 @@ struct LeafPair {
   float feature_lower_bound = 0;  ///< as ListedLeaves has it, now
 };
 
+/// The roots of both surfaces' regions, which are the surfaces as a whole.
+inline constexpr RegionPair whole_surfaces;
+
 /// Indices into a front.
 class ListedIndices {
  public:
@@ -146,6 +149,12 @@ class LeafPairs {
           if (keeps(lower)) found.leaves.push_back({std::max(lower, lower_of_leaves(leaves)), leaves, 0, 0});
         },
         most);
+  }
+  /// Walks the surfaces as a whole.
+  template <typename Keep, typename Meet>
+  bool walk_all(const Keep& keep, const Meet& meet, LeafPairList& found,
+                std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    return walk({&whole_surfaces, 1}, keep, meet, found, most);
   }
   /// At most how far apart two leaves are.
   double lower_of_leaves(const RegionPair& leaves) {
