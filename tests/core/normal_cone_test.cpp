@@ -95,7 +95,8 @@ TEST_CASE("normal cone: directions of random surfaces are in it where their angl
     Shape shape = shape_of(models::sphere(8 + random.below(12), 4 + random.below(6)));
     for (Vector3d& position : shape.positions) position *= 1 + random.between(-0.1, 0.1);
     const Placed placed(shape);
-    const std::array counts{placed.mesh->vertex_count(), placed.mesh->edge_count(), placed.mesh->face_count()};
+    const std::array counts{placed.mesh->vertex_count(), placed.mesh->edge_count(),
+                            placed.mesh->face_count()};
     for (std::size_t kind = 0; kind < counts.size(); ++kind)
       for (int i = 0; i < 100; ++i) {
         const Feature feature{static_cast<FeatureKind>(kind), random.below(counts[kind])};

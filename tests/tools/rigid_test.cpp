@@ -46,8 +46,8 @@ class BoxOverPlane : public ContactSource {
       const Vector3d point = bodies[1].to_world(corner);
       ++key;
       if (point.z() < 0.1)
-        contacts.push_back({0, 1, {point.x(), point.y(), 0}, point, Vector3d::UnitZ(), point.z(),
-                            has_keys_ ? key : 0});
+        contacts.push_back(
+            {0, 1, {point.x(), point.y(), 0}, point, Vector3d::UnitZ(), point.z(), has_keys_ ? key : 0});
     }
   }
 

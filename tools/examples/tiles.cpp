@@ -107,6 +107,7 @@ bool keeps_its_speed(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const bool slides = keeps_its_speed(argc, argv);
-  std::printf("the crate %s\n", slides ? "slides, and trips over walls alone" : "does not slide as it should");
+  std::printf("the crate %s\n",
+              slides ? "slides, and trips over walls alone" : "does not slide as it should");
   return slides ? 0 : 1;
 }
