@@ -50,10 +50,11 @@ void ContactSearch::choose_parts_for() {
   leaves_choice_ = Finder::leaves_choice;
   collect_ = &ContactSearch::collect_all<Finder>;
   ordering_ = &all_ordering_;
-  if (keeps_closest) {
-    collect_ = &ContactSearch::collect_closest<Finder>;
-    ordering_ = &closest_ordering_;
-  }
+  if constexpr (Finder::keeps_closest)
+    if (keeps_closest) {
+      collect_ = &ContactSearch::collect_closest<Finder>;
+      ordering_ = &closest_ordering_;
+    }
   ordering_->begin(Finder::finds_piercings);
 }
 

@@ -50,7 +50,7 @@ class ClosestKeys {
   }
   void add(const LeafOf& a, const LeafOf& b) { finder_.add(a, b); }
   void add_listed(std::span<const FeaturePair> listed) {
-    constexpr std::size_t each = 1024;
+    constexpr std::size_t each = Finder::listed_at_once;
     for (; !listed.empty(); listed = listed.subspan(std::min(each, listed.size()))) {
       finder_.add_listed(listed.first(std::min(each, listed.size())));
       hand_over_if_many();

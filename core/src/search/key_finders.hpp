@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "leaves/feature_pairs.hpp"
@@ -19,6 +20,9 @@
 //   leaves_choice     whether only all slices together tell which keys are contacts
 //   set_threshold     says that only keys nearer than a threshold are of interest from here on
 //   finish            ends the slice
+//
+// Where a limit keeps the closest contacts, `listed_at_once` says after how many listed pairs a finder that
+// takes them learns the new threshold.
 
 namespace graze {
 
@@ -57,6 +61,8 @@ class VertexFinder {
   static constexpr bool finds_piercings = false;
   static constexpr bool keeps_closest = true;
   static constexpr bool leaves_choice = false;
+  /// Two vertices are compared as soon as they are left out.
+  static constexpr std::size_t listed_at_once = std::numeric_limits<std::size_t>::max();
 
   explicit VertexFinder(const FinderInput& input);
   void add_listed(std::span<const FeaturePair> listed);
@@ -75,6 +81,7 @@ class FeatureFinder : public CloseFeatures {
   static constexpr bool finds_piercings = true;
   static constexpr bool keeps_closest = true;
   static constexpr bool leaves_choice = false;
+  static constexpr std::size_t listed_at_once = 1024;
 
   explicit FeatureFinder(const FinderInput& input);
 };
