@@ -73,16 +73,8 @@ double lean_of(const Placed& of, const Feature& feature, const Vector3d& directi
 
 /// A box that stands over a floor of cells at a height, and may be moved along it.
 Shape box_over(double height, double x) {
-  const Vector3d half(0.25, 0.25, 0.25);
-  Shape shape;
-  for (const double z : {-1.0, 1.0})
-    for (const double y : {-1.0, 1.0})
-      for (const double side : {-1.0, 1.0})
-        shape.positions.emplace_back(half.cwiseProduct(Vector3d(side, y, z)) +
-                                     Vector3d(x, 0.017, height + half.z()));
-  shape.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                 {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return shape;
+  return mapped(shape_of(models::box({0.5, 0.5, 0.5}, models::Faces::triangles)), 1,
+                {x, 0.017, height + 0.25});
 }
 
 }  // namespace

@@ -152,4 +152,37 @@ void write_page(const PlayedScene& scene, io::PageWriter& page) {
   page.close();
 }
 
+io::PageOptions options_of(const PlayedScene& scene) {
+  io::PageOptions options;
+  options.title = "a </script> title";
+  options.source = "scene.json";
+  options.settings = scene.settings;
+  return options;
+}
+
+std::shared_ptr<const Mesh> grid(std::uint32_t side) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint32_t, 4>> quads;
+  for (std::uint32_t y = 0; y <= side; ++y)
+    for (std::uint32_t x = 0; x <= side; ++x) points.emplace_back(x, y, 0.0);
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const std::uint32_t a = y * (side + 1) + x;
+      quads.push_back({a, a + 1, a + side + 2, a + side + 1});
+    }
+  return std::make_shared<const Mesh>(Mesh::from_quads(points, quads));
+}
+
+void write_waves(io::PageWriter& page, const std::shared_ptr<const Mesh>& mesh, std::uint64_t frames) {
+  const ObjectId id{0, 1};
+  page.add_object(id, {"waves", mesh, Motion::deformable, 0});
+  std::vector<Eigen::Vector3d> points(mesh->rest().begin(), mesh->rest().end());
+  for (std::uint64_t frame = 0; frame < frames; ++frame) {
+    for (Eigen::Vector3d& point : points)
+      point.z() = std::sin(0.3 * point.x() + 0.1 * static_cast<double>(frame)) * std::cos(point.y());
+    page.set_positions(id, points);
+    page.frame(frame, {});
+  }
+}
+
 }  // namespace graze::tests

@@ -7,6 +7,7 @@
 #include <graze/scene.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace graze::tests {
@@ -38,7 +39,20 @@ constexpr std::uint64_t source_number(std::uint64_t frame) {
 /// frame 7 and one goes in frame 40 while it is in contact.
 const PlayedScene& played_scene();
 
+/// The template of a page, which has no viewer.
+inline const std::string page_template =
+    "<html>\n<head></head>\n<!-- graze-data -->\n<script>play()</script>\n</html>\n";
+
+/// The options of a page of a scene, with a title that could break the page.
+io::PageOptions options_of(const PlayedScene& scene);
+
 /// Writes the scene into a page.
 void write_page(const PlayedScene& scene, io::PageWriter& page);
+
+/// A square grid of side × side quads.
+std::shared_ptr<const Mesh> grid(std::uint32_t side);
+
+/// Writes `frames` frames of a waving grid into a page, without reports.
+void write_waves(io::PageWriter& page, const std::shared_ptr<const Mesh>& mesh, std::uint64_t frames);
 
 }  // namespace graze::tests

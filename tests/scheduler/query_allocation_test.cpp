@@ -15,7 +15,7 @@ namespace {
 
 constexpr int frames_of_period = 12;
 
-/// Where a body is in each frame of its way into another one and out again.
+/// Returns the positions of a body in each frame. It goes into another body and out again.
 std::vector<Positions> period_of(const Mesh& mesh) {
   std::vector<Positions> frames;
   for (int frame = 0; frame < frames_of_period; ++frame) {

@@ -10,7 +10,7 @@ namespace graze::tests {
 /// Every bit of a pair's row and its contacts as text, but for where the contacts lie in the report.
 std::string text_of(const FrameReport& report, const PairReport& pair);
 
-/// The same of a row whose contacts stand elsewhere.
+/// The text of a row that does not lie in a report, with its contacts.
 std::string text_of(const PairReport& pair, std::span<const Contact> contacts);
 
 /// The rows of a report, each with its contacts.

@@ -43,8 +43,8 @@ GRAZE_API SurfaceWeights weights(const Mesh& mesh, PositionView positions, const
 /// vertex or an edge of a with Contact::push(), and for one of b with the opposite. It leaves the contact out
 /// if the answer is no. A contact with a face inside it needs no question: it is square to the face.
 ///
-/// Of a vertex, all edges from it are tested. Of an edge, the triangles beside it are, square to the edge. Of
-/// a face, one of its triangles has to be square to the direction or its opposite. The direction may have any
+/// For a vertex the call tests all edges from it. For an edge it tests the triangles beside it, square to the
+/// edge. One triangle of a face has to be square to the direction or its opposite. The direction may have any
 /// length but 0, where the answer means nothing. It is in the frame of the positions. For a rigid body turn
 /// the direction into the frame of its mesh, and give the rest positions.
 ///

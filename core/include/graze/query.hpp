@@ -75,11 +75,11 @@ struct QueryResult {
 /// report of a Scene has of two such objects, if a was added before b and no faces are hidden or ignored.
 /// With Accuracy::within() other bounds within the tolerance are possible.
 ///
-/// Throws Error for what a scene refuses: a distance that is negative or NaN, a contact distance that is
-/// infinite, a number that is no detail, a limit of 0, Accuracy::paper() with a detail about surfaces, and a
-/// solid that is not closed. It throws Error for positions, too: if their number is not that of the vertices,
-/// if their memory is null or not aligned, and if a vertex that a face uses has a coordinate that is not
-/// finite or beyond 2^120. Throws `std::bad_alloc` without memory.
+/// Throws Error for settings that a scene refuses. These are a distance that is negative or NaN, an infinite
+/// contact distance, a number that is no detail, and a limit of 0. Others are Accuracy::paper() with a detail
+/// about surfaces, and a solid that is not closed. The call also throws Error for positions if there are not
+/// as many as vertices, or if their memory is null or not aligned. A vertex that a face uses needs finite
+/// coordinates of at most 2^120. Throws `std::bad_alloc` without memory.
 ///
 /// The call computes on the calling thread alone, and in any floating-point mode of the caller. Any number of
 /// threads may make it at the same time, also with the same meshes.

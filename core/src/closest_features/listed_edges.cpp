@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "closest_features/lean.hpp"
 #include "closest_features/seen_faces.hpp"
 #include "mesh/creases.hpp"
 
@@ -47,7 +48,7 @@ class EdgePair {
       const auto n = cross(difference<Number>(a_[1], a_[0]), difference<Number>(b_[1], b_[0]));
       const auto area = cross(r, d);
       const auto along = dot(n, r);
-      return along * along * dot(d, d) * 32.0 - dot(n, n) * dot(area, area);
+      return along * along * dot(d, d) * inverse_squared_lean - dot(n, n) * dot(area, area);
     });
     return excess <= 0;
   }
@@ -72,12 +73,13 @@ class EdgePair {
     const auto [first, second] = surface.mesh().edge(edge);
     return {surface.position(first), surface.position(second)};
   }
-  /// Compares |n·r| |d| √32 with |n| |r × d|, which is the same as `is_within_tolerance`.
+  /// Compares |n·r| |d| √32 with |n| |r × d|, which is the same as `is_within_tolerance`. 32 is
+  /// `inverse_squared_lean`.
   [[nodiscard]] std::optional<bool> is_certainly_within(const Eigen::Vector3d& corner,
                                                         const Ends& edge) const {
     const Eigen::Vector3d d = edge[1] - edge[0];
     const Eigen::Vector3d r = corner - edge[0];
-    const double length = d.norm() * std::sqrt(32.0);
+    const double length = d.norm() * std::sqrt(inverse_squared_lean);
     const double normal = normal_.norm();
     const double area = r.cross(d).norm();
     const double left = std::abs(normal_.dot(r)) * length;

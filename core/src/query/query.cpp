@@ -7,10 +7,10 @@
 
 #include "core/base/bad_vertex_text.hpp"
 #include "core/base/floating_point_scope.hpp"
-#include "core/base/setting_checks.hpp"
 #include "core/base/view_check.hpp"
 #include "core/mesh/closed.hpp"
 #include "core/pair/pair_query.hpp"
+#include "core/pair/setting_checks.hpp"
 #include "core/search/pair_detector.hpp"
 #include "core/surface/surface.hpp"
 
@@ -24,8 +24,7 @@ std::optional<std::string> problem_of(const QuerySettings& settings) {
   if (auto problem = problem_of_distance(owner, "contact_distance", settings.contact_distance))
     return problem;
   if (auto problem = problem_of_range(owner, "range", settings.range)) return problem;
-  if (settings.accuracy.mode() == AccuracyMode::paper && !is_about_vertices(settings.detail))
-    return "query: paper accuracy goes with the details `regions` and `vertices` only";
+  if (auto problem = problem_of_accuracy(owner, settings.accuracy, settings.detail)) return problem;
   if (settings.max_contacts == 0)
     return "query: max_contacts is at least 1; ContactDetail::none lists no contacts";
   return std::nullopt;
@@ -38,8 +37,7 @@ PairQuery question_of(const QuerySettings& settings) {
   question.mode = settings.accuracy.mode();
   question.tolerance = settings.accuracy.tolerance();
   question.epsilon = settings.accuracy.epsilon();
-  // In paper mode the last number is the threshold of DV.
-  question.threshold = question.epsilon.empty() ? settings.contact_distance : question.epsilon.back();
+  question.threshold = threshold_of(settings.contact_distance, question.epsilon);
   question.reach = std::max(settings.range, question.threshold);
   question.contact_limit = settings.max_contacts.value_or(0);
   if (is_about_vertices(settings.detail)) return question;

@@ -28,10 +28,10 @@ namespace graze {
 /// The search for all contacts of a detail, in four stages: it finds candidates, collects the keys of
 /// contacts among them, orders the keys, and measures the contacts. It is put together when it begins:
 ///
-/// - a source gives the candidates (contact_sources.hpp);
-/// - a finder says which keys the detail has of them (key_finders.hpp);
-/// - a collector takes all keys, or the closest (key_collectors.hpp), and an ordering goes with it
-///   (key_ordering.hpp);
+/// - a source gives the candidates (contact_sources.hpp).
+/// - a finder says which keys the detail has of them (key_finders.hpp).
+/// - a collector takes all keys, or the closest (key_collectors.hpp). An ordering goes with it
+///   (key_ordering.hpp).
 /// - observers watch: they list features that are near, and edges that touch or pierce.
 class ContactSearch {
  public:

@@ -11,10 +11,10 @@
 namespace graze {
 
 /// Collects all keys that a finder has of a slice's candidates.
-template <typename Any>
+template <typename AnyFinder>
 class AllKeys {
  public:
-  using Finder = Any;
+  using Finder = AnyFinder;
 
   explicit AllKeys(Finder& finder) : finder_(finder) {}
 
@@ -31,10 +31,10 @@ class AllKeys {
 
 /// Collects those keys that are among the closest of all slices, so many at most. It hands them over on the
 /// way, and learns from what all slices have handed over which ones are too far.
-template <typename Any>
+template <typename AnyFinder>
 class ClosestKeys {
  public:
-  using Finder = Any;
+  using Finder = AnyFinder;
 
   ClosestKeys(Finder& finder, ClosestOrdering& ordering, const NearListRecorder& recorder, SearchSlice& slice,
               SearchWorker& worker)

@@ -15,18 +15,18 @@
 // slice makes one of its own. What it can be given says which sources go with it (see contact_sources.hpp).
 // Every finder says these:
 //
-//   finds_piercings   whether edges that pierce faces are contacts, at every threshold
-//   keeps_closest     whether a limit keeps the closest contacts
-//   leaves_choice     whether only all slices together tell which keys are contacts
-//   set_threshold     says that only keys nearer than a threshold are of interest from here on
-//   finish            ends the slice
+//   finds_piercings   whether edges that pierce faces are contacts, at every threshold.
+//   keeps_closest     whether a limit keeps the closest contacts.
+//   leaves_choice     whether only all slices together tell which keys are contacts.
+//   set_threshold     says that only keys nearer than a threshold are of interest from here on.
+//   finish            ends the slice.
 //
-// Where a limit keeps the closest contacts, `listed_at_once` says after how many listed pairs a finder that
-// takes them learns the new threshold.
+// A finder that takes listed pairs learns a new threshold after each `listed_at_once` of them, if a limit
+// keeps the closest contacts.
 
 namespace graze {
 
-/// What a slice finds its keys with, and where it puts them.
+/// The input of a finder: the tools of a slice, and the places for what is found.
 struct FinderInput {
   SearchWorker& worker;
   double threshold;

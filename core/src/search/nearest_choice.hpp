@@ -19,7 +19,8 @@ class NearestChoice {
 
   /// Gives each of the first slices a range of the vertices.
   void begin();
-  /// Appends to a slice's own keys. So it does with its edges. Any number of threads, one for each slice.
+  /// Appends to a slice's own keys what is nearest to the vertices of its range, and settles its edges that
+  /// may be sunk. Any number of threads, one for each slice.
   void run(SearchSlice& slice, SearchWorker& worker) const;
 
  private:

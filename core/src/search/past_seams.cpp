@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "closest_features/lean.hpp"
 #include "closest_features/seen_faces.hpp"
 
 namespace graze {
@@ -46,15 +46,12 @@ class SurfaceWithSeams {
       if (is_across_in(mesh, seen.faces[0], edge, corner) && leads_past(ends, corner, way)) return true;
     return false;
   }
-  /// Whether `way` leads away from a corner across an edge by more than 10.2° from square to their triangle.
+  /// Whether `way` leads away from a corner across an edge.
   [[nodiscard]] bool leads_past(const std::array<std::uint32_t, 2>& ends, std::uint32_t corner,
                                 const Eigen::Vector3d& way) const {
-    constexpr double squared_sine = 1.0 / 32;
     const Eigen::Vector3d start = surface_.position(ends[0]);
     const Eigen::Vector3d along = surface_.position(ends[1]) - start;
-    const Eigen::Vector3d to_corner = surface_.position(corner) - start;
-    const Eigen::Vector3d inward = to_corner - along * (to_corner.dot(along) / along.squaredNorm());
-    return way.dot(inward) < -std::sqrt(squared_sine) * inward.norm();
+    return leads_along(square_to(along, surface_.position(corner) - start), -way);
   }
 
   const Surface& surface_;

@@ -88,8 +88,8 @@ class GltfNodeReader {
     return roots;
   }
 
-  /// Those of the default scene. Where none is the default it is the first scene, and where there is none all
-  /// count.
+  /// Returns the roots of the default scene, or those of the first one if none is the default. If there are
+  /// no scenes, all roots count.
   [[nodiscard]] std::vector<std::uint64_t> scene_roots() {
     const json& scenes = document_.list("scenes");
     if (scenes.empty()) return other_roots();

@@ -77,14 +77,13 @@ struct Player::State {
     group_ignored(loaded, description);
     for (LoadedSceneObject& object : loaded.objects) add(object, description.objects[object.entry]);
     index_names(description);
-    for (const RuleDescription& rule : description.rules) set_rule(rule);
+    for (const RuleDescription& rule : description.rules) scene.set_rule(rule.kinds[0], rule.kinds[1], rule);
     for (const IgnoreDescription& ignored : description.ignore) ignore(ignored);
     frame_count = description.frames.value_or(longest_motion(playbacks));
   }
 
   void add(LoadedSceneObject& loaded, const ObjectDescription& entry);
   void take_warnings(Playback& playback);
-  void set_rule(const RuleDescription& rule);
   void ignore(const IgnoreDescription& ignored);
   void ignore_groups(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second,
                      const std::array<std::uint8_t, 2>& groups);
@@ -134,12 +133,6 @@ void Player::State::take_warnings(Playback& playback) {
   for (const std::string& warning : playback.source->warnings().subspan(playback.said))
     warnings.push_back(warning);
   playback.said = playback.source->warnings().size();
-}
-
-void Player::State::set_rule(const RuleDescription& rule) {
-  static_assert(are_all_fields<PairRule, &PairRule::contact_distance, &PairRule::range, &PairRule::epsilon>(),
-                "each field of PairRule is set here");
-  scene.set_rule(rule.kinds[0], rule.kinds[1], {rule.contact_distance, rule.range, rule.epsilon});
 }
 
 void Player::State::index_names(const SceneDescription& description) {

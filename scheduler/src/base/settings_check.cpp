@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <graze/scene_enumerators.hpp>
 
-#include "core/base/setting_checks.hpp"
-#include "core/pair/pair_query.hpp"
+#include "core/pair/setting_checks.hpp"
 
 namespace graze {
 
@@ -14,8 +13,7 @@ std::optional<std::string> problem_of(const SceneSettings& settings) {
   if (auto problem = problem_of_distance("scene: ", "contact_distance", settings.contact_distance))
     return problem;
   if (auto problem = problem_of_range("scene: ", "range", settings.range)) return problem;
-  if (settings.accuracy.mode() == AccuracyMode::paper && !is_about_vertices(settings.detail))
-    return "scene: paper accuracy goes with the details `regions` and `vertices` only";
+  if (auto problem = problem_of_accuracy("scene: ", settings.accuracy, settings.detail)) return problem;
   if (settings.time_budget && settings.time_budget->count() < 0) return "scene: time_budget is negative";
   if (settings.max_contacts == 0 || settings.max_contacts_per_pair == 0)
     return "scene: max_contacts and max_contacts_per_pair are at least 1; ContactDetail::none lists no "

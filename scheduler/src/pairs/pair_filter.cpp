@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/pair/pair_query.hpp"
+
 namespace graze {
-namespace {
-
-/// The threshold of DV: the last of the paper's epsilons if there are any, otherwise the contact distance.
-double base_distance(double contact_distance, std::span<const double> epsilon) {
-  return epsilon.empty() ? contact_distance : epsilon.back();
-}
-
-}  // namespace
 
 PairFilter::PairFilter(const SceneSettings& settings) : settings_(settings) {
   const std::span<const double> epsilon(settings_.accuracy.epsilon());
-  distances_.push_back({base_distance(settings_.contact_distance, epsilon), settings_.range, epsilon});
+  distances_.push_back({threshold_of(settings_.contact_distance, epsilon), settings_.range, epsilon});
   half_reaches_.fill(distances_[0].reach() / 2);
 }
 
@@ -27,7 +21,7 @@ PairFilter::Distances PairFilter::distances_of(const PairRule& rule) const {
   std::span<const double> epsilon;
   if (settings_.accuracy.mode() == AccuracyMode::paper)
     epsilon = rule.epsilon.empty() ? std::span<const double>(settings_.accuracy.epsilon()) : rule.epsilon;
-  return {base_distance(rule.contact_distance.value_or(settings_.contact_distance), epsilon),
+  return {threshold_of(rule.contact_distance.value_or(settings_.contact_distance), epsilon),
           rule.range.value_or(settings_.range), epsilon};
 }
 

@@ -62,6 +62,12 @@ struct PairQuery {
   std::chrono::nanoseconds time_after_contact{0};
 };
 
+/// The threshold of DV, without margins: the last of the paper's epsilons if there are any, and otherwise the
+/// contact distance.
+inline double threshold_of(double contact_distance, std::span<const double> epsilon) {
+  return epsilon.empty() ? contact_distance : epsilon.back();
+}
+
 /// Whether `detail` is about vertices, so that distances are between vertices and not between surfaces.
 constexpr bool is_about_vertices(ContactDetail detail) {
   return detail == ContactDetail::regions || detail == ContactDetail::vertices;

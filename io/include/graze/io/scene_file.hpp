@@ -76,16 +76,10 @@ struct ObjectDescription {
   std::string place;
 };
 
-/// Thresholds for a kind of pair, see PairRule.
-struct RuleDescription {
+/// Thresholds for the pairs of two kinds of objects.
+struct RuleDescription : PairRule {
   /// The two kinds of objects, each 0 to 255, in either order.
   std::array<std::uint32_t, 2> kinds{};
-  /// The contact distance. No value means that of the scene.
-  std::optional<double> contact_distance;
-  /// The range. No value means that of the scene.
-  std::optional<double> range;
-  /// The numbers of Accuracy::paper(). If it is empty, the scene's own numbers count.
-  std::vector<double> epsilon;
 };
 
 /// Two sets of objects that are not looked at together.

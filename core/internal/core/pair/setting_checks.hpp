@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cmath>
+#include <graze/accuracy.hpp>
+#include <graze/contact.hpp>
 #include <graze/enumerators.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/base/number_text.hpp"
+#include "core/pair/pair_query.hpp"
 
 namespace graze {
 
@@ -36,6 +39,13 @@ std::optional<std::string> problem_of_enumerator(std::string_view owner, std::st
   constexpr Enumeration last = enumerators<Enumeration>.back();
   return std::string(owner) + std::string(name) + " is " + std::to_string(static_cast<unsigned>(value)) +
          "; the last one is " + std::to_string(static_cast<unsigned>(last));
+}
+
+/// Says in one sentence that an accuracy does not go with a detail, or nothing if it does.
+inline std::optional<std::string> problem_of_accuracy(std::string_view owner, const Accuracy& accuracy,
+                                                      ContactDetail detail) {
+  if (accuracy.mode() != AccuracyMode::paper || is_about_vertices(detail)) return std::nullopt;
+  return std::string(owner) + "paper accuracy goes with the details `regions` and `vertices` only";
 }
 
 }  // namespace graze
