@@ -13,9 +13,11 @@ namespace graze::rigid {
 /// Finds contacts by a scene of graze, with ContactDetail::nearest. All objects are solids.
 ///
 /// Edges that pierce are left out, since they do not say how deep they are. So are contacts whose vertices or
-/// edges do not bear: see in_normal_cone(). A pair whose surfaces pass
-/// through each other, and of which no contact is a quarter as deep as it is thick there, has another contact
-/// in place of these: in the middle of its contour, along the way out.
+/// edges do not bear: see in_normal_cone().
+///
+/// A pair whose surfaces pass through each other may have no contact that is a quarter as deep as the pair is
+/// thick there. It has one other contact in place of all these: in the middle of its contour, along the way
+/// out.
 class GrazeContacts : public ContactSource {
  public:
   /// Takes the settings of a scene, but for the detail.
