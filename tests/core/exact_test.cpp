@@ -244,7 +244,8 @@ double ordinary(Random& random) {
 Number nearly_cancelled(Random& random) {
   const Number x(ordinary(random));
   const Number y(ordinary(random));
-  const double off = std::ldexp(ordinary(random), -static_cast<int>(random.below(60)));
+  const double number = ordinary(random);
+  const double off = std::ldexp(number, -static_cast<int>(random.below(60)));
   return (x * y - Number(x.ball.value + off) * Number(y.ball.value - off)) * Number(ordinary(random));
 }
 

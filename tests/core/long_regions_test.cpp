@@ -178,8 +178,8 @@ TEST_CASE("axes through points: square to each other, wherever the points are") 
     const double size = std::ldexp(1.0, static_cast<int>(random.below(200)) - 100);
     const Vector3d first = random.vector(-1, 1) * size;
     const Vector3d second = i % 7 == 0 ? first : Vector3d(first + random.vector(-1, 1) * size);
-    const Vector3d off_line =
-        random.vector(-1, 1) * (size * std::ldexp(1.0, -static_cast<int>(random.below(70))));
+    const int halvings = static_cast<int>(random.below(70));
+    const Vector3d off_line = random.vector(-1, 1) * std::ldexp(size, -halvings);
     const Vector3d third =
         i % 5 == 0 ? second : Vector3d(first + (second - first) * random.between(-1, 2) + off_line);
     const Eigen::Matrix3d axes = axes_through({first, second, third});

@@ -84,7 +84,8 @@ TEST_CASE("normal cone: directions of random surfaces are in it where their angl
   std::size_t inside = 0;
   std::size_t outside = 0;
   for (int scene = 0; scene < 40; ++scene) {
-    Shape shape = shape_of(models::sphere(8 + random.below(12), 4 + random.below(6)));
+    const std::uint32_t around = 8 + random.below(12);
+    Shape shape = shape_of(models::sphere(around, 4 + random.below(6)));
     for (Vector3d& position : shape.positions) position *= 1 + random.between(-0.1, 0.1);
     const Placed placed(shape);
     const std::array counts{placed.mesh->vertex_count(), placed.mesh->edge_count(),
@@ -92,7 +93,7 @@ TEST_CASE("normal cone: directions of random surfaces are in it where their angl
     for (std::size_t kind = 0; kind < counts.size(); ++kind)
       for (int i = 0; i < 100; ++i) {
         const Feature feature{static_cast<FeatureKind>(kind), random.below(counts[kind])};
-        Vector3d direction(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+        Vector3d direction{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
         if (feature.kind == FeatureKind::face)
           direction = normal_of(shape, feature.index).normalized() + 0.3 * direction;
         if (feature.kind == FeatureKind::edge) {

@@ -49,7 +49,7 @@ Shape laid_on(const Shape& other, Random& random) {
                   face.end());
     } else {
       for (std::uint32_t corners = 3 + random.below(2); corners > 0; --corners) {
-        const Vector3d anywhere(random.between(0, 1), random.between(0, 1), random.between(0, 1));
+        const Vector3d anywhere{random.between(0, 1), random.between(0, 1), random.between(0, 1)};
         const Vector3d middle = 0.5 * (any_corner() + any_corner());
         face.push_back(add_corner(random.chance(0.6)   ? any_corner()
                                   : random.chance(0.5) ? middle
@@ -71,7 +71,8 @@ TEST_CASE("surfaces that share corners are those of brute force") {
   std::size_t contacts = 0;
   for (std::uint64_t seed = 0; seed < scene_count; ++seed) {
     Random random(seed);
-    const Shape a = random_soup(2 * seed, 4 + random.below(4), 1 + random.below(4));
+    const std::uint32_t corners = 4 + random.below(4);
+    const Shape a = random_soup(2 * seed, corners, 1 + random.below(4));
     const Shape b = laid_on(a, random);
     const double threshold = seed % 3 == 0 ? 0 : seed % 3 == 1 ? 0x1p-40 : 0.1;
     const Comparison comparison = compare_surfaces(a, b, threshold);

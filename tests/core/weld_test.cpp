@@ -80,7 +80,7 @@ TEST_CASE("weld: every vertex becomes the first one that stayed within the dista
     const double distance = scale * std::array{0.0, 1.0, std::sqrt(2.0), 2.5, 0.5}[trial % 7 % 5];
     Points points(60);
     for (Eigen::Vector3d& point : points)
-      point = Eigen::Vector3d(step(random) * scale + offset, step(random) * scale, step(random) * scale);
+      point = Eigen::Vector3d{step(random) * scale + offset, step(random) * scale, step(random) * scale};
     std::vector<std::uint32_t> faces(points.size());
     for (std::uint32_t corner = 0; corner < faces.size(); ++corner) faces[corner] = corner;
     const Mesh mesh = Mesh::from_triangles(points, faces);

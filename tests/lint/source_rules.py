@@ -6,6 +6,8 @@
 2. Readers of graze::io open files by `open_input` alone, or tell `OpenedFiles` what they open. So no output can be
    written over a file that was read.
 3. Commands that read files of others print by `say` and `say_aside` alone, which spell out control characters.
+4. A function has at most one argument that draws a random number. Compilers evaluate arguments in any order, so the
+   scenes of two builds would differ. Within braces the order is that of the text.
 
 Prints each place where a rule is broken; the exit code is 1 where there is one.
 """
@@ -22,6 +24,9 @@ COMMANDS = ["tools/graze", "tools/graze/recording"]  # the files in them, not th
 TOKEN = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(?P<mark>\w*)\((?P<raw>.*?)\)(?P=mark)"|"(?P<text>(?:[^"\\\n]|\\.)*)"|\'(?:[^\'\\]|\\.)\'',
     re.DOTALL)
+ARGUMENT = r"(?:[^(){};]|\((?:[^(){};]|\([^(){};]*\))*\))*?"
+DRAW = r"(?:\brandom\.\w+\(|\b\w+\((?:random|engine)\b)"
+TWO_DRAWS = re.compile(rf"[\w>]\({ARGUMENT}{DRAW}{ARGUMENT}\){ARGUMENT},{ARGUMENT}{DRAW}")
 CODE_WORD = re.compile(r"(?<![\w.%-])[A-Za-z]\w*_\w+")
 INCLUDE_LINE = re.compile(r"^[ \t]*#[ \t]*include[^\n]*", re.MULTILINE)
 
@@ -95,6 +100,11 @@ def check(root):
         if file in command_files and file.name != "progress.cpp":
             problems += [f"{name}:{line}: prints by itself; use say or say_aside (output/terminal.hpp)"
                          for line in lines_with(source, r"\bf?printf\(|\bf?puts\(|\bcout\b|\bcerr\b")]
+    for folder in ["tests", "tools"]:
+        for file in sources(root / folder, True):
+            source = without_comments(file.read_text(encoding="utf-8"))
+            problems += [f"{file.relative_to(root).as_posix()}:{source.count(chr(10), 0, match.start()) + 1}: "
+                         "two arguments draw random numbers, in any order" for match in TWO_DRAWS.finditer(source)]
     return problems
 
 

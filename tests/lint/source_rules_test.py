@@ -48,6 +48,15 @@ class SourceRulesTest(unittest.TestCase):
                                "tools/graze/c.cpp": 'say("%s", name);\n'})
         self.assertEqual([problem.split(": ")[0] for problem in found], ["tools/graze/recording/a.cpp:1"])
 
+    def test_arguments_that_draw_random_numbers(self):
+        found = self.problems({"tests/a.cpp": "Vector3d v(way(random), way(random), 0);\n"
+                                              "Vector3d w{way(random), way(random), 0};\n"
+                                              "f(random, g(random));\n",
+                               "tools/b.cpp": "\nf(2 * random.between(0, 1), 5, random.below(3));\n"
+                                              "// f(random.below(1), random.below(2))\n"
+                                              "f(random.below(1)); g(random.below(2), 3);\n"})
+        self.assertEqual([problem.split(": ")[0] for problem in found], ["tests/a.cpp:1", "tools/b.cpp:2"])
+
 
 if __name__ == "__main__":
     unittest.main()

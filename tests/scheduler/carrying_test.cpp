@@ -131,9 +131,10 @@ double largest_jump(const Body& body, const SceneSettings& settings, bool is_gro
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Vector3d::UnitZ()).toRotationMatrix();
   std::vector<Contact> before;
   for (int step = 0; step < 150; ++step) {
-    place += 1e-7 * Vector3d(way(random), way(random), way(random)).normalized();
+    place += 1e-7 * Vector3d{way(random), way(random), way(random)}.normalized();
+    const double angle = 1e-7 * way(random);
     const Eigen::Matrix3d tremble =
-        Eigen::AngleAxisd(1e-7 * way(random), Vector3d(way(random), way(random), way(random)).normalized())
+        Eigen::AngleAxisd(angle, Vector3d{way(random), way(random), way(random)}.normalized())
             .toRotationMatrix();
     const ReportHandle report = stage.step_at(place, tremble * turn);
     REQUIRE(!report->contacts().empty());
@@ -269,7 +270,7 @@ TEST_CASE("carrying: a heap of bodies has the same lists with any number of thre
         const Vector3d cell(static_cast<double>(i % 3), static_cast<double>(i / 3 % 3),
                             static_cast<double>(i / 9));
         scene.set_pose(ids[i], Eigen::Isometry3d(Eigen::Translation3d(
-                                   0.42 * cell + Vector3d(jolt(random), jolt(random), jolt(random)))));
+                                   0.42 * cell + Vector3d{jolt(random), jolt(random), jolt(random)})));
       }
       const ReportHandle report = scene.step();
       REQUIRE(report->statistics().pairs_in_contact > 10);

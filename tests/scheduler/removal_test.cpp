@@ -167,7 +167,10 @@ TEST_CASE("10,000 steps of adds, removes, ignores, rules and poses: what began a
   std::uint64_t next_serial = 1;
   OpenContacts contacts;
   const auto any = [&] { return alive[random.below(static_cast<std::uint32_t>(alive.size()))]; };
-  const auto place = [&] { return at(random.between(-2, 2), random.between(-2, 2), random.between(-1, 1)); };
+  const auto place = [&] {
+    const Eigen::Vector3d offset{random.between(-2, 2), random.between(-2, 2), random.between(-1, 1)};
+    return at(offset.x(), offset.y(), offset.z());
+  };
   for (int step = 0; step < 10000; ++step) {
     for (std::uint32_t calls = random.below(4); calls-- > 0;) {
       if (alive.size() < 3 || (alive.size() < 9 && random.chance(0.2))) {
@@ -187,7 +190,9 @@ TEST_CASE("10,000 steps of adds, removes, ignores, rules and poses: what began a
         if (one == other) continue;
         random.chance(0.5) ? scene.ignore(one, other) : scene.watch(one, other);
       } else if (random.chance(0.1)) {
-        scene.set_rule(random.below(2), random.below(2), {random.between(0, 0.6), random.between(0, 2), {}});
+        const std::uint32_t kind = random.below(2);
+        const std::uint32_t other_kind = random.below(2);
+        scene.set_rule(kind, other_kind, {random.between(0, 0.6), random.between(0, 2), {}});
       } else {
         Eigen::Isometry3d pose = place();
         if (random.chance(0.1)) pose.linear() *= 2;  // refused

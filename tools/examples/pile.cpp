@@ -37,7 +37,7 @@ double random(std::mt19937& engine, double most) {
 }
 
 Eigen::Quaterniond random_turn(std::mt19937& engine) {
-  Eigen::Quaterniond turn(random(engine, 1), random(engine, 1), random(engine, 1), random(engine, 1));
+  Eigen::Quaterniond turn{random(engine, 1), random(engine, 1), random(engine, 1), random(engine, 1)};
   return turn.normalized();
 }
 

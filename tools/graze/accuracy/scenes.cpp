@@ -59,7 +59,8 @@ Shape face(Random& random) {
 
 Shapes two_faces(Random& random) {
   Shapes shapes = {face(random), face(random)};
-  move(shapes[1], random.between(0, 1.5) * direction(random));
+  const double distance = random.between(0, 1.5);
+  move(shapes[1], distance * direction(random));
   return shapes;
 }
 
@@ -106,15 +107,18 @@ Shapes needles(Random& random) {
   Shapes shapes = {face(random), face(random)};
   squash(shapes[0], random);
   if (random.chance(0.7)) squash(shapes[1], random);
-  move(shapes[1], power_of_ten(random, -9, 0) * direction(random));
+  const double distance = power_of_ten(random, -9, 0);
+  move(shapes[1], distance * direction(random));
   return shapes;
 }
 
 Shapes almost_parallel(Random& random) {
   const Shape a = face(random);
   Shape b = a;
-  const Eigen::AngleAxisd turn(power_of_ten(random, -15, -3), direction(random));
-  const Vector3d shift = power_of_ten(random, -9, 0) * direction(random);
+  const double angle = power_of_ten(random, -15, -3);
+  const Eigen::AngleAxisd turn(angle, direction(random));
+  const double distance = power_of_ten(random, -9, 0);
+  const Vector3d shift = distance * direction(random);
   for (Vector3d& corner : b.positions) corner = turn * corner + shift;
   return {a, b};
 }
@@ -133,8 +137,9 @@ Shapes almost_over_border(Random& random) {
   const Vector3d u = a.positions[1] - a.positions[0];
   const Vector3d across = u.cross(a.positions[2] - a.positions[0]).normalized();
   const Vector3d border = a.positions[0] + (random.chance(0.5) ? random.between(0, 1) : 0.0) * u;
-  const Vector3d corner =
-      border + random.between(0, 0.3) * across + power_of_ten(random, -17, -5) * direction(random);
+  const Vector3d inwards = random.between(0, 0.3) * across;
+  const double distance = power_of_ten(random, -17, -5);
+  const Vector3d corner = border + inwards + distance * direction(random);
   b.positions[1] += across;
   b.positions[2] += across;
   move(b, corner - b.positions[0]);
