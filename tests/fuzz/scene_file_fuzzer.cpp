@@ -21,10 +21,11 @@ void check(const io::SceneDescription& scene) {
   expect(scene.frames.value_or(1) >= 1 && scene.frames_per_second > 0, "no frames");
   std::set<std::string> names;
   for (const io::ObjectDescription& object : scene.objects) {
-    expect(object.name.empty() || names.insert(object.name).second, "a name stands twice");
-    expect(object.margin >= 0 && object.kind <= 255 && (object.transform.stretch.array() != 0).any(),
+    expect(object.settings.name.empty() || names.insert(object.settings.name).second, "a name stands twice");
+    expect(object.settings.margin >= 0 && object.settings.kind <= 255 &&
+               (object.transform.stretch.array() != 0).any(),
            "a value out of range");
-    expect(object.poses.empty() || object.motion == Motion::rigid, "poses of what is not rigid");
+    expect(object.poses.empty() || object.settings.motion == Motion::rigid, "poses of what is not rigid");
     for (std::size_t i = 1; i < object.poses.size(); ++i)
       expect(object.poses[i - 1].frame < object.poses[i].frame, "poses out of order");
   }

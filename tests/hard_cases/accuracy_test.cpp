@@ -36,7 +36,7 @@ std::uint64_t work_of(const Shape& a, const Shape& b, ContactDetail detail, cons
   BodyScene scene({a, b}, settings);
   const ReportHandle report = scene.step({a, b});
   bounds = only_pair(*report).distance;
-  return report->statistics().region_pairs_tested;
+  return report->statistics().work.region_pairs_tested;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ TEST_CASE("time budget: a heavy step returns near its deadline, the most urgent 
     bodies.emplace_back(ball, mapped(turned(ball, i), 1, {0.04 * static_cast<double>(i), 0, 0}));
   SceneSettings settings = settings_of(0.05, infinity);
   BodyScene unlimited(bodies, settings);
-  const double full_ms = unlimited.step(bodies)->statistics().step_ms;
+  const double full_ms = unlimited.step(bodies)->statistics().times.step_ms;
   settings.time_budget = std::chrono::microseconds(static_cast<std::int64_t>(full_ms * 1000 / 8));
   const double budget_ms = full_ms / 8;
   double fastest = infinity;
@@ -84,7 +84,7 @@ TEST_CASE("time budget: a heavy step returns near its deadline, the most urgent 
     BodyScene scene(bodies, settings);
     const ReportHandle report = scene.step(bodies);
     CHECK_FALSE(report->complete());
-    fastest = std::min(fastest, report->statistics().step_ms);
+    fastest = std::min(fastest, report->statistics().times.step_ms);
     std::size_t done = 0;
     for (const PairReport& row : report->pairs()) done += row.complete ? 1U : 0U;
     CHECK(done < report->pairs().size());

@@ -51,7 +51,7 @@ std::vector<Body> pile(std::size_t count) {
 
 double median_step_ms(BodyScene& scene, const std::vector<Body>& bodies) {
   std::vector<double> times;
-  for (int i = 0; i < 15; ++i) times.push_back(scene.step(bodies)->statistics().step_ms);
+  for (int i = 0; i < 15; ++i) times.push_back(scene.step(bodies)->statistics().times.step_ms);
   std::nth_element(times.begin(), times.begin() + 7, times.end());
   return times[7];
 }
@@ -80,7 +80,7 @@ struct PebbleOverPlanet {
     CHECK(row.distance.lower == expected.distance.distance_down);
     CHECK(row.distance.upper == expected.distance.distance_up);
     CHECK((row.phase == PairPhase::began) == expected.in_contact);
-    most_work = std::max(most_work, report->statistics().region_pairs_tested);
+    most_work = std::max(most_work, report->statistics().work.region_pairs_tested);
     if (!regions) compare(report->contacts(), expected.contacts, near);
   }
 
@@ -158,7 +158,8 @@ TEST_CASE("one exploded but finite vertex: the rest exact and at most 1.5 times 
     CHECK(difference_of(report->contacts(*own), truth.contacts,
                         Tolerance(exploded[4].now, exploded[5].now)) == "");
 
-    CHECK(report->statistics().region_pairs_tested <= expected->statistics().region_pairs_tested * 3 / 2);
+    CHECK(report->statistics().work.region_pairs_tested <=
+          expected->statistics().work.region_pairs_tested * 3 / 2);
     double slower = infinity;
     for (int attempt = 0; attempt < 5 && slower > 1.5; ++attempt) {
       BodyScene fresh_whole(whole, settings);
@@ -167,8 +168,8 @@ TEST_CASE("one exploded but finite vertex: the rest exact and at most 1.5 times 
     }
     CHECK(slower <= 1.5);
     std::cout << "compared " << compared << " pairs beside an exploded one, region pairs "
-              << report->statistics().region_pairs_tested << " against "
-              << expected->statistics().region_pairs_tested << ", time " << slower << " times\n";
+              << report->statistics().work.region_pairs_tested << " against "
+              << expected->statistics().work.region_pairs_tested << ", time " << slower << " times\n";
   }
 }
 
@@ -186,16 +187,12 @@ TEST_CASE("2,000 objects in one place: memory bounded, degradation reported") {
     meshes.push_back(mesh_of(triangle(corners[0], corners[1], corners[2])));
   }
   for (std::size_t i = 0; i < count; ++i) scene.add(meshes[i % meshes.size()]);
-  const auto bytes_of = [](const StepStatistics& statistics) {
-    return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes +
-           statistics.thread_bytes;
-  };
   std::uint64_t first_bytes = 0;
   for (int frame = 0; frame < 3; ++frame) {
     const ReportHandle report = scene.step();
     const StepStatistics& statistics = report->statistics();
     CHECK(statistics.pairs_total == count * (count - 1) / 2);
-    CHECK(statistics.region_pairs_tested <= budget);
+    CHECK(statistics.work.region_pairs_tested <= budget);
     CHECK_FALSE(report->complete());
     CHECK(report->diagnostics().empty());
     std::size_t incomplete = 0;
@@ -207,12 +204,12 @@ TEST_CASE("2,000 objects in one place: memory bounded, degradation reported") {
     // Some 1,300 bytes for every pair that is listed, and a few thousand for every object. A pair has a row
     // in each of two reports, a job, a memory and an answer. A row and an answer have a way out, of 80 bytes.
     // All of these may have grown to more than is used.
-    CHECK(bytes_of(statistics) <= report->pairs().size() * 1300 + count * 4500 + 20'000'000);
-    if (frame == 1) first_bytes = bytes_of(statistics);
-    if (frame == 2) CHECK(bytes_of(statistics) <= first_bytes * 3 / 2);
+    CHECK(statistics.bytes.total() <= report->pairs().size() * 1300 + count * 4500 + 20'000'000);
+    if (frame == 1) first_bytes = statistics.bytes.total();
+    if (frame == 2) CHECK(statistics.bytes.total() <= first_bytes * 3 / 2);
     if (frame == 0)
       std::cout << "compared " << report->pairs().size() << " pairs of " << count << " objects in one place, "
-                << incomplete << " of them said to be incomplete, " << bytes_of(statistics) / 1'000'000
+                << incomplete << " of them said to be incomplete, " << statistics.bytes.total() / 1'000'000
                 << " MB\n";
   }
 }

@@ -10,6 +10,7 @@
 #include <graze/io/mesh_file.hpp>
 #include <graze/io/paraview_series.hpp>
 #include <graze/io/table_writers.hpp>
+#include <graze/scene_enumerators.hpp>
 #include <iostream>
 #include <locale>
 #include <map>

@@ -36,7 +36,12 @@ std::string report(const std::string& a, const std::string& expanded) {
   const std::string witness =
       R"({"a":["vertex",0],"b":["edge",0,[0,1]],"point_a":[0,0,0],"point_b":[0,0,1]})";
   std::string statistics;
-  for (const auto& [name, member] : io::counter_fields) statistics.append("\"").append(name).append("\":0,");
+  const auto append_zeros = [&](const auto& fields) {
+    for (const auto& [name, member] : fields) statistics.append("\"").append(name).append("\":0,");
+  };
+  append_zeros(io::count_fields);
+  append_zeros(io::work_fields);
+  append_zeros(io::bytes_fields);
   return R"({"graze":1,"objects":[{"id":0,"name":"x","vertices":3,"faces":1}],"settings":{"contact_distance":0,)"
          R"("range":1,"detail":"none","accuracy":"exact"}})"
          "\n"

@@ -209,7 +209,7 @@ void compare_series(const DecodedPage& page, const PlayedScene& scene, std::uint
     CHECK(series.at("crossing").at(frame) == crossing);
     CHECK(series.at("inside").at(frame) == 0);
     CHECK(series.at("diagnostics").at(frame) == report.diagnostics().size());
-    CHECK(series.at("step_ms").at(frame) == report.statistics().step_ms);
+    CHECK(series.at("step_ms").at(frame) == report.statistics().times.step_ms);
   }
 }
 

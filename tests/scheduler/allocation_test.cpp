@@ -495,10 +495,10 @@ TEST_CASE("a budget takes no memory after the first period") {
   const StepStatistics& work = report->statistics();
   // About half of what a step needs.
   if (by_time)
-    settings.time_budget = std::chrono::microseconds(
-        static_cast<std::int64_t>(500 * (work.read_ms + work.pairs_ms + work.refit_ms + work.jobs_ms)));
+    settings.time_budget = std::chrono::microseconds(static_cast<std::int64_t>(
+        500 * (work.times.read_ms + work.times.pairs_ms + work.times.refit_ms + work.times.jobs_ms)));
   else
-    settings.work_budget = work.region_pairs_tested / 2;
+    settings.work_budget = work.work.region_pairs_tested / 2;
   Bobbing bobbing(settings);
   // How far a budget in time lasts is chance: room is made for all.
   bobbing.scene().reserve({.near_pairs = 400, .contacts = 40'000, .reports = 3});

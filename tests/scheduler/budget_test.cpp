@@ -164,7 +164,7 @@ TEST_CASE("a work budget is the same in every run and for any number of threads"
         for (std::size_t frame = 0; frame < found.size(); ++frame) {
           REQUIRE(difference_of(*found[frame], *expected[frame]) == "");
           REQUIRE(inconsistency_of(*found[frame]) == "");
-          REQUIRE(found[frame]->statistics().region_pairs_tested <= budget);
+          REQUIRE(found[frame]->statistics().work.region_pairs_tested <= budget);
           incomplete = incomplete || !found[frame]->complete();
           if (budget == 0) check_undone(*found[frame]);
         }

@@ -190,12 +190,12 @@ TEST_CASE("a posed object that is near nothing has no positions") {
     CHECK(report->pairs().empty());
   };
   step_at(1);
-  const std::size_t bytes_before = report->statistics().object_bytes;
+  const std::size_t bytes_before = report->statistics().bytes.objects;
   for (const double height : {2.0, 1.5, 3.0}) {
     step_at(height);
     CHECK(report->statistics().objects_surveyed == count);
   }
-  CHECK(report->statistics().object_bytes == bytes_before);
+  CHECK(report->statistics().bytes.objects == bytes_before);
   CHECK(bytes_before < 12 * apart.vertices());
   // It is where it was when nothing new is said, or the same again, and is read when another comes.
   step_at(3);
@@ -205,7 +205,7 @@ TEST_CASE("a posed object that is near nothing has no positions") {
   report = apart.scene.step();
   REQUIRE(report->pairs().size() == 1);
   CHECK(report->pairs()[0].distance.upper == 0.25);
-  CHECK(report->statistics().object_bytes >= bytes_before + 2 * 24 * apart.mesh->vertex_count());
+  CHECK(report->statistics().bytes.objects >= bytes_before + 2 * 24 * apart.mesh->vertex_count());
 }
 
 TEST_CASE("a rule that makes pairs near reads what was surveyed long ago") {
@@ -256,7 +256,7 @@ TEST_CASE("copies are kept in the precision in which they came, and once") {
   }
   CHECK(report->statistics().objects_surveyed == count);
   // That which was read last, that which was surveyed, and one that the next call fills.
-  CHECK(report->statistics().object_bytes < (3 * 12 + 12) * apart.vertices());
+  CHECK(report->statistics().bytes.objects < (3 * 12 + 12) * apart.vertices());
 }
 
 TEST_CASE("unbinding copies what was told of and only surveyed") {

@@ -17,13 +17,13 @@ namespace {
 /// Requires that two steps counted the same; their times may differ.
 void require_same_counters(const StepStatistics& mine, const StepStatistics& theirs) {
   REQUIRE(mine.pairs_tested == theirs.pairs_tested);
-  REQUIRE(mine.region_pairs_tested == theirs.region_pairs_tested);
-  REQUIRE(mine.leaf_pairs_tested == theirs.leaf_pairs_tested);
-  REQUIRE(mine.discarded_in_float == theirs.discarded_in_float);
-  REQUIRE(mine.named_in_float == theirs.named_in_float);
-  REQUIRE(mine.decided_in_double == theirs.decided_in_double);
-  REQUIRE(mine.exact_decisions == theirs.exact_decisions);
-  REQUIRE(mine.regions_expanded == theirs.regions_expanded);
+  REQUIRE(mine.work.region_pairs_tested == theirs.work.region_pairs_tested);
+  REQUIRE(mine.work.leaf_pairs_tested == theirs.work.leaf_pairs_tested);
+  REQUIRE(mine.work.discarded_in_float == theirs.work.discarded_in_float);
+  REQUIRE(mine.work.named_in_float == theirs.work.named_in_float);
+  REQUIRE(mine.work.decided_in_double == theirs.work.decided_in_double);
+  REQUIRE(mine.work.exact_decisions == theirs.work.exact_decisions);
+  REQUIRE(mine.work.regions_expanded == theirs.work.regions_expanded);
 }
 
 /// Runs `play`, which gives reports, once for each instruction set, and compares them with plain code's; how
@@ -34,7 +34,7 @@ std::uint64_t compare_instruction_sets(const Play& play) {
   use_instruction_set(InstructionSet::scalar);
   const std::vector<ReportHandle> expected = play();
   std::uint64_t discarded = 0;
-  for (const ReportHandle& report : expected) discarded += report->statistics().discarded_in_float;
+  for (const ReportHandle& report : expected) discarded += report->statistics().work.discarded_in_float;
   for (const InstructionSet set : available_instruction_sets()) {
     if (set == InstructionSet::scalar) continue;
     use_instruction_set(set);

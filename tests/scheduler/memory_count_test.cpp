@@ -14,8 +14,7 @@ namespace graze::tests {
 namespace {
 
 double counted_bytes(const StepStatistics& statistics) {
-  return static_cast<double>(statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes +
-                             statistics.thread_bytes);
+  return static_cast<double>(statistics.bytes.total());
 }
 
 /// Objects of one mesh that are moved at random about each other for some steps. On one thread: what oneTBB

@@ -425,14 +425,14 @@ TEST_CASE("an object that moves in its loose box is not looked for") {
   const ReportHandle first = pair.step_at(0.03125);
   CHECK(first->statistics().pairs_close == 1);
   CHECK(first->statistics().pairs_apart == 1);
-  CHECK(first->statistics().boxes_tested > 0);
+  CHECK(first->statistics().work.boxes_tested > 0);
   const ReportHandle second = pair.step_at(0.046875);
   CHECK(second->statistics().objects_in_slack == 1);
-  CHECK(second->statistics().boxes_tested == 0);
+  CHECK(second->statistics().work.boxes_tested == 0);
   CHECK(second->statistics().pairs_close == 1);
   const ReportHandle third = pair.step_at(100);
   CHECK(third->statistics().objects_in_slack == 0);
-  CHECK(third->statistics().boxes_tested > 0);
+  CHECK(third->statistics().work.boxes_tested > 0);
   CHECK(third->statistics().pairs_close == 0);
 }
 

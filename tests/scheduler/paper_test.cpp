@@ -74,8 +74,8 @@ std::string difference_of(const FrameReport& report, const NaivePaper::Found& ex
     if (found[i].a != expected.contacts[i].a || found[i].b != expected.contacts[i].b ||
         std::abs(found[i].distance - expected.contacts[i].distance) > 1e-14)
       return "contact " + std::to_string(i) + " is another";
-  if (report.statistics().leaf_pairs_tested != expected.leaf_pairs)
-    return std::to_string(report.statistics().leaf_pairs_tested) + " leaf pairs instead of " +
+  if (report.statistics().work.leaf_pairs_tested != expected.leaf_pairs)
+    return std::to_string(report.statistics().work.leaf_pairs_tested) + " leaf pairs instead of " +
            std::to_string(expected.leaf_pairs);
   return {};
 }

@@ -61,7 +61,7 @@ TEST_CASE("a promise about an object that no step has seen does not leave it unr
   CHECK(report->pairs().empty());
   CHECK(report->statistics().objects_unread == 0);
   const double none = std::numeric_limits<double>::infinity();
-  CHECK(report->statistics().boxes_tested == first_step(none)->statistics().boxes_tested);
+  CHECK(report->statistics().work.boxes_tested == first_step(none)->statistics().work.boxes_tested);
 }
 
 TEST_CASE("what promises say is far is not read") {
@@ -151,14 +151,14 @@ TEST_CASE("pairs that have not moved are not tested again") {
   REQUIRE(only_pair(*moved).phase == PairPhase::began);
   const ReportHandle rested = row.scene.step();
   CHECK(rested->statistics().pairs_tested == 0);
-  CHECK(rested->statistics().region_pairs_tested == 0);
+  CHECK(rested->statistics().work.region_pairs_tested == 0);
   CHECK(only_pair(*rested).phase == PairPhase::touching);
   CHECK(timeless_rows_of(*rested, 1) == timeless_rows_of(*row.afresh(), 1));
   row.scene.set_rule(0, 0, {.contact_distance = 0.03125, .range = 1});
   CHECK(only_pair(*row.scene.step()).phase == PairPhase::ended);
   const ReportHandle near = row.scene.step();
   CHECK(only_pair(*near).phase == PairPhase::near);
-  CHECK(near->statistics().region_pairs_tested == 0);
+  CHECK(near->statistics().work.region_pairs_tested == 0);
 }
 
 }  // namespace graze::tests

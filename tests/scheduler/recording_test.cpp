@@ -422,6 +422,8 @@ TEST_CASE("recording: wrong settings, a second recorder and a bad file are refus
         "recorder: keyframe_interval is 0; it is at least 1");
   CHECK(message_of([&] { Recorder recorder(scene, file.path(), {.waiting_frames = 0}); }) ==
         "recorder: waiting_frames is 0; it is at least 1");
+  CHECK(message_of([&] { Recorder recorder(scene, RingSettings{.frames = 0}); }) ==
+        "recorder: frames is 0; it is at least 1, or has no value");
   CHECK(message_of([&] { Recorder recorder(scene, "/no/such/folder/file"); }).find("cannot be opened") !=
         std::string::npos);
   {

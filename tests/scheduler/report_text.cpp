@@ -1,6 +1,7 @@
 #include "scheduler/report_text.hpp"
 
 #include <cmath>
+#include <graze/scene_enumerators.hpp>
 #include <sstream>
 #include <tuple>
 

@@ -145,8 +145,8 @@ TEST_CASE("the contacts of a report are one flat array in the order of pairs, ea
   CHECK(report->statistics().pairs_near == 10);
   CHECK(report->statistics().pairs_in_contact == 4);
   CHECK(report->statistics().objects == 5);
-  CHECK(report->statistics().object_bytes > 5 * torus->vertex_count() * sizeof(Eigen::Vector3d));
-  CHECK(report->statistics().report_bytes >= next * sizeof(Contact));
+  CHECK(report->statistics().bytes.objects > 5 * torus->vertex_count() * sizeof(Eigen::Vector3d));
+  CHECK(report->statistics().bytes.reports >= next * sizeof(Contact));
 }
 
 TEST_CASE("a scene that is moved goes on") {

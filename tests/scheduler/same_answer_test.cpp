@@ -70,12 +70,12 @@ TEST_CASE("reports are the same bit for bit for any number of threads and in eve
         REQUIRE(difference_of(*found[frame], *expected[frame]) == "");
         const StepStatistics& mine = found[frame]->statistics();
         const StepStatistics& theirs = expected[frame]->statistics();
-        REQUIRE(mine.region_pairs_tested == theirs.region_pairs_tested);
-        REQUIRE(mine.exact_decisions == theirs.exact_decisions);
-        REQUIRE(mine.regions_expanded == theirs.regions_expanded);
-        REQUIRE(mine.object_bytes == theirs.object_bytes);
-        REQUIRE(mine.pair_bytes == theirs.pair_bytes);
-        REQUIRE(mine.report_bytes == theirs.report_bytes);
+        REQUIRE(mine.work.region_pairs_tested == theirs.work.region_pairs_tested);
+        REQUIRE(mine.work.exact_decisions == theirs.work.exact_decisions);
+        REQUIRE(mine.work.regions_expanded == theirs.work.regions_expanded);
+        REQUIRE(mine.bytes.objects == theirs.bytes.objects);
+        REQUIRE(mine.bytes.pairs == theirs.bytes.pairs);
+        REQUIRE(mine.bytes.reports == theirs.bytes.reports);
       }
     }
   }

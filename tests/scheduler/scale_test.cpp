@@ -192,7 +192,7 @@ TEST_CASE("reports of 3,000 objects are the same for 1, 2 and 3 threads, while t
     CHECK(expected.pairs_near > 500);
     for (const auto& others : reports) {
       REQUIRE(difference_of(*others[step], *reports[0][step]) == "");
-      CHECK(others[step]->statistics().boxes_tested == expected.boxes_tested);
+      CHECK(others[step]->statistics().work.boxes_tested == expected.work.boxes_tested);
       CHECK(others[step]->statistics().pairs_close == expected.pairs_close);
       CHECK(others[step]->statistics().pairs_apart == expected.pairs_apart);
     }

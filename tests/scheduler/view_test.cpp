@@ -288,7 +288,7 @@ TEST_CASE("view: of large surfaces that meet in a corner blocks are made of that
         expected += (a - memory[1][i]).norm() < threshold ? 1U : 0U;
     CHECK(expected > 100);
     CHECK(report->contacts().size() == expected);
-    bytes_each.push_back(static_cast<double>(report->statistics().object_bytes) /
+    bytes_each.push_back(static_cast<double>(report->statistics().bytes.objects) /
                          (2 * static_cast<double>(mesh->vertex_count())));
   }
   // A box of 64 vertices takes 24 bytes, and one of eight as much; at rest all blocks are kept, and

@@ -302,7 +302,7 @@ TEST_CASE("the program plays a row's scene file with the same collisions") {
         CHECK(found[k].contact.feature_b == expected->contacts()[k].feature_b);
         CHECK(found[k].contact.distance == expected->contacts()[k].distance);
       }
-      CHECK(frames[frame].statistics.regions_expanded == expected->statistics().regions_expanded);
+      CHECK(frames[frame].statistics.work.regions_expanded == expected->statistics().work.regions_expanded);
       contacts += found.size();
     }
   }

@@ -151,22 +151,22 @@ void check_statistics(const graze::StepStatistics& read, const graze::StepStatis
   CHECK(read.pairs_near == written.pairs_near);
   CHECK(read.pairs_in_contact == written.pairs_in_contact);
   CHECK(read.contacts == written.contacts);
-  CHECK(read.region_pairs_tested == written.region_pairs_tested);
-  CHECK(read.leaf_pairs_tested == written.leaf_pairs_tested);
-  CHECK(read.discarded_in_float == written.discarded_in_float);
-  CHECK(read.named_in_float == written.named_in_float);
-  CHECK(read.decided_in_double == written.decided_in_double);
-  CHECK(read.exact_decisions == written.exact_decisions);
-  CHECK(read.object_bytes == written.object_bytes);
-  CHECK(read.report_bytes == written.report_bytes);
-  CHECK(read.regions_expanded == written.regions_expanded);
-  CHECK(read.thread_bytes == (with_times ? written.thread_bytes : 0));
-  CHECK(same_bits(read.step_ms, with_times ? written.step_ms : 0));
-  CHECK(same_bits(read.read_ms, with_times ? written.read_ms : 0));
-  CHECK(same_bits(read.pairs_ms, with_times ? written.pairs_ms : 0));
-  CHECK(same_bits(read.refit_ms, with_times ? written.refit_ms : 0));
-  CHECK(same_bits(read.jobs_ms, with_times ? written.jobs_ms : 0));
-  CHECK(same_bits(read.publish_ms, with_times ? written.publish_ms : 0));
+  CHECK(read.work.region_pairs_tested == written.work.region_pairs_tested);
+  CHECK(read.work.leaf_pairs_tested == written.work.leaf_pairs_tested);
+  CHECK(read.work.discarded_in_float == written.work.discarded_in_float);
+  CHECK(read.work.named_in_float == written.work.named_in_float);
+  CHECK(read.work.decided_in_double == written.work.decided_in_double);
+  CHECK(read.work.exact_decisions == written.work.exact_decisions);
+  CHECK(read.bytes.objects == written.bytes.objects);
+  CHECK(read.bytes.reports == written.bytes.reports);
+  CHECK(read.work.regions_expanded == written.work.regions_expanded);
+  CHECK(read.bytes.threads == (with_times ? written.bytes.threads : 0));
+  CHECK(same_bits(read.times.step_ms, with_times ? written.times.step_ms : 0));
+  CHECK(same_bits(read.times.read_ms, with_times ? written.times.read_ms : 0));
+  CHECK(same_bits(read.times.pairs_ms, with_times ? written.times.pairs_ms : 0));
+  CHECK(same_bits(read.times.refit_ms, with_times ? written.times.refit_ms : 0));
+  CHECK(same_bits(read.times.jobs_ms, with_times ? written.times.jobs_ms : 0));
+  CHECK(same_bits(read.times.publish_ms, with_times ? written.times.publish_ms : 0));
 }
 
 /// Writes `frames` steps, reads them back, compares everything; returns how many contacts that were.

@@ -1,3 +1,4 @@
+#include <graze/enumerators.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/scene_file.hpp>
 #include <limits>
@@ -215,25 +216,25 @@ TEST_CASE("a scene file with every key is read as it says") {
 
   REQUIRE(scene.objects.size() == 4);
   const auto& liver = scene.objects[0];
-  CHECK(liver.name == "liver");
+  CHECK(liver.settings.name == "liver");
   CHECK(liver.mesh == folder.path() / "meshes/liver.obj");
   CHECK(std::get<std::uint32_t>(liver.node.value()) == 2);
-  CHECK(liver.motion == graze::Motion::deformable);  // because it has positions
+  CHECK(liver.settings.motion == graze::Motion::deformable);  // because it has positions
   CHECK(liver.positions == folder / "liver_####.ply");
   CHECK(liver.transform.translate == Eigen::Vector3d(1, 2, 3));
   CHECK(liver.transform.rotation == rotation_from_degrees({10, 20, 30}));
   CHECK(liver.transform.stretch == Eigen::Matrix3d(0.5 * Eigen::Matrix3d::Identity()));
-  CHECK((liver.layer == 1 && liver.collides_with == 0xFFFFFFFFU && liver.margin == 0 && liver.kind == 0 &&
-         !liver.solid));
+  CHECK((liver.settings.layer == 1 && liver.settings.collides_with == 0xFFFFFFFFU &&
+         liver.settings.margin == 0 && liver.settings.kind == 0 && !liver.settings.solid));
 
   const auto& tool = scene.objects[1];
   CHECK(tool.mesh == "/tools/tool.stl");
   CHECK(std::get<std::string>(tool.node.value()) == "blade");
-  CHECK(tool.motion == graze::Motion::rigid);
-  CHECK((tool.layer == 4 && tool.collides_with == 3 && tool.group == 9 && tool.margin == 0.001 &&
-         tool.solid && tool.kind == 255));
-  CHECK(tool.face_groups == std::vector<std::uint8_t>{0, 255, 7});
-  CHECK(tool.hidden_groups == std::vector<std::uint8_t>{7, 255});
+  CHECK(tool.settings.motion == graze::Motion::rigid);
+  CHECK((tool.settings.layer == 4 && tool.settings.collides_with == 3 && tool.settings.group == 9 &&
+         tool.settings.margin == 0.001 && tool.settings.solid && tool.settings.kind == 255));
+  CHECK(tool.settings.face_groups == std::vector<std::uint8_t>{0, 255, 7});
+  CHECK(tool.settings.hidden_groups == std::vector<std::uint8_t>{7, 255});
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's
   CHECK(tool.poses[0].translate == Eigen::Vector3d(0, 0, 1));
   CHECK(tool.poses[0].rotation == rotation_from_degrees({0, 90, 0}));
@@ -242,7 +243,7 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(tool.poses[2].rotation == rotation_from_degrees({1, 2, 3}));
 
   CHECK(std::get<std::string>(scene.objects[2].animation.value()) == "Run");
-  CHECK(scene.objects[3].motion == graze::Motion::fixed);
+  CHECK(scene.objects[3].settings.motion == graze::Motion::fixed);
   REQUIRE(scene.rules.size() == 2);
   CHECK(scene.rules[0].kinds == std::array<std::uint32_t, 2>{0, 255});
   CHECK(scene.rules[0].contact_distance == 0.5);
@@ -256,10 +257,11 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(scene.ignore[1].groups == std::array<std::uint8_t, 2>{0, 255});
 }
 
-TEST_CASE("a contact detail has its word, and a number that is none is unknown") {
-  CHECK(graze::io::to_string(graze::ContactDetail::none) == "none");
-  CHECK(graze::io::to_string(graze::ContactDetail::features) == "features");
-  CHECK(graze::io::to_string(static_cast<graze::ContactDetail>(200)) == "unknown");
+TEST_CASE("an object is described by the same defaults as a scene has, and its enumerators have words") {
+  CHECK(graze::io::ObjectDescription().settings.motion == graze::ObjectSettings().motion);
+  CHECK(to_string(graze::ContactDetail::none) == "none");
+  CHECK(graze::to_string(graze::io::UpAxis::y) == "y");
+  CHECK(to_string(static_cast<graze::ContactDetail>(200)) == "unknown");
 }
 
 TEST_CASE("what a scene file leaves out has its default") {
@@ -269,9 +271,10 @@ TEST_CASE("what a scene file leaves out has its default") {
   CHECK(scene.settings.detail == graze::ContactDetail::features);
   CHECK(scene.settings.accuracy.mode() == graze::AccuracyMode::exact);
   CHECK((!scene.settings.ways_out && scene.settings.carrying == 0 && !scene.settings.carrying_band));
-  CHECK(scene.objects[0].hidden_groups.empty());
+  CHECK(scene.objects[0].settings.hidden_groups.empty());
   CHECK((!scene.frames && scene.frames_per_second == 30));
-  CHECK(scene.objects[0].motion == graze::Motion::rigid);
-  CHECK((scene.objects[0].name.empty() && !scene.objects[0].node && scene.objects[0].positions.empty()));
+  CHECK(scene.objects[0].settings.motion == graze::Motion::rigid);
+  CHECK((scene.objects[0].settings.name.empty() && !scene.objects[0].node &&
+         scene.objects[0].positions.empty()));
   CHECK(scene.objects[0].transform.is_identity());
 }

@@ -207,7 +207,7 @@ void run(const char* scene, Bodies& bodies, ContactDetail detail, std::size_t fr
     std::printf("%s, %s: %-14s %7.2f ms, %.2f x bound floats, %.1f MB\n", scene,
                 detail == ContactDetail::vertices ? "A" : "B", one->name(), one->ms(),
                 one->ms() / all[0]->ms(),
-                1e-6 * static_cast<double>(one->report().statistics().object_bytes));
+                1e-6 * static_cast<double>(one->report().statistics().bytes.objects));
 }
 
 void time_mesh(const char* name, const models::MeshData& data) {

@@ -53,7 +53,7 @@ enum class Side : std::uint8_t {
 
 /// Says of a pair with a solid whether one object is inside the other. A vertex is inside a solid where the
 /// solid's winding number about it is not 0, which is decided exactly. On the surface it is not inside. Only
-/// what pierces depends on groups of faces that are ignored: an edge and a face that are not looked at
+/// what pierces depends on groups of faces that are ignored: an edge and a face that are not tested
 /// against each other do not count.
 enum class Inside : std::uint8_t {
   none,      ///< No vertex of one is inside the other's solid, and nothing pierces. Or neither is a solid.

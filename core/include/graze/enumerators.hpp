@@ -117,6 +117,13 @@ concept NamedEnumeration = std::is_enum_v<Enum> && requires(Enum value) {
   { name_of(value) } -> std::same_as<std::string_view>;
 };
 
+/// Returns the enumerator's own name, such as "features". It is "unknown" for any other value.
+template <NamedEnumeration Enum>
+[[nodiscard]] constexpr std::string_view to_string(Enum value) {
+  const std::string_view name = name_of(value);
+  return name.empty() ? "unknown" : name;
+}
+
 /// @cond internal
 /// Counts the enumerators, whose values are 0, 1, 2 and so on: it ends at the first value without a name.
 template <typename Enum>

@@ -19,20 +19,20 @@ struct SurfacePair {
   const Surface& b;
   DecisionCount& count;
   TimeLimit* time = nullptr;              ///< null where it may take as long as it does
-  const FeatureFilter* groups = nullptr;  ///< null where all features may be looked at
+  const FeatureFilter* groups = nullptr;  ///< null where all features may be tested
 
   /// Before so many pieces of work of some hundred nanoseconds each. Throws TimeIsUp.
   void check_time(std::uint32_t pieces = 1) const {
     if (time != nullptr) time->check(pieces);
   }
-  /// Whether a feature of a and one of b may be looked at against each other.
+  /// Whether a feature of a and one of b may be tested against each other.
   [[nodiscard]] bool may(const FeatureRef& of_a, const FeatureRef& of_b) const {
     return groups == nullptr || groups->may(of_a, of_b);
   }
   [[nodiscard]] bool may_vertices(std::uint32_t of_a, std::uint32_t of_b) const {
     return groups == nullptr || groups->may_vertices(of_a, of_b);
   }
-  /// Whether any features of two regions may be looked at against each other.
+  /// Whether any features of two regions may be tested against each other.
   [[nodiscard]] bool may_regions(const RegionPair& regions) const {
     return groups == nullptr || groups->may_regions(regions);
   }

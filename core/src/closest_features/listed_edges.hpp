@@ -24,7 +24,7 @@ enum class EdgesListed : std::uint8_t {
 ///
 /// They are, too, if both are creases and the way u from a to b is close to the normal cones. That is so if
 /// no triangle beside the edge of a leads along u by more than τ = 10.2°, and none beside the edge of b along
-/// −u. Where the edges are sunk, u is the opposite. A triangle counts only if its face may be looked at with
+/// −u. Where the edges are sunk, u is the opposite. A triangle counts only if its face may be tested with
 /// the other edge.
 ///
 /// At a seam the seen face goes on behind the edge. So a seam is no crease, and two edges of which one is a

@@ -9,7 +9,7 @@
 namespace graze {
 
 /// The closest pair of vertices of two leaves (eq. 5), ties to the lowest a, then b. There is none if the
-/// groups leave no two vertices of theirs to be looked at. `closest` is overwritten.
+/// groups leave no two vertices of theirs to be tested. `closest` is overwritten.
 std::optional<FeaturePairKey> closest_vertices(const SurfacePair& pair, const LeafOf& leaf_a,
                                                const LeafOf& leaf_b, LeafScratch& scratch, Closest& closest);
 

@@ -18,7 +18,7 @@ struct VertexOfPair {
 
   static VertexOfPair of_a(std::uint32_t vertex) { return {vertex}; }
   static VertexOfPair of_b(std::uint32_t vertex) { return {std::uint64_t{1} << 32U | vertex}; }
-  /// How many there are, where both surfaces are looked at.
+  /// How many there are, where both surfaces are tested.
   static std::size_t count(const Surface& a, const Surface& b) {
     return std::size_t{a.mesh().vertex_count()} + b.mesh().vertex_count();
   }

@@ -25,7 +25,7 @@ void TouchingFeatures::finish() {
   with_pairs([](auto& /*range*/, auto& pairs) { pairs.finish(); });
 }
 
-/// Whether a key is of an edge that pierces a face with which it is looked at.
+/// Whether a key is of an edge that pierces a face with which it is tested.
 bool TouchingFeatures::is_piercing(const FeaturePairKey& key) const {
   if (!is_edge_through_face(key)) return false;
   if (groups_ == nullptr) return true;

@@ -8,12 +8,12 @@
 namespace graze {
 
 /// Finds the edges of either surface that may touch a face of the other, between pairs of leaves. Groups of
-/// faces play no part in that. It also finds whether an edge pierces a face that it is looked at with. Float
+/// faces play no part in that. It also finds whether an edge pierces a face that it is tested with. Float
 /// answers nearly all of it: once one edge pierces, no other is decided.
 class TouchingFeatures {
  public:
   /// All edges are in `touching` after `finish`. `pair` has no groups, and `groups` are those that say what
-  /// is looked at, or null.
+  /// is tested, or null.
   TouchingFeatures(const SurfacePair& pair, const FeatureFilter* groups, LeafScratch& scratch,
                    TouchingEdges& touching)
       : pair_(pair), groups_(groups), scratch_(scratch), touching_(touching) {}

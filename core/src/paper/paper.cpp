@@ -61,7 +61,7 @@ class Paper {
   }
 
  private:
-  /// Offers two vertices that may be looked at, since DV may meet none.
+  /// Offers two vertices that may be tested, since DV may meet none.
   void offer_some(const FeatureFilter& groups) {
     const auto& [a, b] = groups.some_faces();
     nearest_.offer(

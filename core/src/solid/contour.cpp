@@ -129,7 +129,7 @@ void Contour::add_place(const Candidate& candidate, bool to_front, Shift shift,
   });
 }
 
-/// Calls `visit(number, is_in_winding)` for each triangle that has the segment as a side and may be looked at
+/// Calls `visit(number, is_in_winding)` for each triangle that has the segment as a side and may be tested
 /// with the candidate's triangle. `is_in_winding`: its winding passes the segment from the first end to the
 /// second.
 template <typename Visit>

@@ -27,7 +27,7 @@ class NearestOnSurface {
   /// called.
   void begin_some(std::span<const std::uint32_t> vertices);
   /// Returns what is nearest to a vertex, of equally near ones the lowest. There is nothing if no face may be
-  /// looked at with the vertex. It takes less time if the vertex is near the one before.
+  /// tested with the vertex. It takes less time if the vertex is near the one before.
   std::optional<VertexNearest> find(std::uint32_t vertex);
 
  private:

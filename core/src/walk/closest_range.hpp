@@ -76,7 +76,7 @@ class ClosestRange {
   /// Nothing further than this is nearest.
   [[nodiscard]] double upper() const { return set_.upper(); }
   void offer(const FeaturePairKey& key) { set_.offer(key); }
-  /// Offers the middle vertices of two regions of which some features may be looked at. If the middle
+  /// Offers the middle vertices of two regions of which some features may be tested. If the middle
   /// vertices may not, the regions' boxes bound the distance.
   void offer_middles(const RegionPair& regions) {
     const std::uint32_t a = pair_.a.mesh().regions().region(regions.a).middle;
@@ -87,7 +87,7 @@ class ClosestRange {
       at_most(RegionBounds(pair_.a, pair_.b, RefitOf::faces).upper(regions));
   }
   /// Offers two vertices of the surfaces before the search begins: the roots' middle vertices, or corners of
-  /// faces that may be looked at.
+  /// faces that may be tested.
   void offer_some() {
     if (pair_.groups == nullptr) return offer_middles(whole_surfaces);
     const auto& [a, b] = pair_.groups->some_faces();

@@ -122,7 +122,7 @@ class LeafPairs {
 
   /// Appends the leaf pairs that DMV reaches from `start` while `keep(lower, slack)` holds. That says whether
   /// a pair at least `lower` apart may come to matter before the surfaces have moved by `slack`. `meet(pair)`
-  /// is called for every pair of regions. Regions whose groups leave nothing to be looked at are passed over.
+  /// is called for every pair of regions. Regions whose groups leave nothing to be tested are passed over.
   /// The walk stops where a level has more than `most` pairs: those are then `front()`. Returns false when
   /// the budget ran out.
   template <typename Keep, typename Meet>

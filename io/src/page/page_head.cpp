@@ -78,14 +78,14 @@ void PageSeries::add(const FrameReport& report, bool include_times) {
                                                              report.diagnostics().size()};
   for (std::size_t i = 0; i < values.size(); ++i) counts_[i].push_back(values[i]);
   for (std::size_t i = 0; i < time_fields.size(); ++i)
-    times_[i].push_back(include_times ? statistics.*time_fields[i].second : 0);
+    times_[i].push_back(include_times ? statistics.times.*time_fields[i].member : 0);
 }
 
 void PageSeries::write(JsonText& json) const {
   json.open('{');
   for (std::size_t i = 0; i < counts_.size(); ++i) write_whole_numbers(json, count_names[i], counts_[i]);
   for (std::size_t i = 0; i < times_.size(); ++i) {
-    json.key(time_fields[i].first).open('[');
+    json.key(time_fields[i].name).open('[');
     for (const double time : times_[i]) json.real(time);
     json.close(']');
   }

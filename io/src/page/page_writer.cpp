@@ -69,17 +69,17 @@ std::uint64_t PageWriter::State::size_with(const PackedBlock& packed) const {
   const std::uint64_t block_bytes =
       file.size_of_chunk(numbered_chunk("motion", begin), packed.motion.size()) +
       file.size_of_chunk(numbered_chunk("report", begin), packed.report.size());
-  const std::uint64_t frames = page_frames_before(options.expected_frames, options.every);
+  const std::uint64_t frames = page_frames_before(options.expected_frames.value_or(0), options.every);
   return file.byte_count() + head_bytes * frames + block_bytes * frames / block.frames().size();
 }
 
 bool PageWriter::State::take_fewer_frames(std::uint64_t size) {
-  if (!options.max_bytes || size <= *options.max_bytes || options.every >= options.expected_frames)
-    return false;
+  const std::uint64_t expected = options.expected_frames.value_or(0);
+  if (!options.max_bytes || size <= *options.max_bytes || options.every >= expected) return false;
   const std::uint64_t fixed = file.byte_count();
   const std::uint64_t room = *options.max_bytes > fixed ? *options.max_bytes - fixed : 0;
-  const std::uint64_t factor = room > 0 ? (size - fixed + room - 1) / room : options.expected_frames;
-  const std::uint64_t most = options.expected_frames / options.every + 1;
+  const std::uint64_t factor = room > 0 ? (size - fixed + room - 1) / room : expected;
+  const std::uint64_t most = expected / options.every + 1;
   options.every *=
       static_cast<std::uint32_t>(std::clamp<std::uint64_t>(factor, 2, std::max<std::uint64_t>(most, 2)));
   return true;
@@ -89,7 +89,7 @@ void PageWriter::State::end_block() {
   const PackedBlock ready =
       packed(block, objects, {frame_numbers.size(), options.every, options.include_times});
   if (block_frames == 0) {
-    const std::uint64_t size = options.expected_frames > 0 ? size_with(ready) : 0;
+    const std::uint64_t size = options.expected_frames ? size_with(ready) : 0;
     if (estimate == 0) estimate = size;
     if (take_fewer_frames(size)) {
       for (const std::size_t object : block.thin(options.every)) objects.note_motion(object);

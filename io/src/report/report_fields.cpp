@@ -74,16 +74,18 @@ bool is_written(const WayOut& way) {
 
 void write_statistics(JsonText& json, const StepStatistics& statistics, bool include_times) {
   json.open('{');
-  for (const auto& [name, member] : counter_fields) json.key(name).whole(statistics.*member);
-  const auto& expanded = statistics.regions_expanded;
+  for (const auto& [name, member] : count_fields) json.key(name).whole(statistics.*member);
+  for (const auto& [name, member] : work_fields) json.key(name).whole(statistics.work.*member);
+  for (const auto& [name, member] : bytes_fields) json.key(name).whole(statistics.bytes.*member);
+  const auto& expanded = statistics.work.regions_expanded;
   const auto last =
       std::find_if(expanded.rbegin(), expanded.rend(), [](std::uint64_t count) { return count != 0; });
   json.key("regions_expanded").open('[');
   std::for_each(expanded.begin(), last.base(), [&](std::uint64_t count) { json.whole(count); });
   json.close(']');
   if (include_times) {
-    json.key(thread_field.first).whole(statistics.*thread_field.second);
-    for (const auto& [name, member] : time_fields) json.key(name).real(statistics.*member);
+    json.key(thread_bytes_field.name).whole(statistics.bytes.*thread_bytes_field.member);
+    for (const auto& [name, member] : time_fields) json.key(name).real(statistics.times.*member);
   }
   json.close('}');
 }

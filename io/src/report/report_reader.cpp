@@ -124,17 +124,22 @@ ReportedDiagnostic read_diagnostic(const json& value) {
 
 StepStatistics read_statistics(const json& value) {
   StepStatistics statistics;
-  for (const auto& [name, member] : counter_fields)
-    statistics.*member = read_whole<std::uint64_t>(value.at(name));
+  const auto read_all = [&](const auto& fields, auto& part) {
+    for (const auto& [name, member] : fields) part.*member = read_whole<std::uint64_t>(value.at(name));
+  };
+  read_all(count_fields, statistics);
+  read_all(work_fields, statistics.work);
+  read_all(bytes_fields, statistics.bytes);
   const json& expanded = value.at("regions_expanded");
-  if (expanded.size() > statistics.regions_expanded.size())
+  if (expanded.size() > statistics.work.regions_expanded.size())
     throw BadLine("regions_expanded has too many levels");
   for (std::size_t level = 0; level < expanded.size(); ++level)
-    statistics.regions_expanded[level] = read_whole<std::uint64_t>(expanded.at(level));
-  if (const auto found = value.find(thread_field.first); found != value.end())
-    statistics.*thread_field.second = read_whole<std::uint64_t>(*found);
+    statistics.work.regions_expanded[level] = read_whole<std::uint64_t>(expanded.at(level));
+  if (const auto found = value.find(thread_bytes_field.name); found != value.end())
+    statistics.bytes.*thread_bytes_field.member = read_whole<std::uint64_t>(*found);
   for (const auto& [name, member] : time_fields)
-    if (const auto found = value.find(name); found != value.end()) statistics.*member = read_real(*found);
+    if (const auto found = value.find(name); found != value.end())
+      statistics.times.*member = read_real(*found);
   return statistics;
 }
 

@@ -43,7 +43,7 @@ void group_ignored(LoadedScene& loaded, const SceneDescription& description) {
   for (const IgnoreDescription& ignored : description.ignore)
     if (!ignored.groups && ignored.names[0] == ignored.names[1]) names.insert(ignored.names[0]);
   for (LoadedSceneObject& object : loaded.objects)
-    if (object.settings.group == 0 && names.contains(description.objects[object.entry].name))
+    if (object.settings.group == 0 && names.contains(description.objects[object.entry].settings.name))
       object.settings.group = first_free_group + object.entry;
 }
 
@@ -137,7 +137,7 @@ void Player::State::take_warnings(Playback& playback) {
 
 void Player::State::index_names(const SceneDescription& description) {
   for (std::size_t index = 0; index < objects.size(); ++index) {
-    const std::string& entry_name = description.objects[entries[index]].name;
+    const std::string& entry_name = description.objects[entries[index]].settings.name;
     objects_by_name[objects[index].name].push_back(index);
     if (!entry_name.empty() && entry_name != objects[index].name)
       objects_by_name[entry_name].push_back(index);

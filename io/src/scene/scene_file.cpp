@@ -3,10 +3,10 @@
 #include <graze/io/error.hpp>
 #include <graze/io/scene_file.hpp>
 #include <graze/scene_enumerators.hpp>
+#include <graze/settings_fields.hpp>
 #include <limits>
 #include <set>
 
-#include "scene/described_fields.hpp"
 #include "scene/scene_placement.hpp"
 #include "text/json_path.hpp"
 #include "text/out_of_memory.hpp"
@@ -56,9 +56,7 @@ NumberOrName read_number_or_name(const JsonPath& json) {
 
 UpAxis read_up(const JsonPath& json) {
   const std::string word = json.value().is_string() ? json.text() : "";
-  if (word == "x") return UpAxis::x;
-  if (word == "y") return UpAxis::y;
-  if (word == "z") return UpAxis::z;
+  if (const auto axis = enumerator_named<UpAxis>(word)) return *axis;
   json.fail("an axis that points up", "write x, y or z");
 }
 
@@ -102,10 +100,10 @@ void check_motion(const ObjectDescription& object, const JsonPath& json) {
   const bool has_source = !object.positions.empty() || object.animation.has_value();
   if (!object.positions.empty() && object.animation)
     json.find("animation")->refuse("stands beside positions; keep one of the two");
-  if (has_source && object.motion != Motion::deformable)
+  if (has_source && object.settings.motion != Motion::deformable)
     json.find("motion")->refuse(
         "positions and animation need a deformable object; write deformable, or leave them out");
-  if (!object.poses.empty() && object.motion != Motion::rigid)
+  if (!object.poses.empty() && object.settings.motion != Motion::rigid)
     json.find("poses")->refuse(R"(poses need a rigid object; write "motion": "rigid", or leave them out)");
 }
 
@@ -121,6 +119,9 @@ void read_field(const JsonPath& json, std::uint32_t& number) {
   const bool is_kind = json.key() == field_name<ObjectSettings, &ObjectSettings::kind>();
   number = json.whole_number(0, is_kind ? largest_kind : any_number);
 }
+void read_field(const JsonPath& json, std::uint64_t& number) {
+  number = json.whole_number(0, any_number);
+}
 void read_field(const JsonPath& json, double& length) {
   length = json.number_not_negative();
 }
@@ -134,18 +135,15 @@ void read_field(const JsonPath& json, std::vector<std::uint8_t>& groups) {
   for (std::size_t i = 0; i < json.array_size(remedy); ++i) groups.push_back(read_face_group(json.item(i)));
 }
 
-/// Calls `visit` with the key and the member of each field of ObjectSettings that an entry may have.
+/// Calls `visit` with each field of ObjectSettings that an entry may have. `user_data` is for programs.
 template <typename Visit>
 void for_each_described_field(const Visit& visit) {
-  const auto visit_one = [&](auto described) {
-    visit(field_name<ObjectSettings, described.field>(), described.member);
-  };
-  std::apply([&](auto... described) { (visit_one(described), ...); }, described_fields);
+  for_each_field<ObjectSettings, &ObjectSettings::user_data>(visit);
 }
 
 void expect_object_keys(const JsonPath& json) {
   std::vector<std::string_view> keys;
-  for_each_described_field([&](std::string_view key, auto) { keys.push_back(key); });
+  for_each_described_field([&](const auto& field) { keys.push_back(field.name); });
   keys.insert(keys.begin() + 1,
               {"mesh", "node", "up", "unit", "positions", "animation", "transform", "poses"});
   json.expect_keys(keys);
@@ -162,9 +160,10 @@ ObjectDescription read_object(const JsonPath& json, const std::filesystem::path&
   if (const auto animation = json.find("animation")) object.animation = read_number_or_name(*animation);
   if (const auto transform = json.find("transform")) object.transform = read_placement(*transform);
   if (const auto poses = json.find("poses")) object.poses = read_poses(*poses, object.transform);
-  if (!object.positions.empty() || object.animation) object.motion = Motion::deformable;
-  for_each_described_field([&](std::string_view key, auto member) {
-    if (const auto value = json.find(key)) read_field(*value, object.*member);
+  const bool has_source = !object.positions.empty() || object.animation.has_value();
+  object.settings.motion = has_source ? Motion::deformable : Motion::rigid;
+  for_each_described_field([&](const auto& field) {
+    if (const auto value = json.find(field.name)) read_field(*value, object.settings.*field.member);
   });
   check_motion(object, json);
   return object;
@@ -248,7 +247,7 @@ void read_scene_objects(const JsonPath& json, const std::filesystem::path& folde
   std::set<std::string> names;
   for (std::size_t i = 0; i < json.value().size(); ++i) {
     scene.objects.push_back(read_object(json.item(i), folder));
-    const std::string& name = scene.objects.back().name;
+    const std::string& name = scene.objects.back().settings.name;
     if (!name.empty() && !names.insert(name).second)
       json.item(i).find("name")->refuse("another object is called \"" + name +
                                         "\" already; choose another name");
@@ -296,20 +295,12 @@ SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files
   for (const std::filesystem::path& file : files) {
     ObjectDescription object;
     object.mesh = file;
+    object.settings.motion = Motion::rigid;
     object.animate_where_possible = true;
     object.place = file.string();
     scene.objects.push_back(std::move(object));
   }
   return scene;
-}
-
-std::optional<ContactDetail> contact_detail_from(std::string_view word) {
-  return enumerator_named<ContactDetail>(word);
-}
-
-std::string_view to_string(ContactDetail detail) {
-  const std::string_view name = name_of(detail);
-  return name.empty() ? "unknown" : name;
 }
 
 }  // namespace graze::io

@@ -13,7 +13,6 @@
 #include "mesh/axes.hpp"
 #include "mesh/known_formats.hpp"
 #include "mesh/raw_object.hpp"
-#include "scene/described_fields.hpp"
 #include "text/file_bytes.hpp"
 #include "text/text_lines.hpp"
 #include "text/unique_names.hpp"
@@ -93,7 +92,7 @@ class Loader {
  public:
   explicit Loader(const SceneDescription& description) : description_(description) {
     for (const ObjectDescription& entry : description.objects)
-      if (!entry.name.empty()) names_.reserve(entry.name);
+      if (const std::string& name = entry.settings.name; !name.empty()) names_.reserve(name);
   }
 
   LoadedScene load() {
@@ -132,8 +131,8 @@ const KnownFile& Loader::file_of(const std::filesystem::path& path) {
 }
 
 std::string Loader::name_of(const ObjectDescription& entry, const LoadedObject& loaded, bool is_only_one) {
-  if (!entry.name.empty())
-    return is_only_one ? entry.name : names_.make(shortened(entry.name, longest_name) + "/" + loaded.name);
+  if (const std::string& name = entry.settings.name; !name.empty())
+    return is_only_one ? name : names_.make(shortened(name, longest_name) + "/" + loaded.name);
   return names_.make(loaded.name.empty() ? entry.mesh.stem().string() : loaded.name);
 }
 
@@ -191,8 +190,7 @@ void Loader::load_object(std::size_t entry_index, const KnownFile& known, std::s
   LoadedSceneObject object;
   object.entry = entry_index;
   object.source = open_source(entry, known, index);
-  std::apply([&](auto... described) { ((object.settings.*described.field = entry.*described.member), ...); },
-             described_fields);
+  object.settings = entry.settings;
   object.settings.name = name_of(entry, file.objects()[index], is_only_one);
   if (object.source) object.settings.motion = Motion::deformable;
   object.placement = linear_map(entry.transform.stretch) * linear_map(conversion(entry, file));

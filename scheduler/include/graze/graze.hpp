@@ -2,11 +2,13 @@
 
 /// @file
 /// Includes everything that a program needs to embed graze: meshes, a scene and its reports. Files are read
-/// and written by graze::io, which has headers of its own in `graze/io/`.
+/// and written by graze::io, which has headers of its own in `graze/io/`. What records a scene and replays it
+/// is in `graze/recorder.hpp` and `graze/recording.hpp`.
 
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
 #include <graze/contact_geometry.hpp>
+#include <graze/enumerators.hpp>
 #include <graze/error.hpp>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
@@ -14,6 +16,7 @@
 #include <graze/query.hpp>
 #include <graze/report.hpp>
 #include <graze/scene.hpp>
+#include <graze/scene_enumerators.hpp>
 #include <graze/settings.hpp>
 #include <graze/version.hpp>
 #include <graze/weld.hpp>

@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <graze/enumerators.hpp>
 #include <graze/export.hpp>
 #include <graze/scene.hpp>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 namespace graze {
 
@@ -21,6 +23,17 @@ enum class WhenBehind : std::uint8_t {
   /// The step waits until a frame is written, so no frame is lost. For a run without a frame rate to keep.
   wait
 };
+
+/// Returns the enumerator's own name, such as "drop". It is empty for any other value.
+[[nodiscard]] constexpr std::string_view name_of(WhenBehind when) {
+  switch (when) {
+    case WhenBehind::drop:
+      return "drop";
+    case WhenBehind::wait:
+      return "wait";
+  }
+  return {};
+}
 
 /// Settings that every recorder has.
 struct RecorderSettings {
@@ -39,8 +52,8 @@ struct RingSettings {
   /// any case.
   std::size_t byte_budget = std::size_t{256} << 20;
   /// How many frames are wanted at least, such as 600 for the last ten seconds at 60 Hz. What is older is
-  /// dropped from keyframe to keyframe. 0 means as many as fit the budget.
-  std::uint64_t frames = 0;
+  /// dropped from keyframe to keyframe. It is at least 1. No value means as many as fit the budget.
+  std::optional<std::uint64_t> frames = std::nullopt;
   /// A file that the frames are written to when the first report with a Diagnostic comes. Empty means none.
   std::filesystem::path on_diagnostic = {};
 };

@@ -92,19 +92,6 @@ enum class DiagnosticKind : std::uint8_t {
   out_of_memory,   ///< There was no memory for a call.
 };
 
-/// Returns the enumerator's own name, such as "stale_id".
-GRAZE_API std::string_view to_string(DiagnosticKind kind);
-/// Returns the enumerator's own name, such as "touching".
-GRAZE_API std::string_view to_string(PairPhase phase);
-/// Returns the enumerator's own name, such as "a_in_b".
-GRAZE_API std::string_view to_string(Inside inside);
-/// Returns the enumerator's own name, such as "VF".
-GRAZE_API std::string_view to_string(ContactKind kind);
-/// Returns the enumerator's own name, such as "vertex".
-GRAZE_API std::string_view to_string(FeatureKind kind);
-/// Returns the enumerator's own name, such as "front".
-GRAZE_API std::string_view to_string(Side side);
-
 /// Says what was wrong with the input about one object. The scene goes on.
 struct Diagnostic {
   /// The object, by the id that the call named. It is a default id if the diagnostic names no object.
@@ -118,8 +105,68 @@ struct Diagnostic {
 /// The most levels that the octree of a mesh can have, with level 0, the whole mesh.
 inline constexpr std::size_t max_region_levels = 41;
 
-/// Counts the work of one step, the memory that the scene holds, and the time that the step took. Every step
-/// fills it. Times are in milliseconds.
+/// Counts what the searches of one step tested and decided.
+struct StepWork {
+  /// Boxes that the broad phase compared with another box.
+  std::uint64_t boxes_tested = 0;
+  /// Pairs of regions whose bounds were tested. In detail ContactDetail::vertices these are blocks of
+  /// vertices.
+  std::uint64_t region_pairs_tested = 0;
+  /// Pairs of leaf regions whose features or vertices were tested.
+  std::uint64_t leaf_pairs_tested = 0;
+  /// Pairs of features or vertices that float arithmetic showed to be too far apart.
+  std::uint64_t discarded_in_float = 0;
+  /// Contacts whose features float arithmetic determined with certainty. A contact that is found more than
+  /// once counts each time.
+  std::uint64_t named_in_float = 0;
+  /// Questions that double arithmetic answered with certainty.
+  std::uint64_t decided_in_double = 0;
+  /// Questions that double arithmetic left open, and that exact arithmetic answered.
+  std::uint64_t exact_decisions = 0;
+  /// Pairs that the next step searches from their root regions, because their front was too large to keep.
+  /// All fronts together keep up to 2^22 pairs of leaves, and each pair of objects up to an equal share. It
+  /// costs time and changes no answer.
+  std::uint64_t fronts_left_out = 0;
+  /// Pairs of regions that were expanded, by level. The root is level 0, and there are at most 40 levels
+  /// below.
+  std::array<std::uint64_t, max_region_levels> regions_expanded{};
+};
+
+/// Counts the bytes that a scene holds. Meshes are not counted, see Mesh::byte_count(). Memory that oneTBB
+/// holds is not counted either.
+struct StepBytes {
+  /// Of objects, from step to step: positions, copies of them, bounds, and calls that wait.
+  std::uint64_t objects = 0;
+  /// Of pairs, from step to step: answers, and what speeds up the next search.
+  std::uint64_t pairs = 0;
+  /// Of all reports: those that handles keep, and those that the scene keeps to fill again.
+  std::uint64_t reports = 0;
+  /// Of the working memory of the threads. It differs from run to run, because chance decides which thread
+  /// does which work.
+  std::uint64_t threads = 0;
+
+  /// Returns the sum of all.
+  [[nodiscard]] constexpr std::uint64_t total() const { return objects + pairs + reports + threads; }
+};
+
+/// The times of the stages of one step, in milliseconds.
+struct StepTimes {
+  /// To take up calls, read positions, and compute the bounding boxes of objects.
+  double read_ms = 0;
+  /// Of the broad phase and the filters.
+  double pairs_ms = 0;
+  /// To refit the boxes and radii of regions.
+  double refit_ms = 0;
+  /// To search pairs for distances and contacts.
+  double jobs_ms = 0;
+  /// To put the report together.
+  double publish_ms = 0;
+  /// Of the whole step.
+  double step_ms = 0;
+};
+
+/// Counts the objects, pairs and contacts of one step, its work, and the memory that the scene holds, and
+/// says how long the step took. Every step fills it.
 struct StepStatistics {
   /// Objects in the scene.
   std::uint64_t objects = 0;
@@ -134,8 +181,6 @@ struct StepStatistics {
   /// Objects that moved but stayed inside their loose boxes, so that the broad phase looked for no new pairs
   /// of them. A loose box is the object's box with room to move.
   std::uint64_t objects_in_slack = 0;
-  /// Boxes that the broad phase compared with another box.
-  std::uint64_t boxes_tested = 0;
   /// Pairs that no filter takes out, and whose loose boxes meet. The counters #pairs_apart to #pairs_tested
   /// divide these pairs, but none has the pairs of an object that is frozen because its input was bad.
   std::uint64_t pairs_close = 0;
@@ -173,50 +218,12 @@ struct StepStatistics {
   std::uint64_t region_distances = 0;
   /// The report left out at least this many region distances, because of SceneSettings::region_distances.
   std::uint64_t region_distances_left_out = 0;
-  /// Pairs of regions whose bounds were tested. In detail ContactDetail::vertices these are blocks of
-  /// vertices.
-  std::uint64_t region_pairs_tested = 0;
-  /// Pairs of leaf regions whose features or vertices were tested.
-  std::uint64_t leaf_pairs_tested = 0;
-  /// Pairs of features or vertices that float arithmetic showed to be too far apart.
-  std::uint64_t discarded_in_float = 0;
-  /// Contacts whose features float arithmetic determined with certainty. A contact that is found more than
-  /// once counts each time.
-  std::uint64_t named_in_float = 0;
-  /// Questions that double arithmetic answered with certainty.
-  std::uint64_t decided_in_double = 0;
-  /// Questions that double arithmetic left open, and that exact arithmetic answered.
-  std::uint64_t exact_decisions = 0;
-  /// Pairs that the next step searches from their root regions, because their front was too large to keep.
-  /// All fronts together keep up to 2^22 pairs of leaves, and each pair of objects up to an equal share. It
-  /// costs time and changes no answer.
-  std::uint64_t fronts_left_out = 0;
-  /// Pairs of regions that were expanded, by level. The root is level 0, and there are at most 40 levels
-  /// below.
-  std::array<std::uint64_t, max_region_levels> regions_expanded{};
-  /// Bytes that the scene holds for objects from step to step: positions, copies of them, bounds, and calls
-  /// that wait. Meshes are not counted, see Mesh::byte_count(). Memory that oneTBB holds is in none of the
-  /// counters.
-  std::uint64_t object_bytes = 0;
-  /// Bytes that the scene holds for pairs from step to step: answers, and what speeds up the next search.
-  std::uint64_t pair_bytes = 0;
-  /// Bytes of all reports: those that handles keep, and those that the scene keeps to fill again.
-  std::uint64_t report_bytes = 0;
-  /// Bytes of the working memory of the threads. It differs from run to run, because chance decides which
-  /// thread does which work.
-  std::uint64_t thread_bytes = 0;
-  /// Time to take up calls, read positions, and compute the bounding boxes of objects.
-  double read_ms = 0;
-  /// Time of the broad phase and the filters.
-  double pairs_ms = 0;
-  /// Time to refit the boxes and radii of regions.
-  double refit_ms = 0;
-  /// Time to search pairs for distances and contacts.
-  double jobs_ms = 0;
-  /// Time to put the report together.
-  double publish_ms = 0;
-  /// Time of the whole step.
-  double step_ms = 0;
+  /// What the searches tested and decided.
+  StepWork work;
+  /// The memory that the scene holds.
+  StepBytes bytes;
+  /// How long the stages took.
+  StepTimes times;
 };
 
 /// The published answer of one step. It never changes, so any number of threads may read it at the same time.

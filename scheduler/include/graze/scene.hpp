@@ -256,17 +256,17 @@ class GRAZE_API Scene {
   void ignore(ObjectId a, ObjectId b);
   /// Puts a pair back that ignore() took out. The order of the two objects does not matter.
   void watch(ObjectId a, ObjectId b);
-  /// Takes faces of `group_a` of `a` and faces of `group_b` of `b` out: they are not looked at against each
+  /// Takes faces of `group_a` of `a` and faces of `group_b` of `b` out: they are not tested against each
   /// other, until watch() puts them back. ObjectSettings::face_groups says which faces are in a group. A
   /// group may have no faces.
   ///
-  /// A vertex, an edge or a face of one object is then looked at with those faces of the other that at least
-  /// one of its own faces may be looked at with. Distances, witnesses, contacts and piercing are those of the
-  /// rest. If nothing is left to be looked at, the pair is treated as one that ignore() took out whole.
+  /// A vertex, an edge or a face of one object is then tested with those faces of the other that at least
+  /// one of its own faces may be tested with. Distances, witnesses, contacts and piercing are those of the
+  /// rest. If nothing is left to be tested, the pair is treated as one that ignore() took out whole.
   /// Region distances (SceneSettings::region_distances) do not follow groups.
   ///
   /// This is for surfaces that are joined: give the faces at a seam a group, and ignore the groups of both
-  /// sides. `a` and `b` may be one object. That has no effect yet, since no object is looked at against
+  /// sides. `a` and `b` may be one object. That has no effect yet, since no object is tested against
   /// itself. Calls about groups and calls about whole pairs do not undo each other. Any thread may call it.
   void ignore(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b);
   /// Puts faces back that ignore() took out by the same two groups. Any thread may call it.

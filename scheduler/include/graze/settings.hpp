@@ -15,7 +15,7 @@ namespace graze {
 /// @addtogroup settings
 /// @{
 
-/// Says how an object may move. Pairs of two fixed objects are never looked at.
+/// Says how an object may move. Pairs of two fixed objects are never tested.
 enum class Motion : std::uint8_t {
   deformable,  ///< Its vertices move one by one: Scene::set_positions() or Scene::bind_positions() move it.
   rigid,       ///< It moves as a whole: Scene::set_pose() moves it.
@@ -41,11 +41,11 @@ struct ObjectSettings {
   std::string name = {};
   /// How the object may move.
   Motion motion = Motion::deformable;
-  /// A set of bits. A pair is looked at if each object's layer has a bit of the other's #collides_with.
+  /// A set of bits. A pair is tested if each object's layer has a bit of the other's #collides_with.
   std::uint32_t layer = 1;
-  /// A set of bits: the layers that this object is looked at with. All bits are set by default.
+  /// A set of bits: the layers that this object is tested with. All bits are set by default.
   std::uint32_t collides_with = ~std::uint32_t{0};
-  /// Two objects of one group are not looked at against each other, such as the parts of one character. 0
+  /// Two objects of one group are not tested against each other, such as the parts of one character. 0
   /// means no group.
   std::uint64_t group = 0;
   /// A distance that is added to the threshold of every pair of this object. It is finite, and 0 or more.
@@ -106,7 +106,7 @@ struct SceneSettings {
   unsigned threads = 0;
   /// In which arena of oneTBB a step runs its tasks.
   ArenaPolicy arena = ArenaPolicy::own;
-  /// The time that a step may take until it stops looking at pairs, 0 or more. Positions are always read and
+  /// The time that a step may take until it stops testing pairs, 0 or more. Positions are always read and
   /// bounds refreshed first. Then pairs come in order of urgency: pairs in contact, then the smallest lower
   /// bound. Pairs without an answer have PairReport::complete false. No value means no limit.
   std::optional<std::chrono::microseconds> time_budget = std::nullopt;
@@ -129,7 +129,7 @@ struct SceneSettings {
   /// The most region distances that a report lists, of all pairs together. They are the paper's cd: the red,
   /// green and blue lines of its figure 7. 0 means that none are looked for.
   ///
-  /// Each pair that is looked at has an equal share, which is filled level by level. The step counts what
+  /// Each pair that is tested has an equal share, which is filled level by level. The step counts what
   /// finds no room in StepStatistics::region_distances_left_out. The distances of each pair cost a walk of
   /// their own.
   std::size_t region_distances = 0;

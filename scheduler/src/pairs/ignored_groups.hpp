@@ -11,9 +11,9 @@
 
 namespace graze {
 
-/// The groups of faces of one pair that are not looked at against each other.
+/// The groups of faces of one pair that are not tested against each other.
 struct PairGroups {
-  /// The filter that its searches use, which knows hidden faces too. Null where all features are looked at,
+  /// The filter that its searches use, which knows hidden faces too. Null where all features are tested,
   /// or none, or where no groups were ever ignored.
   const GroupFilter* filter = nullptr;
   /// A number that changes whenever the filter may have. 0 for a pair of which no groups were ever ignored.

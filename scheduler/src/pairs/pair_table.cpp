@@ -25,7 +25,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), filter_, tasks);
   filter_.forget_changed();
   count_filtered(statistics);
-  statistics.boxes_tested = broad_phase_.counters().boxes_tested;
+  statistics.work.boxes_tested = broad_phase_.counters().boxes_tested;
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
   if (summaries_.some_unread()) read_near_objects(close, tasks, diagnostics);
   list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);

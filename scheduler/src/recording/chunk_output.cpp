@@ -72,7 +72,7 @@ void RingOutput::put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chu
   if (kind != ChunkKind::step) return;
   // The first segment goes when the others alone are as many frames as are wanted, or when all are too large.
   while (segments_.size() > 1 &&
-         (byte_count_ > byte_budget_ || (frame_limit_ > 0 && frames_ - segments_[0].frames >= frame_limit_)))
+         (byte_count_ > byte_budget_ || (frame_limit_ && frames_ - segments_[0].frames >= *frame_limit_)))
     drop_oldest();
 }
 

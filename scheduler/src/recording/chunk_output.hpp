@@ -66,7 +66,7 @@ class FileOutput final : public ChunkOutput {
 /// The last frames in memory, within a budget. Frames are dropped from one keyframe to the next.
 class RingOutput final : public ChunkOutput {
  public:
-  RingOutput(std::size_t byte_budget, std::uint64_t frame_limit)
+  RingOutput(std::size_t byte_budget, std::optional<std::uint64_t> frame_limit)
       : byte_budget_(byte_budget), frame_limit_(frame_limit) {}
   void put(ChunkKind kind, std::uint64_t number, const ByteBuffer& chunk) override;
   [[nodiscard]] bool has_mesh(std::uint32_t number) const override;
@@ -97,7 +97,7 @@ class RingOutput final : public ChunkOutput {
   void drop_oldest();
 
   std::size_t byte_budget_;
-  std::uint64_t frame_limit_;
+  std::optional<std::uint64_t> frame_limit_;
   std::uint64_t dropped_before_next_ = 0;  ///< of the writing thread alone
   mutable std::mutex mutex_;               ///< guards all below
   std::shared_ptr<const Chunk> settings_;

@@ -69,7 +69,7 @@ void summarize(const FrameReport& report, RecordedReport& recorded) {
   recorded.frame = report.frame();
   recorded.tag = report.tag();
   recorded.complete = report.complete();
-  recorded.step_ms = report.statistics().step_ms;
+  recorded.step_ms = report.statistics().times.step_ms;
   recorded.pairs = report.pairs().size();
   recorded.pairs_in_contact = 0;
   recorded.contacts = report.contacts().size();

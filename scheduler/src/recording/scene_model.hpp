@@ -48,7 +48,7 @@ struct ModelObject {
   std::optional<std::variant<RefusePose, UnbindRecord>> frozen_by;
 };
 
-/// A scene's input, made from the calls on it: where each object is, and which pairs are looked at. It says
+/// A scene's input, made from the calls on it: where each object is, and which pairs are tested. It says
 /// nothing of what steps remember.
 class SceneModel {
  public:

@@ -21,6 +21,11 @@ const RecorderSettings& checked(const RecorderSettings& settings) {
   return settings;
 }
 
+std::unique_ptr<RingOutput> make_ring(const RingSettings& settings) {
+  if (settings.frames == 0U) throw Error("recorder: frames is 0; it is at least 1, or has no value");
+  return std::make_unique<RingOutput>(settings.byte_budget, settings.frames);
+}
+
 }  // namespace
 
 /// The recorder's thread, and what it shares with the stepping thread: the queue of frames. Both keep it
@@ -121,11 +126,14 @@ void Recorder::State::write_frame(const CapturedFrame& frame) noexcept {
   tell_of_diagnostic();
 }
 
+/// The frame counts as dropped only when the whole scene has been asked for. So a step that begins after that
+/// count captures it, and no second frame is dropped.
 void Recorder::State::skip_frame(const CapturedFrame& frame) noexcept {
-  skipped_.fetch_add(1, std::memory_order_relaxed);
-  if (is_broken_) return;
-  encoder_.skip_frame(frame);
-  if (encoder_.needs_whole_scene()) link_->capture.ask_for_whole_scene();
+  if (!is_broken_) {
+    encoder_.skip_frame(frame);
+    if (encoder_.needs_whole_scene()) link_->capture.ask_for_whole_scene();
+  }
+  skipped_.fetch_add(1, std::memory_order_release);
 }
 
 /// Writes the ring once, with the first frame that has a diagnostic, or later where there is no memory for
@@ -165,7 +173,7 @@ RecorderStatistics Recorder::State::write_ring(const std::filesystem::path& path
 }
 
 std::uint64_t Recorder::State::dropped_count() const {
-  return link_->capture.dropped_count() + skipped_.load(std::memory_order_relaxed);
+  return link_->capture.dropped_count() + skipped_.load(std::memory_order_acquire);
 }
 
 /// How many frames were dropped of which no frame tells that was written. What is told is read first, since a
@@ -189,9 +197,7 @@ Recorder::Recorder(Scene& scene, const std::filesystem::path& file, const Record
 
 Recorder::Recorder(Scene& scene, const RingSettings& ring, const RecorderSettings& settings) {
   if (!scene.state_->stepper.can_attach()) throw Error("recorder: another recorder is attached to the scene");
-  state_ =
-      std::make_unique<State>(scene.settings(), std::make_unique<RingOutput>(ring.byte_budget, ring.frames),
-                              ring.on_diagnostic, checked(settings));
+  state_ = std::make_unique<State>(scene.settings(), make_ring(ring), ring.on_diagnostic, checked(settings));
   scene.state_->stepper.attach(state_->capture());
   state_->start();
 }

@@ -23,31 +23,4 @@ FrameReport& FrameReport::operator=(const FrameReport& other) {
   return *this;
 }
 
-namespace {
-
-std::string_view known(std::string_view name) {
-  return name.empty() ? "unknown" : name;
-}
-
-}  // namespace
-
-std::string_view to_string(DiagnosticKind kind) {
-  return known(name_of(kind));
-}
-std::string_view to_string(PairPhase phase) {
-  return known(name_of(phase));
-}
-std::string_view to_string(Inside inside) {
-  return known(name_of(inside));
-}
-std::string_view to_string(ContactKind kind) {
-  return known(name_of(kind));
-}
-std::string_view to_string(FeatureKind kind) {
-  return known(name_of(kind));
-}
-std::string_view to_string(Side side) {
-  return known(name_of(side));
-}
-
 }  // namespace graze

@@ -71,17 +71,17 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
 
   apply_calls(builder.diagnostics(), capture);
   store_.read_positions(tasks_, builder.diagnostics(), capture);
-  statistics.read_ms = lap();
+  statistics.times.read_ms = lap();
   if (std::exchange(can_repeat_report_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
   } else {
     const PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
-    statistics.pairs_ms = lap();
+    statistics.times.pairs_ms = lap();
     refit_.run(list.jobs);
-    statistics.refit_ms = lap();
+    statistics.times.refit_ms = lap();
     last_contacts_.begin(previous, list.jobs, store_.some_replaced());
     jobs_.run(list, pairs_.filter().rules_version(), start, last_contacts_, builder);
-    statistics.jobs_ms = lap();
+    statistics.times.jobs_ms = lap();
     write_pairs(list, previous, builder);
     sum_counters(statistics);
     equalize_capacity(start);
@@ -89,12 +89,12 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
   }
   statistics.objects_unread = store_.unread_count();
   statistics.objects_surveyed = store_.surveyed_count();
-  statistics.object_bytes = store_.byte_count() + staging_.byte_count();
-  statistics.report_bytes = reports_.byte_count();
+  statistics.bytes.objects = store_.byte_count() + staging_.byte_count();
+  statistics.bytes.reports = reports_.byte_count();
   store_.forget_replaced();
   store_.forget_departed();  // the report is made: nothing throws from here on
-  statistics.publish_ms = lap();
-  statistics.step_ms = Lap(start)();
+  statistics.times.publish_ms = lap();
+  statistics.times.step_ms = Lap(start)();
 }
 
 void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* capture) {
@@ -303,12 +303,12 @@ void Step::repeat_pairs(const LastRows& resting, const FrameReport& previous, Re
 /// Repeats all rows of the last report, in which no pair was tested.
 void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) {
   reports_.repeat_rows();
-  const double read_ms = statistics.read_ms;
+  const double read_ms = statistics.times.read_ms;
   statistics = previous.statistics();
-  statistics.read_ms = read_ms;
-  statistics.pairs_ms = statistics.refit_ms = statistics.jobs_ms = 0;
+  statistics.times.read_ms = read_ms;
+  statistics.times.pairs_ms = statistics.times.refit_ms = statistics.times.jobs_ms = 0;
   // The counters of the broad phase are 0, since it does not run.
-  statistics.boxes_tested = statistics.objects_in_slack = 0;
+  statistics.work.boxes_tested = statistics.objects_in_slack = 0;
   can_repeat_report_ = true;
 }
 
@@ -327,28 +327,30 @@ namespace {
 /// The statistic of a step that holds each counter of the searches.
 struct CounterOfStep {
   std::uint64_t PairCounters::*of_pairs;
-  std::uint64_t StepStatistics::*of_step;
+  std::uint64_t StepWork::*of_step;
 };
 constexpr std::array counters_of_step{
-    CounterOfStep{&PairCounters::region_pairs_tested, &StepStatistics::region_pairs_tested},
-    CounterOfStep{&PairCounters::leaf_pairs_tested, &StepStatistics::leaf_pairs_tested},
-    CounterOfStep{&PairCounters::discarded_in_float, &StepStatistics::discarded_in_float},
-    CounterOfStep{&PairCounters::named_in_float, &StepStatistics::named_in_float},
-    CounterOfStep{&PairCounters::decided_in_double, &StepStatistics::decided_in_double},
-    CounterOfStep{&PairCounters::exact_decisions, &StepStatistics::exact_decisions},
-    CounterOfStep{&PairCounters::fronts_left_out, &StepStatistics::fronts_left_out},
-    CounterOfStep{&PairCounters::pairs_by_list, &StepStatistics::pairs_by_list},
+    CounterOfStep{&PairCounters::region_pairs_tested, &StepWork::region_pairs_tested},
+    CounterOfStep{&PairCounters::leaf_pairs_tested, &StepWork::leaf_pairs_tested},
+    CounterOfStep{&PairCounters::discarded_in_float, &StepWork::discarded_in_float},
+    CounterOfStep{&PairCounters::named_in_float, &StepWork::named_in_float},
+    CounterOfStep{&PairCounters::decided_in_double, &StepWork::decided_in_double},
+    CounterOfStep{&PairCounters::exact_decisions, &StepWork::exact_decisions},
+    CounterOfStep{&PairCounters::fronts_left_out, &StepWork::fronts_left_out},
 };
-static_assert(sizeof(PairCounters) ==
-                  counters_of_step.size() * sizeof(std::uint64_t) + sizeof(PairCounters::regions_expanded),
+static_assert(sizeof(PairCounters) == counters_of_step.size() * sizeof(std::uint64_t) +
+                                          sizeof(PairCounters::pairs_by_list) +
+                                          sizeof(PairCounters::regions_expanded),
               "every counter has its statistic");
 
 }  // namespace
 
 void Step::sum_counters(StepStatistics& statistics) {
   const PairCounters sum = jobs_.counters();
-  for (const CounterOfStep& counter : counters_of_step) statistics.*counter.of_step = sum.*counter.of_pairs;
-  statistics.regions_expanded = sum.regions_expanded;
+  for (const CounterOfStep& counter : counters_of_step)
+    statistics.work.*counter.of_step = sum.*counter.of_pairs;
+  statistics.work.regions_expanded = sum.regions_expanded;
+  statistics.pairs_by_list = sum.pairs_by_list;
 }
 
 /// Counts the bytes of pairs. A step that repeats rows changes none of them, and counting would be a third of
@@ -358,9 +360,9 @@ void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& s
   for (const PairJob& job : jobs)
     if (job.is_tested())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
-  statistics.pair_bytes = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() +
-                          contacts_.byte_count() + last_contacts_.byte_count();
-  statistics.thread_bytes = jobs_.thread_byte_count();
+  statistics.bytes.pairs = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() +
+                           contacts_.byte_count() + last_contacts_.byte_count();
+  statistics.bytes.threads = jobs_.thread_byte_count();
 }
 
 }  // namespace graze

@@ -251,7 +251,7 @@ int main(int argc, char** argv) {
     game.respond(*report);
     times.response.lap(now);
     times.frame.add(loops::milliseconds(begin, now));
-    times.step.add(report->statistics().step_ms);
+    times.step.add(report->statistics().times.step_ms);
 
     events.take(*report);
     diagnostics += report->diagnostics().size() + (report->tag() != frame);

@@ -157,7 +157,7 @@ struct Outcome {
     ++frames;
     contacts += report.contacts().size();
     diagnostics += report.diagnostics().size();
-    steps.add(report.statistics().step_ms);
+    steps.add(report.statistics().times.step_ms);
   }
 };
 

@@ -102,7 +102,7 @@ ModeResult ModeStudy::measure(const ModeSetting& setting, std::uint32_t runs) co
 void ModeStudy::compare(const FrameReport& report, const FrameReport& truth, const FrameReport& below,
                         ModeResult& result) const {
   const double unit = bodies_.mean_edge_length();
-  const std::uint64_t region_pairs = report.statistics().region_pairs_tested;
+  const std::uint64_t region_pairs = report.statistics().work.region_pairs_tested;
   result.region_pairs += region_pairs;
   result.most_region_pairs = std::max(result.most_region_pairs, region_pairs);
   for (const PairReport& expected : truth.pairs()) {

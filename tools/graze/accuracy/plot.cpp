@@ -21,7 +21,7 @@ using ErrorOf = double (*)(const ModeResult&);
 /// A family has one colour in both figures; settings of vertices have other dashes.
 void add_series(Figure& figure, const ModeTable& table, ErrorOf error) {
   for (std::size_t i = 0; i < drawn_families.size(); ++i) {
-    Series series{title_of(drawn_families[i]) + ": " + std::string(io::to_string(table.detail))};
+    Series series{title_of(drawn_families[i]) + ": " + std::string(to_string(table.detail))};
     series.look = i + (table.detail == ContactDetail::vertices ? colour_count : 0);
     for (const auto* results : {&table.results, &table.timed})
       for (const ModeResult& result : *results)

@@ -95,7 +95,7 @@ class Entrant {
   void note(GrazeContender& graze, bool is_timed) {
     graze.note();
     figures_.hash = graze.hash();
-    figures_.object_bytes = static_cast<double>(graze.statistics().object_bytes);
+    figures_.object_bytes = static_cast<double>(graze.statistics().bytes.objects);
     if (is_timed) figures_.contacts_per_frame += static_cast<double>(graze.statistics().contacts);
   }
 

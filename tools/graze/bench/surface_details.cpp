@@ -45,7 +45,7 @@ class DetailRun {
 
   void step(bool is_timed) {
     const ReportHandle report = scene_.step();
-    if (is_timed) times_.push_back(report->statistics().step_ms);
+    if (is_timed) times_.push_back(report->statistics().times.step_ms);
     contacts_ = report->contacts().size();
     pairs_ = 0;
     double agreement = 0;

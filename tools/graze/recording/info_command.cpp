@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <graze/io/printable.hpp>
-#include <graze/io/scene_file.hpp>
 #include <graze/recording.hpp>
+#include <graze/scene_enumerators.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,7 +52,7 @@ void print_gaps(const std::vector<std::string>& gaps) {
 
 void print_settings(const SceneSettings& settings) {
   say("  settings   contact distance %.9g, range %.9g, detail %s, %u threads", settings.contact_distance,
-      settings.range, std::string(io::to_string(settings.detail)).c_str(), settings.threads);
+      settings.range, std::string(to_string(settings.detail)).c_str(), settings.threads);
   if (settings.carrying > 0) say(", at most %zu contacts of a pair carry it", settings.carrying);
   say("%s\n", settings.ways_out ? ", ways out" : "");
 }

@@ -43,7 +43,7 @@ Timed time_of(std::string_view name, ContactDetail detail, std::size_t frames) {
   for (std::size_t frame = 0; frame < frames; ++frame) {
     played->advance(scene, frame);
     const ReportHandle report = scene.step();
-    times.push_back(report->statistics().step_ms);
+    times.push_back(report->statistics().times.step_ms);
     result.contacts = report->contacts().size();
   }
   result.median_ms = median_of(times);

@@ -59,7 +59,7 @@ InsideTime inside_time_of(std::string_view name, ContactDetail detail, std::size
   for (std::size_t frame = 0; frame < frames; ++frame) {
     if (frame > 0) played->advance(scene, frame);
     const ReportHandle report = scene.step();
-    timed.step_ms.push_back(report->statistics().step_ms);
+    timed.step_ms.push_back(report->statistics().times.step_ms);
     timed.contacts = report->contacts().size();
     const auto start = Clock::now();
     const std::vector<double> distances = distances_by(tree, *played);

@@ -82,11 +82,11 @@ struct HeapTime {
 HeapTime heap_time_of(Filter filter, std::size_t count, std::size_t frames) {
   Heap heap(filter, count);
   HeapTime timed;
-  timed.first_ms = heap.step(0)->statistics().step_ms;
+  timed.first_ms = heap.step(0)->statistics().times.step_ms;
   std::vector<double> times;
   for (std::size_t frame = 1; frame <= frames; ++frame) {
     const ReportHandle report = heap.step(frame);
-    times.push_back(report->statistics().step_ms);
+    times.push_back(report->statistics().times.step_ms);
     timed.filtered = report->statistics().pairs_filtered;
   }
   timed.median_ms = median_of(times);

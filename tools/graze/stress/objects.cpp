@@ -46,7 +46,7 @@ nlohmann::ordered_json figures_of(const ScalingRun& run) {
           {"step_ms", {run.one.wall_ms, run.two.wall_ms}},
           {"step_cpu_ms", {run.one.cpu_ms, run.two.cpu_ms}},
           {"phases_ms", phases},
-          {"bytes", run.bytes()},
+          {"bytes", run.statistics.bytes.total()},
           {"control_speedup", run.control_speedup},
           {"speedup", run.speedup()},
           {"serial_fraction", run.serial_fraction()},
@@ -111,15 +111,15 @@ StressResult run_objects_study(const ObjectsOptions& options) {
     MovingWorld world = MovingWorld::lattice(count);
     const ScalingRun run = run_scaling(world, frames_of(count, options));
     check_hashes(std::to_string(count) + " objects", run, result);
-    print(table.row({std::to_string(count), std::to_string(run.frames),
-                     std::to_string(run.statistics.pairs_in_contact), fixed(run.read_ms, 3),
-                     fixed(run.one.cpu_ms, 3), fixed(run.one.cpu_ms / run.read_ms, 2),
-                     fixed(static_cast<double>(run.bytes()) / 1e6, 2),
-                     fixed(static_cast<double>(run.bytes()) / static_cast<double>(count) / 1e3, 3),
-                     fixed(run.speedup(), 2)}));
+    print(table.row(
+        {std::to_string(count), std::to_string(run.frames), std::to_string(run.statistics.pairs_in_contact),
+         fixed(run.read_ms, 3), fixed(run.one.cpu_ms, 3), fixed(run.one.cpu_ms / run.read_ms, 2),
+         fixed(static_cast<double>(run.statistics.bytes.total()) / 1e6, 2),
+         fixed(static_cast<double>(run.statistics.bytes.total()) / static_cast<double>(count) / 1e3, 3),
+         fixed(run.speedup(), 2)}));
     counts.push_back(static_cast<double>(count));
     times.push_back(run.one.cpu_ms / run.read_ms);
-    bytes.push_back(static_cast<double>(run.bytes()));
+    bytes.push_back(static_cast<double>(run.statistics.bytes.total()));
     result.figures["objects"].push_back(figures_of(run));
     result.figures["objects"].back()["count"] = count;
     if (count > many_count && (count <= many || many_count == 0)) {

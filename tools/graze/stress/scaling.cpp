@@ -30,7 +30,8 @@ class TimedScene {
     cpu_.push_back(cpu / 1e6);
     wall_.push_back(wall / 1e6);
     const StepStatistics& s = statistics_;
-    const std::array<double, 5> phases = {s.read_ms, s.pairs_ms, s.refit_ms, s.jobs_ms, s.publish_ms};
+    const std::array<double, 5> phases = {s.times.read_ms, s.times.pairs_ms, s.times.refit_ms,
+                                          s.times.jobs_ms, s.times.publish_ms};
     for (std::size_t i = 0; i < phases.size(); ++i) phases_[i].push_back(phases[i]);
   }
 

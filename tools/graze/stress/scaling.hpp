@@ -39,10 +39,6 @@ struct ScalingRun {
   /// The serial fraction calculated for each phase by itself, and then averaged by the phases' shares of a
   /// step.
   [[nodiscard]] double serial_fraction_by_phases() const;
-  [[nodiscard]] std::uint64_t bytes() const {
-    return statistics.object_bytes + statistics.pair_bytes + statistics.report_bytes +
-           statistics.thread_bytes;
-  }
 };
 
 ScalingRun run_scaling(MovingWorld& world, std::size_t frames);

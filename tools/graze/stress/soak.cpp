@@ -112,7 +112,7 @@ struct Interval {
     diagnostics += report.diagnostics().size();
     objects = std::max(objects, s.objects);
     // Reports are as many as the two who hold them happen to have held; resident memory shows those.
-    statistics = std::max(statistics, static_cast<double>(s.object_bytes + s.pair_bytes + s.thread_bytes));
+    statistics = std::max(statistics, static_cast<double>(s.bytes.objects + s.bytes.pairs + s.bytes.threads));
     if (frames % 20 == 1) resident = std::max(resident, resident_bytes());
   }
 };

@@ -13,40 +13,40 @@
 
 namespace graze {
 
-/// Says which features of two surfaces may be looked at against each other, by the groups of their faces.
+/// Says which features of two surfaces may be tested against each other, by the groups of their faces.
 ///
 /// Two features may be if some face of the one and some face of the other are not hidden, and in groups that
-/// are not ignored. A fold belongs to its quad. So exactly those features are looked at that belong to two
+/// are not ignored. A fold belongs to its quad. So exactly those features are tested that belong to two
 /// faces that are. This one ignores no groups. It refers to the groups of both meshes, and takes no memory.
 class GRAZE_API FeatureFilter {
  public:
   /// A null pointer stands for a mesh whose faces are all in group 0.
   FeatureFilter(const FaceGroups* a, const FaceGroups* b);
 
-  /// Whether any two faces that there are may be looked at.
+  /// Whether any two faces that there are may be tested.
   [[nodiscard]] bool leaves_some() const { return leaves_some_; }
-  /// Whether all faces that there are may be looked at.
+  /// Whether all faces that there are may be tested.
   [[nodiscard]] bool leaves_all() const { return leaves_all_; }
 
-  /// Whether a feature of a and one of b may be looked at.
+  /// Whether a feature of a and one of b may be tested.
   [[nodiscard]] bool may(const FeatureRef& a, const FeatureRef& b) const {
     return may_sets(set_of(*a_, a), set_of(*b_, b));
   }
   [[nodiscard]] bool may_vertices(std::uint32_t a, std::uint32_t b) const {
     return may_sets(a_->of_vertex(a), b_->of_vertex(b));
   }
-  /// Whether a vertex of a, or of b, may be looked at against any feature of the other surface.
+  /// Whether a vertex of a, or of b, may be tested against any feature of the other surface.
   [[nodiscard]] bool may_vertex_of_a(std::uint32_t vertex) const {
     return may_sets(a_->of_vertex(vertex), b_->of_region(0));
   }
   [[nodiscard]] bool may_vertex_of_b(std::uint32_t vertex) const {
     return may_sets(a_->of_region(0), b_->of_vertex(vertex));
   }
-  /// Whether any features that the two regions own may be looked at.
+  /// Whether any features that the two regions own may be tested.
   [[nodiscard]] bool may_regions(const RegionPair& regions) const {
     return may_sets(a_->of_region(regions.a), b_->of_region(regions.b));
   }
-  /// A face of a and one of b that may be looked at. `leaves_some` holds.
+  /// A face of a and one of b that may be tested. `leaves_some` holds.
   [[nodiscard]] const std::array<std::uint32_t, 2>& some_faces() const { return some_faces_; }
 
   // The groups of the faces of a and of b.

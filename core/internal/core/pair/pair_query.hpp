@@ -49,7 +49,7 @@ struct PairQuery {
   double region_distance_reach = 0;
   std::span<const double>
       epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
-  /// Says which features are looked at. It is null where all are. It leaves some. Fronts that are used were
+  /// Says which features are tested. It is null where all are. It leaves some. Fronts that are used were
   /// made with the same groups, ignored in the same way.
   const FeatureFilter* groups = nullptr;
   /// Region pairs that may be tested; beyond it the answer is not complete.

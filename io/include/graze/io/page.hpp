@@ -46,13 +46,13 @@ struct PageOptions {
   /// The page has each frame whose number, counted in calls of PageWriter::frame(), this number divides. It
   /// is at least 1.
   std::uint32_t every = 1;
-  /// How many calls of PageWriter::frame() there will be. 0 means that nobody knows. Then there is no
-  /// estimate, and #max_bytes has no effect.
-  std::uint64_t expected_frames = 0;
+  /// How many calls of PageWriter::frame() there will be. No value means that nobody knows. Then there is
+  /// no estimate, and #max_bytes has no effect.
+  std::optional<std::uint64_t> expected_frames = std::nullopt;
   /// The size that the page should not exceed, in bytes. The writer estimates the size from the first frames,
   /// and makes PageWriter::every() larger until the estimate is below. No value means no limit.
   std::optional<std::uint64_t> max_bytes = std::nullopt;
-  /// False writes 0 for all times, and leaves out StepStatistics::thread_bytes. Equal answers are then equal
+  /// False writes 0 for all times, and leaves out StepBytes::threads. Equal answers are then equal
   /// files.
   bool include_times = true;
 };

@@ -25,7 +25,7 @@ class GRAZE_API ReportWriter {
  public:
   /// Says what a writer leaves out.
   struct Options {
-    /// False leaves out all timings, and StepStatistics::thread_bytes. Equal answers are then equal files.
+    /// False leaves out all timings, and StepBytes::threads. Equal answers are then equal files.
     bool include_times = true;
     /// False leaves out the contacts. Each pair then has their number alone, ReportedPair::contact_count.
     bool include_contacts = true;

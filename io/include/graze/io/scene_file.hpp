@@ -27,17 +27,30 @@ enum class UpAxis : std::uint8_t {
   z,  ///< z points up, x points right, and y points away from the viewer.
 };
 
+/// Returns the enumerator's own name, such as "z". It is empty for any other value.
+[[nodiscard]] constexpr std::string_view name_of(UpAxis axis) {
+  switch (axis) {
+    case UpAxis::x:
+      return "x";
+    case UpAxis::y:
+      return "y";
+    case UpAxis::z:
+      return "z";
+  }
+  return {};
+}
+
 /// One entry of a scene's `objects`: what to load, how it moves, and what it may touch. An entry without
 /// #node whose file holds several objects stands for all of them.
 struct ObjectDescription {
-  /// The name of the object. If it is empty, the file's own name for the object counts.
-  std::string name;
+  /// The settings of each object of this entry. If ObjectSettings::name is empty, the file's own name for the
+  /// object counts. In a scene file, an entry without `motion` is rigid, unless #positions or #animation move
+  /// it.
+  ObjectSettings settings;
   /// The mesh file, as a path that can be opened. A path in a scene file is relative to the scene file.
   std::filesystem::path mesh;
   /// The object of the file. No value means all of them.
   std::optional<NumberOrName> node;
-  /// How the object may move.
-  Motion motion = Motion::rigid;
   /// A numbered sequence or a vertex cache with the positions of a deformable object. Empty means none.
   std::filesystem::path positions;
   /// An animation of the mesh file that moves a deformable object. No value means none.
@@ -56,22 +69,6 @@ struct ObjectDescription {
   Placement transform;
   /// The poses of a rigid object, ascending by frame. If there are none, it stands at #transform.
   std::vector<KeyPose> poses;
-  /// The layers of the object, see ObjectSettings::layer.
-  std::uint32_t layer = 1;
-  /// The layers that the object is looked at with, see ObjectSettings::collides_with.
-  std::uint32_t collides_with = ~std::uint32_t{0};
-  /// The group of the object, see ObjectSettings::group.
-  std::uint32_t group = 0;
-  /// The margin of the object, see ObjectSettings::margin.
-  double margin = 0;
-  /// Whether the object's surface bounds a volume, see ObjectSettings::solid.
-  bool solid = false;
-  /// The kind of the object, see ObjectSettings::kind.
-  std::uint32_t kind = 0;
-  /// The groups of the faces of each object of this entry, see ObjectSettings::face_groups.
-  std::vector<std::uint8_t> face_groups;
-  /// The groups of each object of this entry that are hidden, see ObjectSettings::hidden_groups.
-  std::vector<std::uint8_t> hidden_groups;
   /// How errors name this entry, such as `scene.json: objects[2]`.
   std::string place;
 };
@@ -82,11 +79,11 @@ struct RuleDescription : PairRule {
   std::array<std::uint32_t, 2> kinds{};
 };
 
-/// Two sets of objects that are not looked at together.
+/// Two sets of objects that are not tested together.
 struct IgnoreDescription {
   /// Two names. The name of an entry stands for all of its objects. Other names are those of single objects.
   std::array<std::string, 2> names;
-  /// The groups of faces that are not looked at together, see Scene::ignore(). No value means whole objects.
+  /// The groups of faces that are not tested together, see Scene::ignore(). No value means whole objects.
   std::optional<std::array<std::uint8_t, 2>> groups;
   /// How errors name this entry.
   std::string place;
@@ -111,7 +108,7 @@ struct SceneDescription {
   std::vector<ObjectDescription> objects;
   /// Thresholds for kinds of pairs.
   std::vector<RuleDescription> rules;
-  /// Pairs that are not looked at.
+  /// Pairs that are not tested.
   std::vector<IgnoreDescription> ignore;
   /// Whether mesh files may name files outside their own folders, see ReadOptions::outside_files.
   bool outside_files = false;
@@ -127,12 +124,6 @@ GRAZE_API SceneDescription read_scene_file(const std::filesystem::path& path);
 /// Describes a scene of all objects of some mesh files. An object that an animation of its file moves plays
 /// the first animation. Every other object is at rest.
 GRAZE_API SceneDescription scene_of_meshes(const std::vector<std::filesystem::path>& files);
-
-/// Returns the detail that a word names: `none`, `closest`, `regions`, `vertices`, `features` or `nearest`.
-/// Returns no value for another word. It is enumerator_named<ContactDetail>().
-GRAZE_API std::optional<ContactDetail> contact_detail_from(std::string_view word);
-/// Returns the enumerator's own name, such as "features".
-GRAZE_API std::string_view to_string(ContactDetail detail);
 
 /// @}
 

@@ -51,9 +51,9 @@ void check_distance(const PairReport& row, double squared, double tolerance, Con
 }  // namespace
 
 void count_work(const StepStatistics& statistics, ContactCheck& check) {
-  check.leaf_pairs += statistics.leaf_pairs_tested;
+  check.leaf_pairs += statistics.work.leaf_pairs_tested;
   for (std::size_t level = 0; level < check.expanded.size(); ++level)
-    check.expanded[level] += statistics.regions_expanded[level];
+    check.expanded[level] += statistics.work.regions_expanded[level];
 }
 
 ContactChecks::ContactChecks(const RecordedMotion& motion, const std::set<double>& distances) {

@@ -165,9 +165,9 @@ class Measurement {
     const StepStatistics& statistics = row.report->statistics();
     if (statistics.pairs_unchanged > 0) return;
     const StepCount& step = row.result->steps[frame];
-    if (statistics.leaf_pairs_tested != step.given_to_dv) disagree(row, "leaf pairs");
+    if (statistics.work.leaf_pairs_tested != step.given_to_dv) disagree(row, "leaf pairs");
     for (std::size_t level = 0; level + 1 < PaperFound::most_levels; ++level)
-      if (statistics.regions_expanded[level] != step.expanded[level]) disagree(row, "expanded regions");
+      if (statistics.work.regions_expanded[level] != step.expanded[level]) disagree(row, "expanded regions");
   }
 
   void disagree(const LibraryRow& row, const char* what) {
@@ -188,8 +188,7 @@ class Measurement {
   [[nodiscard]] double feature_distance() const { return 0.5 * results_.rows.back().row.last(); }
 
   void require(const ContactCheck& check) {
-    const std::string what =
-        motion_.name + ", " + check.name + ", " + std::string(io::to_string(check.detail));
+    const std::string what = motion_.name + ", " + check.name + ", " + std::string(to_string(check.detail));
     if (check.wrong > 0) results_.violations.push_back(what + ": contacts are not those of brute force");
     if (check.distances_wrong > 0)
       results_.violations.push_back(what + ": bounds do not hold the true distance, or are too wide");

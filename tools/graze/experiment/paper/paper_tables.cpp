@@ -107,7 +107,7 @@ ResultTable checks_table(const PaperResults& results) {
   };
   for (const ContactCheck& check : results.checks)
     table.rows.push_back(
-        {check.name, std::string(io::to_string(check.detail)), check.contact_distance, check.compared,
+        {check.name, std::string(to_string(check.detail)), check.contact_distance, check.compared,
          check.contacts_true, share(check.contacts_found, check.contacts_true),
          share(check.contacts_found, check.contacts_reported), check.wrong, check.distances,
          check.distances_wrong, check.widest, check.expanded[1], check.expanded[2], check.leaf_pairs});
@@ -146,8 +146,8 @@ ResultTable times_table(const PaperResults& results) {
       {},
       true};
   for (const SettingTime& time : results.times)
-    table.rows.push_back({time.name, std::string(io::to_string(time.detail)), time.contact_distance,
-                          time.mean(), mean_of_last_tenth(time.step_ms), time.worst()});
+    table.rows.push_back({time.name, std::string(to_string(time.detail)), time.contact_distance, time.mean(),
+                          mean_of_last_tenth(time.step_ms), time.worst()});
   return table;
 }
 
