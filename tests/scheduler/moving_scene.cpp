@@ -85,8 +85,9 @@ void MovingScene::place(Scene& scene, const Body& body, ObjectId id, std::size_t
     scene.set_positions(id, positions(body, frame));
 }
 
-void MovingScene::play(const SceneSettings& settings, std::size_t count, const Look& look) const {
-  Scene scene(settings);
+void MovingScene::play(const SceneSettings& settings, std::size_t count, const Look& look,
+                       const std::shared_ptr<TaskScheduler>& scheduler) const {
+  Scene scene(settings, scheduler);
   std::vector<ObjectId> ids;
   std::vector<std::vector<Eigen::Vector3f>> memory;
   for (const Body& body : bodies_) {
@@ -108,10 +109,12 @@ void MovingScene::play(const SceneSettings& settings, std::size_t count, const L
   }
 }
 
-std::vector<ReportHandle> MovingScene::play(const SceneSettings& settings, std::size_t count) const {
+std::vector<ReportHandle> MovingScene::play(const SceneSettings& settings, std::size_t count,
+                                            const std::shared_ptr<TaskScheduler>& scheduler) const {
   std::vector<ReportHandle> reports;
-  play(settings, count,
-       [&](std::size_t, const ReportHandle& report, const auto&) { reports.push_back(report); });
+  play(
+      settings, count,
+      [&](std::size_t, const ReportHandle& report, const auto&) { reports.push_back(report); }, scheduler);
   return reports;
 }
 

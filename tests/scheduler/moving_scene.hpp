@@ -20,8 +20,10 @@ class MovingScene {
 
   /// Steps through frames 0 to count - 1; calls `look` with each report and the ids in the bodies' order.
   using Look = std::function<void(std::size_t frame, const ReportHandle&, const std::vector<ObjectId>&)>;
-  void play(const SceneSettings& settings, std::size_t count, const Look& look) const;
-  std::vector<ReportHandle> play(const SceneSettings& settings, std::size_t count) const;
+  void play(const SceneSettings& settings, std::size_t count, const Look& look,
+            const std::shared_ptr<TaskScheduler>& scheduler = nullptr) const;
+  std::vector<ReportHandle> play(const SceneSettings& settings, std::size_t count,
+                                 const std::shared_ptr<TaskScheduler>& scheduler = nullptr) const;
 
   /// The first step of a scene made in the given order with everything where it is in `frame`.
   ReportHandle built_afresh(const SceneSettings& settings, std::size_t frame) const {

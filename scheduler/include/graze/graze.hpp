@@ -18,5 +18,6 @@
 #include <graze/scene.hpp>
 #include <graze/scene_enumerators.hpp>
 #include <graze/settings.hpp>
+#include <graze/task_scheduler.hpp>
 #include <graze/version.hpp>
 #include <graze/weld.hpp>

@@ -11,6 +11,7 @@
 #include <graze/position_view.hpp>
 #include <graze/report.hpp>
 #include <graze/settings.hpp>
+#include <graze/task_scheduler.hpp>
 #include <limits>
 #include <memory>
 #include <span>
@@ -67,12 +68,13 @@ class GRAZE_API Scene {
   /// @name Making a scene
   /// @{
 
-  /// Makes a scene without objects.
+  /// Makes a scene without objects. Its steps run their tasks with `scheduler`, which has to be whole until
+  /// the scene is gone. If it is null, they run with oneTBB, or on one thread if graze was built without.
   ///
   /// Throws Error if a distance is negative or NaN, if `contact_distance` is infinite, if a value is no
   /// enumerator, if the time budget is negative, or if a limit of contacts is 0. Also throws Error for paper
   /// accuracy with a detail other than `regions` and `vertices`.
-  explicit Scene(const SceneSettings& settings = {});
+  explicit Scene(const SceneSettings& settings = {}, std::shared_ptr<TaskScheduler> scheduler = nullptr);
   /// Waits for the end of a step that is running, and frees the scene. Reports that handles keep stay valid.
   ~Scene();
   /// Scenes are not copied.

@@ -1,16 +1,12 @@
 #include "base/task_pool.hpp"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <utility>
 
 #include "base/access.hpp"
+#include "base/default_scheduler.hpp"
 #include "core/base/floating_point_scope.hpp"
 
 namespace graze {
@@ -18,33 +14,58 @@ namespace {
 
 constexpr unsigned threads_each_processor = 8;
 
-unsigned processors() {
-  return static_cast<unsigned>(std::max(1, oneapi::tbb::info::default_concurrency()));
+using Work = std::function<void(unsigned worker, std::size_t item)>;
+
+/// The items of one call of TaskPool::run. Each worker picks the next item until none is left. Every item
+/// writes only its own results, so no result depends on which worker picked it.
+class Items {
+ public:
+  Items(std::size_t count, const Work& work) : count_(count), work_(work) {}
+
+  /// Takes items until none is left or one has thrown. The exception is kept, since a scheduler may have no
+  /// memory to pass it on.
+  void take(unsigned worker) {
+    const FloatingPointScope scope;
+    const AccessScope nothing({});
+    try {
+      for (std::size_t item = next_.fetch_add(1, std::memory_order_relaxed);
+           item < count_ && !has_failed_.load(std::memory_order_relaxed);
+           item = next_.fetch_add(1, std::memory_order_relaxed))
+        work_(worker, item);
+    } catch (...) {
+      if (!has_failed_.exchange(true)) problem_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (problem_) std::rethrow_exception(problem_);
+  }
+
+ private:
+  std::size_t count_;
+  const Work& work_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> has_failed_{false};
+  std::exception_ptr problem_;
+};
+
+/// How many workers a pool has of a scheduler, which is null where it is the default one.
+unsigned workers_of(unsigned threads, const TaskScheduler* scheduler) {
+  const unsigned wanted = threads == 0 ? default_threads() : std::min(threads, max_threads());
+  return scheduler != nullptr ? wanted : usable_threads(wanted);
 }
 
 }  // namespace
 
 unsigned max_threads() {
-  return threads_each_processor * processors();
+  return threads_each_processor * default_threads();
 }
 
-struct TaskPool::Arena {
-  explicit Arena(int threads, unsigned reserved_for_callers = 1) : arena(threads, reserved_for_callers) {}
-  oneapi::tbb::task_arena arena;
-};
+TaskPool::TaskPool(unsigned threads, ArenaPolicy policy, std::shared_ptr<TaskScheduler> scheduler)
+    : worker_count_(workers_of(threads, scheduler.get())),
+      scheduler_(scheduler != nullptr ? std::move(scheduler)
+                                      : make_default_scheduler(worker_count_, policy)) {}
 
-TaskPool::TaskPool(unsigned threads, ArenaPolicy policy)
-    : worker_count_(threads == 0 ? processors() : std::min(threads, max_threads())) {
-  // The arena asks for no more threads than oneTBB gives in this process. Otherwise oneTBB prints a warning.
-  const std::size_t allowed =
-      oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
-  if (worker_count_ > 1 && policy == ArenaPolicy::own)
-    arena_ = std::make_unique<Arena>(static_cast<int>(std::min<std::size_t>(worker_count_, allowed)));
-}
-
-TaskPool::~TaskPool() = default;
-
-void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work) {
+void TaskPool::run(std::size_t count, const Work& work) {
   const auto workers = static_cast<unsigned>(std::min<std::size_t>(worker_count_, count));
   if (workers <= 1) {
     const FloatingPointScope scope;
@@ -52,41 +73,19 @@ void TaskPool::run(std::size_t count, const std::function<void(unsigned worker, 
     for (std::size_t item = 0; item < count; ++item) work(0, item);
     return;
   }
-  // Each task is a worker that picks the next item until none is left. Every item writes only its own
-  // results, so no result depends on which worker picked it.
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> has_failed{false};
-  std::exception_ptr problem;
-  // Exceptions of items bypass oneTBB, which would need memory to pass them on.
-  const auto run_worker = [&](unsigned worker) {
-    const FloatingPointScope scope;
-    const AccessScope nothing({});
-    try {
-      for (std::size_t item = next.fetch_add(1, std::memory_order_relaxed);
-           item < count && !has_failed.load(std::memory_order_relaxed);
-           item = next.fetch_add(1, std::memory_order_relaxed))
-        work(worker, item);
-    } catch (...) {
-      if (!has_failed.exchange(true)) problem = std::current_exception();
-    }
-  };
-  const auto run_workers = [&] {
-    oneapi::tbb::parallel_for(0U, workers, run_worker, oneapi::tbb::simple_partitioner());
-  };
+  Items items(count, work);
   try {
-    // In the caller's arena, `isolate` keeps a waiting thread from running the caller's own tasks in the
-    // middle of a step.
-    arena_ ? arena_->arena.execute(run_workers) : oneapi::tbb::this_task_arena::isolate(run_workers);
+    // The function is small enough to need no memory.
+    scheduler_->run(workers, [&items](unsigned worker) { items.take(worker); });
   } catch (...) {
-    // oneTBB had no memory for its tasks. The tasks that began have ended, and this thread does the rest.
-    run_worker(0);
+    // The tasks that began have ended, and this thread does the rest.
+    items.take(0);
   }
-  if (problem) std::rethrow_exception(problem);
+  items.rethrow();
 }
 
 void TaskPool::start(std::function<void()> work) {
-  if (!beside_) beside_ = std::make_unique<Arena>(1, 0);
-  beside_->arena.enqueue(std::move(work));
+  scheduler_->start(std::move(work));
 }
 
 }  // namespace graze

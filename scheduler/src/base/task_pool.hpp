@@ -3,20 +3,18 @@
 #include <cstddef>
 #include <functional>
 #include <graze/settings.hpp>
+#include <graze/task_scheduler.hpp>
 #include <memory>
 
 namespace graze {
 
-/// Runs work on threads of the caller's process through oneTBB. With one thread everything runs on the
-/// caller's thread, without a task. The pool never changes how many threads oneTBB has.
+/// Runs the items of a stage on workers, which are tasks of a TaskScheduler. With one worker everything runs
+/// on the caller's thread, without a task.
 class TaskPool {
  public:
   /// `threads` is the largest number of threads in use at once; 0 means one for each processor. Numbers above
-  /// `max_threads()` count as `max_threads()`.
-  TaskPool(unsigned threads, ArenaPolicy policy);
-  ~TaskPool();
-  TaskPool(const TaskPool&) = delete;
-  TaskPool& operator=(const TaskPool&) = delete;
+  /// `max_threads()` count as `max_threads()`. Where `scheduler` is null, the default one is used.
+  TaskPool(unsigned threads, ArenaPolicy policy, std::shared_ptr<TaskScheduler> scheduler = nullptr);
 
   /// How many workers `run` uses at most. Each worker has a number below this.
   [[nodiscard]] unsigned worker_count() const { return worker_count_; }
@@ -24,17 +22,15 @@ class TaskPool {
   /// Calls `work(worker, item)` once for every item below `count`. Items begin in ascending order, and the
   /// calls of one worker never overlap. Every worker computes in a FloatingPointScope, without AccessRights
   /// other than those that `work` declares. If a call throws, `run` throws that exception and some items may
-  /// not have begun. If oneTBB has no memory for tasks, the calling thread does what is left.
+  /// not have begun. If the scheduler throws, as for lack of memory, the calling thread does what is left.
   void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work);
 
-  /// Calls `work` once on another thread; `work` must not throw. Throws if oneTBB cannot begin it.
+  /// Calls `work` once on another thread; `work` must not throw. Throws if the scheduler cannot begin it.
   void start(std::function<void()> work);
 
  private:
-  struct Arena;
-  std::unique_ptr<Arena> arena_;   ///< null with one thread or in the caller's arena
-  std::unique_ptr<Arena> beside_;  ///< the arena of `start`, made by its first call
-  unsigned worker_count_ = 1;
+  unsigned worker_count_;
+  std::shared_ptr<TaskScheduler> scheduler_;
 };
 
 }  // namespace graze

@@ -52,9 +52,9 @@ class SteppingEnd {
 
 }  // namespace
 
-Scene::Scene(const SceneSettings& settings) {
+Scene::Scene(const SceneSettings& settings, std::shared_ptr<TaskScheduler> scheduler) {
   const FloatingPointScope scope;
-  state_ = std::make_unique<State>(settings);
+  state_ = std::make_unique<State>(settings, std::move(scheduler));
 }
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;

@@ -5,6 +5,7 @@
 #include <graze/error.hpp>
 #include <graze/scene.hpp>
 #include <memory>
+#include <utility>
 
 #include "base/settings_check.hpp"
 #include "calls/staging.hpp"
@@ -20,8 +21,10 @@ using Stepping = std::shared_ptr<std::atomic<bool>>;
 /// The parts of a scene.
 class Scene::State {
  public:
-  explicit State(const SceneSettings& given)
-      : settings(checked(given)), reports(ReportPool::create()), stepper(settings, staging, *reports) {}
+  State(const SceneSettings& given, std::shared_ptr<TaskScheduler> scheduler)
+      : settings(checked(given)),
+        reports(ReportPool::create()),
+        stepper(settings, std::move(scheduler), staging, *reports) {}
   ~State() { stepping->wait(true, std::memory_order_acquire); }
   State(const State&) = delete;
   State& operator=(const State&) = delete;

@@ -6,8 +6,13 @@
 
 namespace graze {
 
-Stepper::Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports)
-    : settings_(settings), staging_(staging), reports_(reports), content_(settings), step_(begun_afresh()) {}
+Stepper::Stepper(const SceneSettings& settings, std::shared_ptr<TaskScheduler> scheduler, Staging& staging,
+                 ReportPool& reports)
+    : settings_(settings),
+      staging_(staging),
+      reports_(reports),
+      content_(settings, std::move(scheduler)),
+      step_(begun_afresh()) {}
 
 ReportHandle Stepper::run(std::uint64_t tag) {
   const FloatingPointScope scope;

@@ -23,7 +23,8 @@ namespace graze {
 /// positions and the published report.
 class Stepper {
  public:
-  Stepper(const SceneSettings& settings, Staging& staging, ReportPool& reports);
+  Stepper(const SceneSettings& settings, std::shared_ptr<TaskScheduler> scheduler, Staging& staging,
+          ReportPool& reports);
 
   /// Whether no recorder sees the steps, or only one that can write no more.
   [[nodiscard]] bool can_attach() const {

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+
+namespace graze {
+
+/// @addtogroup scene
+/// @{
+
+/// Runs the tasks of a scene's steps on threads of the caller's own, in place of oneTBB. Scene takes one, and
+/// any number of scenes may share it. Answers do not depend on it.
+///
+/// @par Threads
+/// Each call may come from any thread, also from one that runs work of start(). Calls of run() for two scenes
+/// may come at the same time.
+class TaskScheduler {
+ public:
+  virtual ~TaskScheduler() = default;
+
+  /// Calls `task(0)`, `task(1)` and so on, `count` calls in all, each once. Returns when all of them have
+  /// returned. The calls may run at the same time or one after the other, in any order and on any thread.
+  ///
+  /// Tasks do not throw, and do not wait for each other. The calling thread should take a part of them, so
+  /// that a step goes on while all other threads are busy. `count` is at most SceneSettings::threads. If this
+  /// throws, no task may be running any more. Then the calling thread does what is left.
+  virtual void run(unsigned count, const std::function<void(unsigned task)>& task) = 0;
+
+  /// Calls `work` once, on another thread, without waiting for it. Scene::step_async() runs its step so.
+  /// `work` does not throw. It calls run(). If this throws, Scene::step_async() throws it too, and `work`
+  /// must not be called.
+  ///
+  /// A scheduler without threads may call `work` before it returns. Then step_async() returns after its step.
+  virtual void start(std::function<void()> work) = 0;
+
+ protected:
+  TaskScheduler() = default;
+  /// Only whole schedulers of one type are copied.
+  TaskScheduler(const TaskScheduler&) = default;
+  /// Only whole schedulers of one type are copied.
+  TaskScheduler& operator=(const TaskScheduler&) = default;
+};
+
+/// @}
+
+}  // namespace graze

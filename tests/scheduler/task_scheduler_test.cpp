@@ -1,0 +1,128 @@
+// Scenes that run their tasks with a scheduler of the caller's: the answers are those of any other.
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <new>
+#include <thread>
+#include <vector>
+
+#include "examples/support/thread_pool.hpp"
+#include "scheduler/moving_scene.hpp"
+#include "scheduler/report_text.hpp"
+#include "support/catch.hpp"
+#include "support/details.hpp"
+
+namespace graze::tests {
+namespace {
+
+constexpr std::size_t frames_of_scheduler = 12;
+
+SceneSettings settings_on(unsigned threads, ContactDetail detail) {
+  SceneSettings settings = settings_of(0.05, 0.25, detail);
+  settings.threads = threads;
+  return settings;
+}
+
+void check_same(const std::vector<ReportHandle>& found, const std::vector<ReportHandle>& expected) {
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t frame = 0; frame < found.size(); ++frame) {
+    INFO("frame " << frame);
+    REQUIRE(difference_of(*found[frame], *expected[frame]) == "");
+  }
+}
+
+/// Has no threads. Calls the tasks from the last to the first, or throws before, amid or after them.
+class WilfulScheduler final : public TaskScheduler {
+ public:
+  enum class Way { backwards, throws_before, throws_amid, throws_after };
+  explicit WilfulScheduler(Way way) : way_(way) {}
+
+  void run(unsigned count, const std::function<void(unsigned task)>& task) override {
+    ++runs;
+    most_tasks = std::max(most_tasks, count);
+    if (way_ == Way::throws_before) throw std::bad_alloc();
+    for (unsigned left = count; left > 0; --left) {
+      if (way_ == Way::throws_amid && left == 1) throw std::bad_alloc();
+      task(left - 1);
+    }
+    if (way_ == Way::throws_after) throw std::bad_alloc();
+  }
+  void start(std::function<void()> work) override {
+    if (way_ != Way::backwards) throw std::bad_alloc();
+    work();
+  }
+
+  std::size_t runs = 0;
+  unsigned most_tasks = 0;
+
+ private:
+  Way way_;
+};
+
+}  // namespace
+
+TEST_CASE("task scheduler: a pool of the caller's and no threads at all give the same reports") {
+  const MovingScene moving;
+  for (const ContactDetail detail : all_details) {
+    const auto expected = moving.play(settings_on(1, detail), frames_of_scheduler);
+    for (const unsigned threads : {2U, 5U, 0U}) {
+      INFO("detail " << static_cast<int>(detail) << ", " << threads << " threads");
+      const SceneSettings settings = settings_on(threads, detail);
+      check_same(moving.play(settings, frames_of_scheduler, std::make_shared<examples::ThreadPool>(3)),
+                 expected);
+      check_same(moving.play(settings, frames_of_scheduler, std::make_shared<examples::SerialScheduler>()),
+                 expected);
+    }
+  }
+}
+
+TEST_CASE("task scheduler: tasks in another order, and a scheduler that throws") {
+  using Way = WilfulScheduler::Way;
+  const MovingScene moving;
+  const auto expected = moving.play(settings_on(1, ContactDetail::features), frames_of_scheduler);
+  for (const Way way : {Way::backwards, Way::throws_before, Way::throws_amid, Way::throws_after}) {
+    INFO("way " << static_cast<int>(way));
+    const auto scheduler = std::make_shared<WilfulScheduler>(way);
+    check_same(moving.play(settings_on(3, ContactDetail::features), frames_of_scheduler, scheduler),
+               expected);
+    CHECK(scheduler->runs > frames_of_scheduler);
+    CHECK(scheduler->most_tasks == 3);
+  }
+}
+
+TEST_CASE("task scheduler: a step that cannot be started throws, and the next one is as ever") {
+  Scene scene(settings_on(2, ContactDetail::features),
+              std::make_shared<WilfulScheduler>(WilfulScheduler::Way::throws_before));
+  CHECK_THROWS_AS(scene.step_async(), std::bad_alloc);
+  CHECK(!scene.is_stepping());
+  CHECK(scene.step()->frame() == 1);
+}
+
+TEST_CASE("task scheduler: steps that are started run on the pool, or before the call returns") {
+  const auto pool = std::make_shared<examples::ThreadPool>(1);
+  Scene beside(settings_on(2, ContactDetail::features), pool);
+  Scene inside(settings_on(2, ContactDetail::features), std::make_shared<examples::SerialScheduler>());
+  for (std::uint64_t frame = 1; frame < 20; ++frame) {
+    beside.step_async(frame);
+    inside.step_async(10 * frame);
+    CHECK(!inside.is_stepping());
+    CHECK(inside.wait()->tag() == 10 * frame);
+    CHECK(beside.wait()->tag() == frame);
+  }
+}
+
+TEST_CASE("task scheduler: scenes in several threads share one pool") {
+  const MovingScene moving;
+  const auto expected = moving.play(settings_on(1, ContactDetail::features), frames_of_scheduler);
+  const auto pool = std::make_shared<examples::ThreadPool>(2);
+  std::array<std::vector<ReportHandle>, 3> found;
+  std::vector<std::thread> threads;
+  for (std::vector<ReportHandle>& reports : found)
+    threads.emplace_back(
+        [&] { reports = moving.play(settings_on(4, ContactDetail::features), frames_of_scheduler, pool); });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::vector<ReportHandle>& reports : found) check_same(reports, expected);
+}
+
+}  // namespace graze::tests

@@ -1,0 +1,94 @@
+#include "examples/support/thread_pool.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace examples {
+namespace {
+
+/// The tasks of one call of run(). Threads that come when all tasks have begun find nothing left, and touch
+/// nothing of the call, which may have returned.
+class Batch {
+ public:
+  Batch(const std::function<void(unsigned task)>& task, unsigned count) : task_(task), count_(count) {}
+
+  void help() {
+    for (unsigned index = next_.fetch_add(1); index < count_; index = next_.fetch_add(1)) {
+      task_(index);
+      if (ended_.fetch_add(1) + 1 == count_) ended_.notify_all();
+    }
+  }
+  void wait() const {
+    for (unsigned now = ended_.load(); now < count_; now = ended_.load()) ended_.wait(now);
+  }
+
+ private:
+  const std::function<void(unsigned task)>& task_;
+  unsigned count_;
+  std::atomic<unsigned> next_{0};
+  std::atomic<unsigned> ended_{0};
+};
+
+}  // namespace
+
+struct ThreadPool::State {
+  std::mutex mutex;  // guards the two below
+  std::deque<std::function<void()>> queue;
+  bool is_closed = false;
+  std::condition_variable changed;
+  std::vector<std::thread> threads;
+
+  void work() {
+    std::unique_lock lock(mutex);
+    while (true) {
+      changed.wait(lock, [this] { return is_closed || !queue.empty(); });
+      if (queue.empty()) return;
+      const std::function<void()> first = std::move(queue.front());
+      queue.pop_front();
+      lock.unlock();
+      first();
+      lock.lock();
+    }
+  }
+};
+
+ThreadPool::ThreadPool(unsigned threads) : state_(std::make_unique<State>()) {
+  for (unsigned i = 0; i < threads; ++i) state_->threads.emplace_back([this] { state_->work(); });
+}
+
+ThreadPool::~ThreadPool() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->is_closed = true;
+  }
+  state_->changed.notify_all();
+  for (std::thread& thread : state_->threads) thread.join();
+}
+
+void ThreadPool::run(unsigned count, const std::function<void(unsigned task)>& task) {
+  const auto batch = std::make_shared<Batch>(task, count);
+  const auto helpers = std::min<std::size_t>(count - 1, state_->threads.size());
+  {
+    const std::lock_guard lock(state_->mutex);
+    for (std::size_t i = 0; i < helpers; ++i) state_->queue.emplace_back([batch] { batch->help(); });
+  }
+  state_->changed.notify_all();
+  batch->help();
+  batch->wait();
+}
+
+void ThreadPool::start(std::function<void()> work) {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->queue.push_back(std::move(work));
+  }
+  state_->changed.notify_one();
+}
+
+}  // namespace examples

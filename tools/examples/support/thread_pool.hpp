@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <graze/task_scheduler.hpp>
+#include <memory>
+
+namespace examples {
+
+/// A plain pool of threads, as a program may have one of its own. All of its threads take work from one
+/// queue. Any number of scenes may share it.
+class ThreadPool final : public graze::TaskScheduler {
+ public:
+  /// Starts `threads` threads. With the thread that steps, so many threads and one more run tasks.
+  explicit ThreadPool(unsigned threads);
+  /// Waits for the work that was begun.
+  ~ThreadPool() override;
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  void run(unsigned count, const std::function<void(unsigned task)>& task) override;
+  void start(std::function<void()> work) override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// No threads at all: everything runs on the thread that calls, for programs that have but one.
+class SerialScheduler final : public graze::TaskScheduler {
+ public:
+  void run(unsigned count, const std::function<void(unsigned task)>& task) override {
+    for (unsigned index = 0; index < count; ++index) task(index);
+  }
+  void start(std::function<void()> work) override { work(); }
+};
+
+}  // namespace examples
