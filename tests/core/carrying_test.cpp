@@ -120,7 +120,7 @@ bool push_alike(const Contact& left, const Contact& right) {
   return left.push().dot(right.push()) > 0.898794;
 }
 
-/// Of those that were listed and are deep enough, or of all, the one that is deepest; of those that are about
+/// Of those that were listed and are deep enough, or of all, the one that is deepest. Of those that are about
 /// as deep, the one that is farthest from the middle of all.
 template <typename WasListed>
 Contact leader_of(const std::vector<Contact>& all, const WasListed& was_listed, double band) {

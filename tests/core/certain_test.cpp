@@ -56,7 +56,7 @@ struct Tally {
   std::array<std::size_t, 9> places{};
 };
 
-/// On a grid many questions have the answer zero, and of needles plain double knows little; elsewhere it is
+/// On a grid many questions have the answer zero, and of needles plain double knows little. Elsewhere it is
 /// certain of nearly all.
 std::size_t least_percent(std::uint64_t family) {
   if (family == Generator::grid || family == Generator::nearly_grid) return 10;

@@ -46,7 +46,7 @@ std::vector<Feature> features_of(const Placed& of) {
   return features;
 }
 
-/// Whether the closest points of a vertex and something, or of two edges, are inside both; for generic
+/// Whether the closest points of a vertex and something, or of two edges, are inside both, for generic
 /// positions.
 bool is_interior(const Placed& a, const Feature& feature_a, const Placed& b, const Feature& feature_b) {
   if (feature_a.kind > feature_b.kind) return is_interior(b, feature_b, a, feature_a);

@@ -24,8 +24,8 @@ using oracle::Random;
 
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
-/// Any double up to 2^120: zero, denormals, powers of two and full mantissas; often near one another, so that
-/// sums cancel.
+/// Any double up to 2^120: zero, denormals, powers of two and full mantissas. They are often near one
+/// another, so that sums cancel.
 double wild(Random& random) {
   const std::uint32_t form = random.below(10);
   if (form == 0) return 0;

@@ -162,8 +162,8 @@ void check_voronois(const AnyPairs& pairs, VoronoiTally& tally) {
   }
 }
 
-/// Asks for the place of each pair that is certain at just its distance and a little nearer and further;
-/// `late` further float is certain again.
+/// Asks for the place of each pair that is certain at just its distance and a little closer and further.
+/// `late` further, float is certain again.
 template <typename AnyPairs>
 void check_distances(const AnyPairs& pairs, VoronoiTally& tally) {
   const FilterFrame frame = pairs.frame();
@@ -259,7 +259,7 @@ std::size_t least_percent(std::size_t family) {
 // ---- Features whose closest points are where one place ends
 
 /// Pairs of features whose closest points are just where one place ends and another begins, but for about as
-/// much as float is off; on a grid exactly there.
+/// much as float is off. On a grid they are exactly there.
 class Borders {
  public:
   Borders(bool is_on_grid, std::uint64_t seed) : is_on_grid_(is_on_grid), random_(seed) {}
@@ -309,7 +309,7 @@ class Borders {
     return {{first, first + u}, {other, other + v}};
   }
 
-  /// Through a corner, a side or the inside; to there, or beyond.
+  /// Through a corner, a side or the inside, to there or beyond.
   std::pair<Corner<2>, Corner<3>> segment_and_triangle() {
     const Corner<3> corner{vector(), vector(), vector()};
     const std::size_t i = random_.below(3);
@@ -346,7 +346,7 @@ class Borders {
 TEST_CASE(
     "float Voronoi regions: the error of a difference is more than the analysis of docs/numerics.md needs") {
   // In units of 2^-24 and of a feature's size: of each corner's conversion 1, and 2 for the subtraction of
-  // coordinates whose difference is at most twice as large; times the root of 3.
+  // coordinates whose difference is at most twice as large. All that is times the root of 3.
   CHECK((1 + 1 + 2) * std::sqrt(3.0) < double{kernels::error_of_difference} / 0x1p-24);
   CHECK(double{kernels::error_of_difference} / 0x1p-24 >= 7);  // as in the sums that follow from it
 }

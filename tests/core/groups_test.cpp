@@ -74,7 +74,7 @@ Grouping random_grouping(Random& random, const Shape& a, const Shape& b) {
   return grouping;
 }
 
-/// Describes how an answer differs from brute force; empty if it does not.
+/// Describes how an answer differs from brute force. Empty if it does not.
 std::string difference_of(ContactDetail detail, const PairAnswer& answer, const Expected& expected,
                           const Tolerance& tolerance) {
   std::string text = tests::difference_of(answer.contacts, expected.contacts, tolerance);

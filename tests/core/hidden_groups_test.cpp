@@ -97,7 +97,7 @@ class PairFilterOf {
   bool is_plain_;
 };
 
-/// Describes how an answer differs from brute force in a detail other than `nearest`; empty if it does not.
+/// Describes how an answer differs from brute force in a detail other than `nearest`. Empty if it does not.
 std::string difference_of(const PairAnswer& answer, const Expected& expected, const Tolerance& tolerance) {
   std::string text = tests::difference_of(answer.contacts, expected.contacts, tolerance);
   text += tests::difference_of(answer.distance, answer.witness, expected.distance, tolerance);

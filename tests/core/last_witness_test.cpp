@@ -47,7 +47,7 @@ FeaturePiece random_piece(const IndexedMesh& mesh, Random& random) {
   }
 }
 
-/// The way from a point's first corner to it, exactly but for long double; shares that are more than 1 in all
+/// The way from a point's first corner to it, exactly but for long double. Shares that are more than 1 in all
 /// are brought to 1.
 Vector way_to(const Surface& surface, const SurfacePoint& on) {
   std::array<Real, 2> share{static_cast<Real>(on.share[0]), static_cast<Real>(on.share[1])};
@@ -152,7 +152,7 @@ TEST_CASE("last witness: what an earlier step left does not show in an answer") 
       PairDetector detector;
       for (std::uint64_t step = 0; step < 24; ++step) {
         Random random(step);
-        // Small steps, jumps, through each other and away; both in one place at times.
+        // Small steps, jumps, through each other and away, both in one place at times.
         const double away = step % 6 == 5 ? random.between(-40, 40) : random.between(0, 2.2);
         REQUIRE(a.set_positions(wobbled(moves.a, 0.05, step).positions).taken());
         REQUIRE(

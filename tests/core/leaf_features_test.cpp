@@ -1,4 +1,4 @@
-// A leaf's features are laid out from its vertices, each brought into the frame once; here every corner is
+// A leaf's features are laid out from its vertices, each brought into the frame once. Here every corner is
 // brought there by itself.
 
 #include "leaves/leaf_features.hpp"

@@ -103,7 +103,7 @@ Real gap_along(const Vector& direction, const Leaf& a, const Leaf& b) {
   return std::max(low_a - high_b, low_b - high_a) / direction.norm();
 }
 
-/// Whether they are said to be apart; if so, the normal of one separates them.
+/// Whether they are said to be apart. If so, the normal of one separates them.
 bool check_apart(const Leaf& a, const Leaf& b, double distance) {
   if (!are_apart(a.slab, b.slab, b.middle - a.middle, distance)) return false;
   const Real gap =

@@ -1,5 +1,5 @@
 // Whole meshes at several distances against the oracle: the paper's models, and real ones where there are
-// any. Apart, near, touching exactly, interpenetrating; at rest and deformed.
+// any. They are apart, near, touching exactly or interpenetrating, at rest and deformed.
 
 #include <cmath>
 #include <filesystem>
@@ -32,8 +32,8 @@ struct Tally {
   }
 };
 
-/// A pair with b apart from a, near it, touching it and in it; touching at rest on a grid, where it is exact,
-/// else deformed.
+/// A pair with b apart from a, near it, touching it and in it. It touches at rest on a grid, where that is
+/// exact, and else deformed.
 void check_distances(const Shape& a, const Shape& b, Tally& tally) {
   constexpr double threshold = 0.06;
   const Shape rest_a = snapped(a, 0x1p-20);

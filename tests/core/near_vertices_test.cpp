@@ -38,7 +38,7 @@ void for_each_pair(const Surface& a, const Surface& b, const Visit& visit) {
       if (a.mesh().is_used(i) && b.mesh().is_used(j)) visit(i, j, (a.position(i) - b.position(j)).norm());
 }
 
-/// All pairs nearer than the limit; distances are far enough from it that rounding does not matter, or exact.
+/// All pairs closer than the limit. Distances are far enough from it that rounding does not matter, or exact.
 VertexPairs close_pairs(const Surface& a, const Surface& b, double limit) {
   VertexPairs pairs;
   for_each_pair(a, b, [&](std::uint32_t i, std::uint32_t j, double distance) {

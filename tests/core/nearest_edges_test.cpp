@@ -37,7 +37,7 @@ constexpr std::uint64_t edge_part_count = 4;
 constexpr std::uint64_t edge_scenes = repeats(5'000) / edge_part_count;
 constexpr std::uint64_t edge_plays = repeats(100);
 
-/// Two groups on each side, of which some are ignored against each other; or none.
+/// Two groups on each side, of which some are ignored against each other, or none.
 class RandomGroups {
  public:
   RandomGroups(const CreaseScene& scene, Random& random, double chance) {
@@ -54,7 +54,7 @@ class RandomGroups {
   }
 
   [[nodiscard]] const FacePairs& pairs() const { return pairs_; }
-  /// The filter of the library; none where all faces are looked at.
+  /// The filter of the library, or none where all faces are tested.
   [[nodiscard]] std::optional<GroupFilter> filter(const Surface& a, const Surface& b) const {
     if (a_.empty()) return std::nullopt;
     GroupFilter made(std::make_shared<const FaceGroups>(a.mesh(), a_),

@@ -69,7 +69,7 @@ std::string nearest_fault(const TwoShapes& scene) {
   return nearest_difference(answer, expected, {scene.a, scene.b}) + difference_with_front(scene, expected);
 }
 
-/// Compares the scene of a seed; one that differs is reduced.
+/// Compares the scene of a seed. One that differs is reduced.
 void check_nearest(std::uint64_t seed) {
   const oracle::RandomScene given = oracle::random_scene(seed);
   const TwoShapes scene{given.a, given.b, given.threshold};
@@ -86,7 +86,7 @@ std::string real_mesh_path(const std::string& file) {
   return {};
 }
 
-/// Compares at four distances; the largest is `apart` and `further`. Returns how many contacts that were.
+/// Compares at four distances. The largest is `apart` and `further`. Returns how many contacts that were.
 std::size_t check_at_four_distances(const oracle::Shape& a, const oracle::Shape& b, double further) {
   const double apart = oracle::surface_distance(a, b).distance_up;
   std::size_t contacts = 0;

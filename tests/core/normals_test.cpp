@@ -39,7 +39,7 @@ bool is(const Contact& contact, ContactKind kind, const Vector3d& normal) {
   return contact.kind == kind && (contact.normal - normal).norm() < 1e-14;
 }
 
-/// Wound the other way; a quad keeps its first corner, and so its inner diagonal.
+/// Wound the other way. A quad keeps its first corner, and so its inner diagonal.
 Shape reversed(Shape shape) {
   for (auto& face : shape.faces) std::reverse(face.begin() + 1, face.end());
   return shape;
@@ -52,7 +52,7 @@ Shape dart(const Vector3d& tip) {
   return reversed(shape);
 }
 
-/// A triangle without area from p to q; its third corner is q again or the middle.
+/// A triangle without area from p to q. Its third corner is q again or the middle.
 Shape sliver(const Vector3d& p, const Vector3d& q) {
   return triangle(p, q, (p + q) / 2);
 }
@@ -72,14 +72,14 @@ Vector3d normal_of(const Shape& shape, const Triangle& t) {
   return across.norm() < 1e-12 ? Vector3d::Zero() : Vector3d(across.normalized());
 }
 
-/// Whether one of a face's sides joins two vertices; a quad's inner diagonal does not.
+/// Whether one of a face's sides joins two vertices. A quad's inner diagonal does not.
 bool runs_along(const std::vector<std::uint32_t>& face, std::uint32_t low, std::uint32_t high) {
   for (std::size_t i = 0; i < face.size(); ++i)
     if (std::minmax(face[i], face[(i + 1) % face.size()]) == std::minmax(low, high)) return true;
   return false;
 }
 
-/// The angle-weighted normal of a feature by plain formulas over all triangles of the shape; nothing for a
+/// The angle-weighted normal of a feature by plain formulas over all triangles of the shape. Nothing for a
 /// face that is not flat.
 std::optional<Vector3d> averaged(const Shape& shape, const Feature& feature) {
   Vector3d sum = Vector3d::Zero();
@@ -112,7 +112,7 @@ std::optional<Vector3d> averaged(const Shape& shape, const Feature& feature) {
   return sum;
 }
 
-/// The contract's normal at distance 0; nothing where plain formulas cannot be sure.
+/// The contract's normal at distance 0. Nothing where plain formulas cannot be sure.
 std::optional<Vector3d> touching_normal(const Shape& a, const Shape& b, const Contact& contact) {
   constexpr double tiny = 1e-6;
   const auto of_a = averaged(a, contact.feature_a);

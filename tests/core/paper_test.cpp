@@ -58,7 +58,7 @@ struct Indexed {
   std::vector<std::set<std::uint32_t>> neighbours;  ///< each vertex itself included
 };
 
-/// The paper's method by recursion over pairs of regions; the order does not matter to the set it reaches.
+/// The paper's method by recursion over pairs of regions. The order does not matter to the set it reaches.
 class NaivePaper {
  public:
   NaivePaper(const Indexed& a, const Indexed& b, std::vector<double> epsilon, double threshold)

@@ -39,7 +39,7 @@ Points moved_by(const Mesh& mesh, const Eigen::Vector3d& offset) {
   return points;
 }
 
-/// The message of the Error that a call throws; empty if it throws none.
+/// The message of the Error that a call throws. Empty if it throws none.
 std::string refusal_of(const std::function<void()>& call) {
   try {
     call();

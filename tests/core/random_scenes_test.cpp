@@ -30,7 +30,7 @@ void count(oracle::Coverage& coverage, const oracle::RandomScene& scene) {
                  oracle::surface_distance(scene.a, scene.b));
 }
 
-/// Compares the scene of a seed and returns how many contacts that were; one that differs is reduced.
+/// Compares the scene of a seed and returns how many contacts that were. One that differs is reduced.
 std::size_t check(std::uint64_t seed, const oracle::RandomScene& scene) {
   const Comparison comparison = compare(scene.a, scene.b, scene.threshold);
   if (!comparison.difference.empty())

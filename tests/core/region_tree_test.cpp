@@ -96,7 +96,7 @@ bool same(const Box& box, const Box& other) {
   return box.min == other.min && box.max == other.max;
 }
 
-/// Radii and boxes at `now` against recomputation; radii are sums of three squares, so a few 2^-53 off.
+/// Radii and boxes at `now` against recomputation. Radii are sums of three squares, so a few 2^-53 off.
 void check_bounds(const Surface& surface, const std::vector<oracle::OracleRegion>& expected,
                   const std::vector<Listed>& regions, const std::vector<Vector3d>& now) {
   const IndexedMesh& mesh = surface.mesh();

@@ -82,7 +82,7 @@ Eigen::Vector3d sum_of(const RoughNormal& rough) {
   return Eigen::Map<const Eigen::Vector3d>(rough.sum);
 }
 
-/// Whether a rough normal is known; if so, it is compared.
+/// Whether a rough normal is known. If so, it is compared.
 bool check(const RoughNormal& rough, const Vector& sum) {
   if (std::isinf(rough.error)) return false;
   REQUIRE((sum_of(rough).cast<Real>() - sum).norm() <= rough.error);

@@ -34,13 +34,13 @@ oracle::Shape turned(oracle::Shape shape, std::uint64_t seed);
 oracle::Shape placed_beside(oracle::Shape shape, const oracle::Shape& other, int axis, double gap);
 
 /// Faces of 3 or 4 corners drawn at random from `vertex_count` vertices, some of them unused and NaN, in a
-/// unit cube; on a grid of quarters for odd seeds.
+/// unit cube, on a grid of quarters for odd seeds.
 oracle::Shape random_soup(std::uint64_t seed, std::uint32_t vertex_count, std::uint32_t face_count);
 
 oracle::Shape triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r);
 oracle::Shape quad(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
                    const Eigen::Vector3d& s);
-/// A closed box of quads wound outward; corner i is at the upper end of axis k where bit k of i is set.
+/// A closed box of quads wound outward. Corner i is at the upper end of axis k where bit k of i is set.
 oracle::Shape box(const Eigen::Vector3d& low, const Eigen::Vector3d& size);
 
 struct NamedShape {

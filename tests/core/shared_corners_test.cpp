@@ -27,7 +27,7 @@ std::vector<std::uint32_t> used_vertices(const Shape& shape) {
   return used;
 }
 
-/// A surface on another: some faces are copies, turned or reversed; other corners are corners of the other,
+/// A surface on another: some faces are copies, turned or reversed. Other corners are corners of the other,
 /// rounded middles of two, or anywhere.
 Shape laid_on(const Shape& other, Random& random) {
   const std::vector<std::uint32_t> used = used_vertices(other);

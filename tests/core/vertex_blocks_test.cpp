@@ -1,4 +1,4 @@
-// Blocks of vertices and their boxes, beside going through all vertices; and the kernels over them, beside
+// Blocks of vertices and their boxes, beside going through all vertices. Then the kernels over them, beside
 // plain loops in the same arithmetic.
 
 #include <algorithm>
@@ -67,7 +67,7 @@ float about(double coordinate, double origin) {
   return static_cast<float>(static_cast<Number>(coordinate) - static_cast<Number>(origin));
 }
 
-/// Every box of every level; those behind the last are empty. How many.
+/// Every box of every level. Those behind the last are empty. Returns how many there are.
 template <typename Number>
 std::size_t check_boxes(const Surface& surface) {
   const VertexBlocks& blocks = surface.blocks();
@@ -164,7 +164,7 @@ TEST_CASE("vertex blocks: boxes of every level are those of their vertices") {
 
 namespace {
 
-/// Boxes of stretches of so many random points; how many.
+/// Boxes of stretches of so many random points. Returns how many.
 template <typename Number>
 std::size_t check_stretches(std::uint64_t seed, std::size_t count) {
   Random random(seed);

@@ -106,7 +106,7 @@ double highest_of(const Shape& shape, const Vector3d& direction) {
   return highest;
 }
 
-/// How a way out differs from brute force; empty if it does not.
+/// How a way out differs from brute force. Empty if it does not.
 std::string difference_of(const WayOut& way, const Shape& a, const Shape& b, Solids solids, bool crosses,
                           const oracle::Contour& truth) {
   constexpr double tolerance = 1e-6;

@@ -156,7 +156,7 @@ double size_of(const std::vector<Eigen::Vector3d>& positions) {
 
 void check_against_oracle(const std::filesystem::path& path) {
   Assimp::Importer importer;
-  // Coordinates are taken as they stand; left alone, assimp turns COLLADA files until y points up.
+  // Coordinates are taken as they stand. Left alone, assimp turns COLLADA files until y points up.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   REQUIRE(scene != nullptr);

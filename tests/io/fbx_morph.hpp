@@ -3,7 +3,7 @@
 namespace graze::tests {
 
 /// A quad at x = 10 in text FBX. Its morph target "lift" raises corner 0 by 4 as its weight goes from 0 to 1
-/// in two seconds; its target "pull" moves corner 1 and has no keys.
+/// in two seconds. Its target "pull" moves corner 1 and has no keys.
 inline constexpr const char* fbx_morph = R"(; FBX 7.4.0 project file
 FBXHeaderExtension:  {
  FBXHeaderVersion: 1003

@@ -54,7 +54,8 @@ std::string gltf() {
       R"("nodes":[{"name":"arm","mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])");
 }
 
-/// `node_name` is the attribute of the node; empty: it has none, and its geometry's name counts.
+/// `node_name` is the attribute of the node. If it is empty, the node has none, and its geometry's name
+/// counts.
 std::string dae(const std::string& up, const std::string& metres, const std::string& node_name) {
   return R"(<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -128,7 +129,7 @@ std::string ase() {
   return text + "}\n}\n}\n";
 }
 
-/// Each format with other axes and units; the numbers are the same.
+/// Each format with other axes and units. The numbers are the same.
 std::vector<std::pair<std::string, std::string>> arms() {
   return {{"arm.obj", obj()},
           {"arm.stl", stl()},
@@ -303,7 +304,7 @@ TEST_CASE("poses are degrees, quaternions or matrices") {
     CHECK(largest_difference(positions("\"transform\": {" + way + "}"), expected) < tolerance);
     CHECK(largest_difference(positions(R"("poses": [{"frame": 0, )" + way + "}]"), expected) < tolerance);
   }
-  // A matrix of a transform may scale and mirror; the mesh then stays right side out.
+  // A matrix of a transform may scale and mirror. The mesh then stays right side out.
   const Player mirrored = play(
       folder,
       R"("mesh": "arm.obj", "transform": {"matrix": [[0, 2, 0, 0], [1, 0, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]})");

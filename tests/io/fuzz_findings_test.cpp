@@ -15,7 +15,7 @@ namespace io = graze::io;
 
 namespace {
 
-/// The message with which `read` refuses its input; empty when it takes it.
+/// The message with which `read` refuses its input. Empty when it takes it.
 template <typename Read>
 std::string message_of(Read read) {
   try {
@@ -30,7 +30,7 @@ bool is_one_line(const std::string& message) {
   return !message.empty() && message.find_first_of("\r\n") == std::string::npos;
 }
 
-/// A report of one frame with one pair; `a` is the pair's first object, `expanded` what stands for the
+/// A report of one frame with one pair. `a` is the pair's first object, and `expanded` what stands for the
 /// levels.
 std::string report(const std::string& a, const std::string& expanded) {
   const std::string witness =

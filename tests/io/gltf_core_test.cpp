@@ -102,7 +102,7 @@ TEST_CASE("glTF cubic splines go through their keys by their tangents") {
   GltfBuffer buffer;
   buffer.add("VEC3", triangle);
   const auto times = buffer.add("SCALAR", {0, 2});
-  // In tangent, value, out tangent of each key; those at the ends play no part.
+  // In tangent, value, out tangent of each key. Those at the ends play no part.
   const auto places = buffer.add("VEC3", {9, 9, 9, 1, 0, 0, 0, 3, 0, -1, 0, 0, 5, 0, 8, 9, 9, 9});
   const auto file =
       read_gltf_text(buffer.gltf(all_nodes(1) + R"("nodes":[{"mesh":0}],)" + one_mesh(R"("POSITION":0)") +

@@ -11,7 +11,7 @@ namespace {
 constexpr float half_turn_cosine = 0.70710678F;  // of 45 degrees, for rotations by 90
 
 /// A rod along y of three cross edges at heights 0, 1 and 2, each vertex given twice as at a seam. The lower
-/// joint stands at the origin, the upper at height 1; the middle edge hangs on both by halves.
+/// joint stands at the origin, the upper at height 1. The middle edge hangs on both by halves.
 struct Rod {
   GltfBuffer buffer;
   std::string mesh;
@@ -204,7 +204,7 @@ TEST_CASE("glTF nodes place, name and move their meshes; primitives of one mesh 
   const std::string animation =
       R"({"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}],"samplers":[{"input":)" +
       times + R"(,"output":)" + moves + "}]}";
-  // Node 0 turns by 90 degrees about z and scales by 2; node 1 is moved below it; node 2 stands apart.
+  // Node 0 turns by 90 degrees about z and scales by 2. Node 1 is moved below it. Node 2 stands apart.
   const std::string nodes =
       R"({"children":[1],"scale":[2,2,2],"rotation":[0,0,0.70710678118654752,0.70710678118654752]},)"
       R"({"name":"moved","mesh":0,"translation":[3,0,0]},{"name":"moved","mesh":0})";

@@ -16,15 +16,15 @@ namespace graze::tests {
 
 using Corners = std::vector<std::uint32_t>;
 
-/// A file of the shared data; of assimp's test models.
+/// A file of the shared data, or of assimp's test models.
 std::filesystem::path shared_file(const std::string& name);
 std::filesystem::path assimp_model(const std::string& name);
-/// Whether a test must be skipped; says so once for each file.
+/// Whether a test must be skipped. Says so once for each file.
 bool is_missing(const std::filesystem::path& file);
 
 /// The faces as the mesh has them.
 std::vector<Corners> faces_of(const Mesh& mesh);
-/// The message with which `MeshFile::read` refuses a file; empty when it reads it. Fails the test for any
+/// The message with which `MeshFile::read` refuses a file. Empty when it reads it. Fails the test for any
 /// exception that is no InputError, and for a message of several lines or without the file's name.
 std::string refusal_of(const std::filesystem::path& file);
 /// The largest distance between two positions of one number.

@@ -63,7 +63,7 @@ class DecodedPage {
   [[nodiscard]] const DecodedTable& mesh(std::size_t number) const;
   /// The report of the block that has a frame, and the frame's index in it.
   [[nodiscard]] std::pair<const DecodedTable*, std::size_t> report(std::uint64_t frame) const;
-  /// The place of an object in a frame; nothing where no track of the frame's block has it.
+  /// The place of an object in a frame. Nothing where no track of the frame's block has it.
   [[nodiscard]] std::optional<DecodedShape> shape(std::size_t object, std::uint64_t frame) const;
   /// How often the track of an object in a block has a new position.
   [[nodiscard]] std::vector<std::uint64_t> track_frames(std::size_t object, std::uint64_t block) const;

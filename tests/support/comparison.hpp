@@ -45,12 +45,12 @@ Expected expected_of(const oracle::Shape& a, const oracle::Shape& b, double thre
 /// Whether a pair is strictly closer than `reach`, decided exactly.
 bool is_within(const oracle::Pair& distance, double reach);
 
-/// Describes how contacts differ from the oracle's; empty if they do not. They differ if the set is another,
+/// Describes how contacts differ from the oracle's. Empty if they do not. They differ if the set is another,
 /// or if a value is off by more than the contract allows.
 std::string difference_of(std::span<const Contact> contacts, const std::vector<oracle::Named>& expected,
                           const Tolerance& tolerance);
 
-/// Describes how the bounds and the witness of a pair in exact mode differ from the oracle's; empty if they
+/// Describes how the bounds and the witness of a pair in exact mode differ from the oracle's. Empty if they
 /// do not. The bounds must be the true distance rounded down and up, and the witness must realise it.
 std::string difference_of(const DistanceBounds& distance, const Witness& witness,
                           const oracle::Pair& expected, const Tolerance& tolerance);

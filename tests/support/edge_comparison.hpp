@@ -15,7 +15,7 @@ std::vector<oracle::EdgePair> edge_pairs_of(const oracle::Shape& a, const oracle
                                             const oracle::Creases& creases,
                                             const oracle::FacePairs& pairs = {});
 
-/// Describes how the contacts of kind EE of `nearest` or `features` differ from the oracle's; empty if they
+/// Describes how the contacts of kind EE of `nearest` or `features` differ from the oracle's. Empty if they
 /// do not. Compared are the set, sides, whether they are sunk, separation and push.
 std::string edge_difference(ContactDetail detail, std::span<const Contact> contacts,
                             const std::vector<oracle::EdgePair>& expected, const Tolerance& tolerance);

@@ -43,7 +43,7 @@ inline Point exact(const Eigen::Vector3d& p) {
 
 enum class Rounding { down, nearest, up };
 
-/// The double next to `value` in the direction given; nearest breaks ties to even. Subnormals included.
+/// The double next to `value` in the direction given. Nearest breaks ties to even. Subnormals included.
 double round(const Rational& value, Rounding rounding = Rounding::nearest);
 Eigen::Vector3d round(const Point& point);
 

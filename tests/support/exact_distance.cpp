@@ -7,7 +7,7 @@ namespace graze::oracle {
 
 namespace {
 
-/// Keeps the nearer foot; on a tie the lower feature, then the one kept before.
+/// Keeps the closer foot. On a tie it is the lower feature, then the one kept before.
 void keep_nearer(Foot& best, Foot candidate) {
   const int order = cmp(candidate.distance_squared, best.distance_squared);
   if (order < 0 || (order == 0 && candidate.feature < best.feature)) best = std::move(candidate);
@@ -18,7 +18,7 @@ Foot foot_on_vertex(const Point& point, const ExactShape& shape, std::uint32_t v
   return {{FeatureKind::vertex, vertex}, corner, squared_length(point - corner)};
 }
 
-/// The foot of a point on a segment; none if it is not between the ends.
+/// The foot of a point on a segment. None if it is not between the ends.
 std::optional<Foot> foot_inside_segment(const Point& point, const ExactShape& shape, const Segment& segment) {
   const Point& start = shape.points[segment.ends[0]];
   const Point along = shape.points[segment.ends[1]] - start;

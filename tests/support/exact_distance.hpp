@@ -14,11 +14,11 @@ struct Foot {
   Rational distance_squared;
 };
 
-/// The closest point of a face, both triangles and the diagonal included; ties to the lowest dimension, the
-/// lowest index, the first triangle.
+/// The closest point of a face, both triangles and the diagonal included. Ties go to the lowest dimension,
+/// the lowest index, the first triangle.
 Foot foot_on_face(const Point& point, const ExactShape& shape, std::uint32_t face);
 
-/// The closest point of a segment; a segment without length is its first end.
+/// The closest point of a segment. A segment without length is its first end.
 Foot foot_on_segment(const Point& point, const ExactShape& shape, const Segment& segment);
 
 /// A point on each of two segments, and the features that hold them.
@@ -27,12 +27,12 @@ struct SegmentContact {
   Foot b;
 };
 
-/// The closest points of two segments where they are unique and inside both; the features are the owners.
+/// The closest points of two segments where they are unique and inside both. The features are the owners.
 std::optional<SegmentContact> inner_contact(const ExactShape& a, const Segment& segment_a,
                                             const ExactShape& b, const Segment& segment_b);
 
-/// The pairs of an end of one segment and its foot on the other that are nearest of all: for parallel
-/// segments the ends of their common stretch. Not empty; the distance is that of the segments unless they
+/// The pairs of an end of one segment and its foot on the other that are closest of all: for parallel
+/// segments the ends of their common stretch. Not empty. The distance is that of the segments unless they
 /// have an inner contact.
 std::vector<SegmentContact> end_contacts(const ExactShape& a, const Segment& segment_a, const ExactShape& b,
                                          const Segment& segment_b);

@@ -19,7 +19,7 @@ Extent extent_of(const Shape& shape, std::span<const std::uint32_t> vertices);
 /// A limit on distances, and what doubles need to discard pairs soundly.
 class Limit {
  public:
-  static Limit below(double threshold);                  ///< strictly closer; nothing for 0 or less
+  static Limit below(double threshold);                  ///< strictly closer, nothing for 0 or less
   static Limit up_to(const Rational& distance_squared);  ///< as close, or closer
   static Limit none();                                   ///< every distance
 
@@ -49,13 +49,13 @@ struct Segment {
   [[nodiscard]] bool is_edge() const { return owner.kind == FeatureKind::edge; }
 };
 
-/// Which side of a triangle (from corner i to i+1) is the inner diagonal of its quad; `no_side` for none.
+/// Which side of a triangle (from corner i to i+1) is the inner diagonal of its quad, or `no_side` for none.
 struct Triangle {
   static constexpr int no_side = 3;
 
   std::array<std::uint32_t, 3> corners{};
   int inner_side = no_side;
-  Point normal;  ///< by the winding, not of unit length; zero for a degenerate triangle
+  Point normal;  ///< by the winding, not of unit length, zero for a degenerate triangle
 };
 
 struct Face {

@@ -48,7 +48,7 @@ template <typename Integer>
 struct Seen {
   std::array<Vector<Integer>, 3> planes;  ///< normals of the planes through the origin and each side
   Vector<Integer> normal;                 ///< their sum: that of the triangle, by its winding
-  int height_sign = 0;                    ///< of normal · corner; 0: the origin is in the triangle's plane
+  int height_sign = 0;  ///< of normal · corner. With 0 the origin is in the triangle's plane
 };
 
 template <typename Integer>
@@ -102,7 +102,7 @@ Vector<Integer> random_direction(Random& random) {
   return direction;
 }
 
-/// The winding number about the origin; none if the direction is no good.
+/// The winding number about the origin. None if the direction is no good.
 template <typename Integer>
 std::optional<int> count(const std::vector<Seen<Integer>>& all, const Vector<Integer>& direction) {
   int number = 0;

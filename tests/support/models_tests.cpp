@@ -43,7 +43,7 @@ std::size_t edge_count(const MeshData& mesh) {
   return edges.size();
 }
 
-/// Every side runs once, and once the other way; the faces around every vertex form one ring.
+/// Every side runs once, and once the other way. The faces around every vertex form one ring.
 void check_closed_manifold(const MeshData& mesh) {
   const auto sides = sides_of(mesh);
   for (const auto& [side, count] : sides) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 /// Brute force over every pair of features, decided in exact rational arithmetic. Shares nothing with the
-/// library but the names of its enumerations; a test compares the library's sets and values with these.
+/// library but the names of its enumerations. A test compares the library's sets and values with these.
 /// Doubles discard only what is certainly too far. Every function is a pure function of its arguments.
 namespace graze::oracle {
 
@@ -43,7 +43,7 @@ class FacePairs {
  private:
   std::array<std::vector<std::vector<std::uint32_t>>, 3> a_;  ///< by kind and index: the faces of a feature
   std::array<std::vector<std::vector<std::uint32_t>>, 3> b_;
-  std::vector<std::vector<bool>> looked_at_;  ///< by face and face; empty if all are
+  std::vector<std::vector<bool>> looked_at_;  ///< by face and face, empty if all are
 };
 
 /// One contact. Distance and points are the exact ones rounded to nearest.
@@ -84,7 +84,7 @@ inline std::vector<Named> nearest(const Shape& a, const Shape& b, double thresho
 std::vector<Named> vertices(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs = {});
 
 /// For each pair of leaf regions of the rest shapes the closest vertex pair at the present positions (ties
-/// lowest a, then b), where it is closer than `threshold`; sorted. Faces are those of `a` and `b`.
+/// lowest a, then b), where it is closer than `threshold`. They are sorted. Faces are those of `a` and `b`.
 std::vector<Named> regions(const Shape& a, const Shape& b, double threshold, const Shape& rest_a,
                            const Shape& rest_b, const FacePairs& pairs = {});
 
@@ -98,7 +98,7 @@ struct Pair {
 Pair surface_distance(const Shape& a, const Shape& b, const FacePairs& pairs = {});
 Pair vertex_distance(const Shape& a, const Shape& b, const FacePairs& pairs = {});
 
-/// The one contact of detail `closest`; none unless the surfaces are closer than `threshold` or pierced.
+/// The one contact of detail `closest`. None unless the surfaces are closer than `threshold` or pierced.
 std::optional<Named> closest(const Shape& a, const Shape& b, double threshold, const FacePairs& pairs = {});
 
 /// Where a point lies with regard to a closed surface. The number is 1 inside a surface whose normals point
@@ -163,7 +163,7 @@ struct OracleRegion {
 };
 
 /// All regions, sorted by (level, vertices). A vertex's offset from the root box's minimum and the root box's
-/// extent are double differences; the halving from there on is exact.
+/// extent are double differences. The halving from there on is exact.
 std::vector<OracleRegion> regions_of(const Shape& rest);
 
 /// Eq. 2: the largest distance of a vertex of `region` from its middle vertex, rounded to nearest.

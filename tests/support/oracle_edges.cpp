@@ -22,7 +22,7 @@ std::optional<std::uint32_t> corner_beside(const Triangle& triangle, const Segme
   return std::nullopt;
 }
 
-/// The normal of the triangle of a face that has an edge; zero where none has.
+/// The normal of the triangle of a face that has an edge. Zero where none has.
 Point normal_beside(const std::vector<Beside>& beside, std::uint32_t face) {
   const auto found = std::find_if(beside.begin(), beside.end(),
                                   [face](const Beside& candidate) { return candidate.face == face; });

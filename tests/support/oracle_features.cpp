@@ -24,7 +24,7 @@ class Collector {
   }
 
  private:
-  /// Adds a contact. If there is one of that name already, the nearer stays; on a tie the earlier stays.
+  /// Adds a contact. If there is one of that name already, the closer stays. On a tie the earlier stays.
   void add(Feature a, Feature b, ExactContact contact) {
     if (!contact.pierced && !limit_.admits(contact.distance_squared)) return;
     const auto [place, is_new] = contacts_.try_emplace(name_of(a, b), contact);

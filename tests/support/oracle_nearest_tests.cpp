@@ -160,7 +160,7 @@ TEST_CASE("oracle of nearest: an edge that pierces a face is listed at every thr
 }
 
 TEST_CASE("oracle of nearest: ridges of two cubes, square to each other") {
-  // The upper edge of one along x, at y = z = 0; the lower edge of the other along y, at x = 0, z = 0.25.
+  // The upper edge of one along x, at y = z = 0. The lower edge of the other along y, at x = 0, z = 0.25.
   Shape lower = cube_of_triangles({0, 0, 0}, 1);
   for (Vector3d& p : lower.positions) p = Vector3d(2 * p.x() - 1, p.y() - p.z(), p.y() + p.z() - 2);
   Shape upper = cube_of_triangles({0, 0, 0}, 1);

@@ -27,7 +27,7 @@ Point height_vector(const ExactShape& shape, const Triangle& triangle, const Poi
   return Rational(height / squared_length(triangle.normal)) * triangle.normal;
 }
 
-/// How far a point lies to the inner side of one side of a triangle, up to a positive factor; zero on the
+/// How far a point lies to the inner side of one side of a triangle, up to a positive factor. Zero on the
 /// side's line.
 Rational inwardness(const ExactShape& shape, const Triangle& triangle, std::size_t side, const Point& point) {
   const Point& from = shape.points[triangle.corners[side]];

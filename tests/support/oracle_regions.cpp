@@ -86,7 +86,7 @@ std::vector<std::vector<std::uint32_t>> leaves_of(const Shape& rest) {
   return leaves;
 }
 
-/// The nearest vertex pair within the limit, ties to the lowest a, then b; `a` and `b` are ascending.
+/// The closest vertex pair within the limit, ties to the lowest a, then b. `a` and `b` are ascending.
 void add_nearest(const ExactShape& shape_a, const std::vector<std::uint32_t>& a, const ExactShape& shape_b,
                  const std::vector<std::uint32_t>& b, const Limit& limit, const FacePairs& pairs,
                  ExactContacts& contacts) {

@@ -35,7 +35,7 @@ class VertexSides {
   [[nodiscard]] bool is_any_inside() const {
     return std::any_of(used_.begin(), used_.end(), [this](std::uint32_t v) { return is_inside(v); });
   }
-  /// The side that a contact has by its vertex; none if its feature here is no vertex or the other no solid.
+  /// The side that a contact has by its vertex. None if its feature here is no vertex or the other no solid.
   [[nodiscard]] std::optional<Side> side_of(Feature feature) const {
     if (sides_.empty() || feature.kind != FeatureKind::vertex) return std::nullopt;
     return sides_[feature.index];

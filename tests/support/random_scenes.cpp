@@ -58,7 +58,7 @@ Shape random_soup(Random& random, Space& space) {
   return shape;
 }
 
-/// An open sheet of 1 to 3 by 1 to 4 cells; each is a quad, flat or warped, or two triangles.
+/// An open sheet of 1 to 3 by 1 to 4 cells. Each is a quad, flat or warped, or two triangles.
 Shape random_sheet(Random& random, Space& space) {
   Shape shape;
   const std::uint32_t rows = 1 + random.below(3);
@@ -88,7 +88,7 @@ Shape random_sheet(Random& random, Space& space) {
   return shape;
 }
 
-/// A closed box of six quads or twelve triangles; one corner may be moved, which warps three quads.
+/// A closed box of six quads or twelve triangles. One corner may be moved, which warps three quads.
 Shape random_box(Random& random, Space& space) {
   Shape shape;
   const Eigen::Vector3d size{space.length(0.25, 1), space.length(0.25, 1), space.length(0.25, 1)};

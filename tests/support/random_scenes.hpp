@@ -19,7 +19,7 @@ class Random {
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t next();
-  /// 0 to count - 1; count > 0.
+  /// 0 to count - 1, where count > 0.
   std::uint32_t below(std::uint32_t count);
   /// In [low, high).
   double between(double low, double high);
@@ -34,7 +34,7 @@ class Random {
 enum class Placement { apart, near, touching, interpenetrating };
 
 /// Two small shapes and a threshold. On a grid all coordinates and the threshold are small multiples of 1/4,
-/// which brings exact ties, parallel edges, coplanar and degenerate faces; otherwise coordinates are generic
+/// which brings exact ties, parallel edges, coplanar and degenerate faces. Otherwise coordinates are generic
 /// doubles.
 struct RandomScene {
   Shape a, b;
@@ -43,7 +43,7 @@ struct RandomScene {
   bool on_grid = false;
 };
 
-/// The scene of a seed. Even seeds are generic, odd ones on a grid; every four pairs of seeds go through the
+/// The scene of a seed. Even seeds are generic, odd ones on a grid. Every four pairs of seeds go through the
 /// placements. Shapes have 1 to 12 faces, shared and unused vertices (these may hold NaN), open or closed.
 RandomScene random_scene(std::uint64_t seed);
 

@@ -11,10 +11,10 @@ struct RandomSolids {
   double threshold = 0;
 };
 
-/// The scene of a seed. Odd seeds put all coordinates and the threshold on a grid of small whole numbers;
-/// even ones move every vertex off the grid. Shapes have 4 to 20 vertices. There are boxes, tetrahedra,
-/// octahedra, prisms, frames and tori; two closed parts that are apart, touch, overlap or lie in each other;
-/// some are inside out, have vertices moved about, or lack a face. A shape that lacks one is no solid.
+/// The scene of a seed. Odd seeds put all coordinates and the threshold on a grid of small whole numbers.
+/// Even ones move every vertex off the grid. Shapes have 4 to 20 vertices. There are boxes, tetrahedra,
+/// octahedra, prisms, frames and tori, and two closed parts that are apart, touch, overlap or lie in each
+/// other. Some are inside out, have vertices moved about, or lack a face. A shape that lacks one is no solid.
 RandomSolids random_solids(std::uint64_t seed);
 
 /// The next step of a shape: as a whole by up to one step of the grid along each axis, or only one vertex.

@@ -117,7 +117,7 @@ class Reducer {
     return keep_if_same(change, [](const TwoShapes&) { return true; });
   }
 
-  /// Runs of faces, shorter and shorter ones; the last face stays.
+  /// Runs of faces, shorter and shorter ones. The last face stays.
   void drop_faces(Part part) {
     for (std::size_t length = (scene_.*part).faces.size() / 2; length > 0; length /= 2)
       for (std::size_t begin = 0; begin < (scene_.*part).faces.size();) {

@@ -13,12 +13,12 @@ struct TwoShapes {
   double threshold = 0;
 };
 
-/// Describes a fault of a scene; empty if it has none. Two texts that differ only in numbers describe one
+/// Describes a fault of a scene. Empty if it has none. Two texts that differ only in numbers describe one
 /// kind of fault.
 using Judge = std::function<std::string(const TwoShapes&)>;
 
 /// A small scene of which `judge` says the same kind of thing as of `scene`: no face, vertex or digit can be
-/// dropped, and no number made simpler, by itself. Calls `judge` some hundred or thousand times; both shapes
+/// dropped, and no number made simpler, by itself. Calls `judge` some hundred or thousand times. Both shapes
 /// keep a face. A scene of which nothing is wrong comes back as it is.
 TwoShapes reduced(TwoShapes scene, const Judge& judge);
 

@@ -103,7 +103,7 @@ TEST_CASE("nothing of a reduced scene can be dropped") {
 }
 
 TEST_CASE("a reduced scene is wrong in the way that the whole was") {
-  // Far apart the fault is another one; a careless reducer would slip into it.
+  // Far apart the fault is another one. A careless reducer would slip into it.
   const Judge judge = [](const TwoShapes& scene) -> std::string {
     return nearest_vertices(scene) < 0.25 ? "near: 1.5e-3 instead of 2" : "far: 7";
   };

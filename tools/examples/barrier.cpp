@@ -53,7 +53,7 @@ class Simulation {
   }
   [[nodiscard]] double energy() const { return system_.energy() + barriers(system_.positions); }
 
-  double least_distance = std::numeric_limits<double>::infinity();  ///< so far; negative on the wrong side
+  double least_distance = std::numeric_limits<double>::infinity();  ///< so far, negative on the wrong side
 
  private:
   /// Takes a report, and says how far vertices may move until the next one. The range of the scene is

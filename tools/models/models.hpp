@@ -19,7 +19,7 @@ struct MeshData {
   void add_face(std::initializer_list<std::uint32_t> face);
 };
 
-/// Quads are planar or nearly so; where a surface of quads closes at a pole it has triangles there.
+/// Quads are planar or nearly so. Where a surface of quads closes at a pole it has triangles there.
 enum class Faces { triangles, quads };
 
 // The paper's models: closed, manifold, wound outward, z up, centred at the origin, within about 1 of it. As
@@ -33,10 +33,11 @@ MeshData tooth();  ///< 1,202 / 2,400 / 3,600, a molar: four cusps above, two ro
 
 // Simple shapes.
 
-/// A sphere of radius 1 of `rings` circles of `segments` vertices and two poles; rings ≥ 1, segments ≥ 3.
+/// A sphere of radius 1 of `rings` circles of `segments` vertices and two poles, with rings ≥ 1, segments
+/// ≥ 3.
 MeshData sphere(std::uint32_t segments, std::uint32_t rings, Faces faces = Faces::triangles);
 
-/// A closed torus of `around` times `across` vertices; both ≥ 3. The tube's middle is a circle in z = 0.
+/// A closed torus of `around` times `across` vertices, both ≥ 3. The tube's middle is a circle in z = 0.
 MeshData torus(std::uint32_t around, std::uint32_t across, double radius, double tube_radius,
                Faces faces = Faces::triangles);
 

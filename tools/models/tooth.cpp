@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A block with rounded edges about `centre`; `half` is its half size, edges included.
+/// A block with rounded edges about `centre`. `half` is its half size, edges included.
 double block(const Vector3d& p, const Vector3d& centre, const Vector3d& half, double edge_radius) {
   const Vector3d outside = (p - centre).cwiseAbs() - (half - Vector3d::Constant(edge_radius));
   return outside.cwiseMax(0).norm() + std::min(outside.maxCoeff(), 0.0) - edge_radius;

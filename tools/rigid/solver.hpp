@@ -12,7 +12,7 @@ struct SolverSettings {
   Eigen::Vector3d gravity = {0, 0, -9.81};  ///< m/s²
   int substeps = 10;                        ///< of each step. Contacts are found once for all of them
   int passes = 2;                           ///< over the contacts in each substep
-  double gap = 0.001;         ///< m, how far surfaces stay apart; less than the contact distance
+  double gap = 0.001;         ///< m, how far surfaces stay apart, less than the contact distance
   double friction = 0.5;      ///< the coefficient of Coulomb's friction
   double recovery_speed = 1;  ///< m/s, how fast what is nearer than the gap is pushed out at most
 };

@@ -16,7 +16,7 @@ namespace graze::scenes {
 /// spheres_off, boxes_flush and boxes_apart, copies, character.
 std::vector<std::string_view> coinciding_scene_names();
 
-/// The scene of a name at its start; null where there is none.
+/// The scene of a name at its start. Null where there is none.
 std::unique_ptr<PlayedScene> make_coinciding_scene(std::string_view name);
 
 }  // namespace graze::scenes

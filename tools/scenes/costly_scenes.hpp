@@ -16,10 +16,10 @@ namespace graze::scenes {
 /// fan_of_rim, road, cells. Two bodies: cones_same, cones_near and cones_apart, crates_ and balls_ alike.
 std::vector<std::string_view> costly_scene_names();
 
-/// The scene of a name at its start; null where there is none.
+/// The scene of a name at its start. Null where there is none.
 std::unique_ptr<PlayedScene> make_costly_scene(std::string_view name);
 
-/// The mesh of the two bodies of a scene; null for a scene that is about faces.
+/// The mesh of the two bodies of a scene. Null for a scene that is about faces.
 std::shared_ptr<const Mesh> body_of_costly_scene(std::string_view name);
 
 }  // namespace graze::scenes

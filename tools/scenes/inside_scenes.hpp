@@ -41,7 +41,7 @@ class InsideScene : public PlayedScene {
 
 std::vector<std::string_view> inside_scene_names();
 
-/// The scene of a name with spheres of 8,194 vertices, or of 1,154 where they are small; null where there is
+/// The scene of a name with spheres of 8,194 vertices, or of 1,154 where they are small. Null where there is
 /// none.
 std::unique_ptr<InsideScene> make_inside_scene(std::string_view name, bool are_small = false);
 

@@ -204,7 +204,7 @@ class SkinnedScene : public PlayedScene {
   std::vector<Vector3d> positions_;
 };
 
-/// Small bodies in one small room that come, move, jump and go; pairs are ignored and watched, rules change.
+/// Small bodies in one small room that come, move, jump and go. Pairs are ignored and watched, rules change.
 class CrowdScene : public PlayedScene {
  public:
   [[nodiscard]] SceneSettings settings() const override { return settings_of(0.05, 0.3); }

@@ -19,7 +19,7 @@ class Random {
     z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
     return z ^ (z >> 31U);
   }
-  /// 0 to count - 1; count > 0.
+  /// 0 to count - 1, where count > 0.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(next() % count); }
   double between(double low, double high) {
     return low + (high - low) * static_cast<double>(next() >> 11U) * 0x1p-53;

@@ -6,8 +6,8 @@
 namespace graze::scenes {
 
 /// A hash (FNV-1a over 64-bit words) of what reports say, bit for bit: frames, ids, phases, bounds,
-/// witnesses, contacts and the kinds of diagnostics; where one is inside the other, and contacts that limits
-/// left out. Statistics and times play no part.
+/// witnesses, contacts and the kinds of diagnostics. They also say where one is inside the other, and
+/// contacts that limits left out. Statistics and times play no part.
 class ReportHash {
  public:
   void add(const FrameReport& report);

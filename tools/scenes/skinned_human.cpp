@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// From its joint to its end, in the model's own coordinates: z up, facing -y. The trunk is bone 0; a bone
+/// From its joint to its end, in the model's own coordinates: z up, facing -y. The trunk is bone 0. A bone
 /// with a parent hangs on the end of that one.
 struct Bone {
   Vector3d joint, end;

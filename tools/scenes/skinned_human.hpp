@@ -24,7 +24,7 @@ class SkinnedHuman {
   static constexpr std::size_t bone_count = 9;
 
   std::shared_ptr<const Mesh> mesh_;
-  std::vector<std::array<double, bone_count>> weights_;  ///< of each vertex; they sum to 1
+  std::vector<std::array<double, bone_count>> weights_;  ///< of each vertex. They sum to 1
 };
 
 }  // namespace graze::scenes

@@ -9,7 +9,7 @@ namespace graze::springs {
 
 enum class SpringKind : std::uint8_t { structural, shear, bend };
 
-/// Between two vertices, `a` below `b`; no force at `rest_length`.
+/// Between two vertices, `a` below `b`, with no force at `rest_length`.
 struct Spring {
   std::uint32_t a = 0;
   std::uint32_t b = 0;

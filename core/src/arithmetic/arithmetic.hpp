@@ -9,8 +9,8 @@
 
 namespace graze {
 
-/// A double and how far the true value is from it at most. Radii are rounded to nearest like everything else;
-/// the factor in `sign` covers that for chains of up to 2^32 operations, each off by at most 2^-53 of the
+/// A double and how far the true value is from it at most. Radii are rounded to nearest like everything else.
+/// The factor in `sign` covers that for chains of up to 2^32 operations, each off by at most 2^-53 of the
 /// radius. Overflow makes the radius infinite or NaN, which decides nothing.
 struct Ball {
   double value = 0;

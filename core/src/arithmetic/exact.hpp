@@ -10,8 +10,8 @@
 
 namespace graze {
 
-/// A dyadic rational without rounding: sign · magnitude · 2^(64 · exponent). Sums and products are exact;
-/// there is no division. It lives wholly on the stack and allocates nothing, so that a decision in exact
+/// A dyadic rational without rounding: sign · magnitude · 2^(64 · exponent). Sums and products are exact.
+/// There is no division. It lives wholly on the stack and allocates nothing, so that a decision in exact
 /// arithmetic costs time only.
 ///
 /// The capacity is enough for products of ten coordinate differences, the highest degree that the kernels
@@ -38,7 +38,8 @@ class Exact {
   /// -1, 0 or 1.
   [[nodiscard]] int sign() const { return sign_; }
 
-  /// The value as fraction · 2^exponent with 0.5 ≤ |fraction| < 1 (0 for zero); relative error at most 2^-52.
+  /// The value as fraction · 2^exponent with 0.5 ≤ |fraction| < 1 (0 for zero). The relative error is at most
+  /// 2^-52.
   struct Scaled {
     double fraction = 0;
     int exponent = 0;
@@ -70,7 +71,7 @@ class Exact {
   [[nodiscard]] int top() const { return exponent_ + size_; }
   Limb& limb(int index) { return limbs_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] Limb limb(int index) const { return limbs_[static_cast<std::size_t>(index)]; }
-  /// The limb at an index of the number's own scale; 0 where it has none.
+  /// The limb at an index of the number's own scale, or 0 where it has none.
   [[nodiscard]] Limb limb_at(int position) const {
     const int index = position - exponent_;
     return index >= 0 && index < size_ ? limb(index) : 0;
@@ -107,7 +108,7 @@ inline Exact::Exact(double value) {
 }
 
 inline Exact Exact::difference(double to, double from) {
-  // The error of rounding (Knuth); finite doubles up to 2^121 do not overflow.
+  // The error of rounding (Knuth). Finite doubles up to 2^121 do not overflow.
   const double rounded = to - from;
   const double of_from = rounded - to;
   const double left_over = (to - (rounded - of_from)) - (from + of_from);

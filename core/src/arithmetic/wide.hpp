@@ -62,7 +62,7 @@ struct Wide {
   }
 
   static constexpr double ulp = 0x1p-52;
-  static constexpr double off_product = 0x1.4p-103;  ///< 10 · 2^-106; see docs/numerics.md
+  static constexpr double off_product = 0x1.4p-103;  ///< 10 · 2^-106, see docs/numerics.md
   static constexpr double underflow = 0x1p-1000;
   static constexpr double slack = Ball::slack;
 

@@ -16,7 +16,7 @@ struct PairRoom;
 //     template <typename Self>
 //     static auto parts(Self& self) { return std::tie(self.front, self.next); }
 //
-// which are vectors or such memory themselves, and has what follows; what is not the same for all its parts
+// which are vectors or such memory themselves, and has what follows. What is not the same for all its parts
 // it does itself, by a member of that name.
 
 template <typename Memory>

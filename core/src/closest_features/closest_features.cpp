@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-/// The region of Voronoi of a triangle that holds the point; its borders belong to the lower dimension.
+/// The region of Voronoi of a triangle that holds the point. Its borders belong to the lower dimension.
 VoronoiRegion voronoi_region_of(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner,
                                 DecisionCount& count) {
   const auto normal_of = [&]<typename Number>() {
@@ -52,7 +52,7 @@ Ratio<Number> distance_squared(const Eigen::Vector3d& point, const Surface& surf
 }
 
 /// Chooses between two pieces that hold the closest points of two parts of a face. Returns the piece of the
-/// nearer part; where they are equally near, the lower feature, then `first`.
+/// closer part. Where they are equally close, it is the lower feature, then `first`.
 FeaturePiece nearer(const Eigen::Vector3d& point, const Surface& surface, const FeaturePiece& first,
                     const FeaturePiece& second, DecisionCount& count) {
   if (first == second) return first;

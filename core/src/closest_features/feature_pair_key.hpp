@@ -133,12 +133,12 @@ class FeaturePairKey {
   std::uint64_t low_ = 0;
 };
 
-/// Whether an edge pierces a face, which is contact at every threshold; a fold that does is no edge.
+/// Whether an edge pierces a face, which is contact at every threshold. A fold that does is no edge.
 inline bool is_edge_through_face(const FeaturePairKey& key) {
   return key.meeting() == Meeting::pierced && key.kind() == ContactKind::EF;
 }
 
-/// Two simplices whose affine hulls are as far apart as the features of a key are. They are the pieces; of
+/// Two simplices whose affine hulls are as far apart as the features of a key are. They are the pieces. Of
 /// parallel ones the lower is reduced to one of its points.
 struct Hulls {
   Simplex a;

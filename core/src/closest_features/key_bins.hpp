@@ -44,7 +44,7 @@ struct BinRun {
 /// Puts keys in the order of their bins. Working memory of one thread.
 class KeyBinning {
  public:
-  /// Says in `runs` where which bin is; none that is empty.
+  /// Says in `runs` where which bin is, but of none that is empty.
   void put_into(const KeyBins& bins, std::vector<FeaturePairKey>& keys, std::vector<BinRun>& runs);
 
   template <typename Self>

@@ -28,7 +28,7 @@ class KeySet {
   [[nodiscard]] bool empty() const { return keys_.empty(); }
   /// One of the keys. It is the lowest after `merge_runs`.
   [[nodiscard]] const FeaturePairKey& front() const { return keys_.front(); }
-  /// All keys; ascending after `merge_runs`.
+  /// All keys, ascending after `merge_runs`.
   [[nodiscard]] const std::vector<FeaturePairKey>& keys() const { return keys_; }
 
   [[nodiscard]] bool contains(const FeaturePairKey& key) const {

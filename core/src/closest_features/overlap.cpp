@@ -203,7 +203,7 @@ std::pair<Eigen::Vector3d, double> middle_of(const Outline& points) {
   return {from + (to - from) / 2, points.size() == 2 ? length : area};
 }
 
-/// The point of the other, parallel piece straight across from `point`; `normal` is of its plane, if it is a
+/// The point of the other, parallel piece straight across from `point`. `normal` is of its plane, if it is a
 /// triangle.
 Eigen::Vector3d across(const Eigen::Vector3d& point, const Simplex& other, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d offset = point - other.point[0];

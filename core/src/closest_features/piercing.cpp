@@ -18,7 +18,7 @@ bool share_a_corner(std::span<const Eigen::Vector3d> segment, std::span<const Ei
   return false;
 }
 
-/// `open_side` is the side (0-1, 1-2, 2-0) that counts as inside, a quad's fold; 3 for none.
+/// `open_side` is the side (0-1, 1-2, 2-0) that counts as inside, a quad's fold. It is 3 for none.
 Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t open_side,
                   DecisionCount& count) {
   const Eigen::Vector3d& p = segment.point[0];

@@ -106,7 +106,7 @@ struct RowsOfBoxes {
 };
 
 /// Limits of a kernel's question. Pairs certainly further than `limit` are discarded. For pairs certainly
-/// nearer than `below` it finds the Voronoi regions; if `below` is not above 0, for none.
+/// closer than `below` it finds the Voronoi regions. If `below` is not above 0, it finds them for none.
 struct NearLimits {
   float limit;
   float below = 0;
@@ -118,12 +118,12 @@ struct FeaturePairs {
   Point a[lanes][CornersA];
   Point b[lanes][CornersB];
   // Filled in by the kernel.
-  float bound[lanes];  ///< of the distance, from below; minus infinity where a size is not to be trusted
+  float bound[lanes];  ///< of the distance, from below, minus infinity where a size is not to be trusted
   std::int32_t voronoi[lanes];  ///< where the closest points certainly are, or `unsure_voronoi`
   /// The distance from above, of a point and a triangle where the Voronoi region is known.
   float upper[lanes];
 };
-/// A number of `VoronoiRegion`; for two segments four times one of `Along` plus another; or this.
+/// A number of `VoronoiRegion`, or for two segments four times one of `Along` plus another. Or it is this.
 inline constexpr std::int32_t unsure_voronoi = -1;
 /// The number for a segment that passes through its triangle.
 inline constexpr std::int32_t passes_through = 0;
@@ -150,9 +150,9 @@ struct Filter {
   void (*gather)(const Block& from, std::size_t components, const std::uint32_t* index, std::size_t count,
                  float* to, std::size_t to_stride);
   /// Lists the pairs of a row and a box, whose six components are `boxes`, that are not certainly further
-  /// than `limit` from each other, row after row; how many.
+  /// than `limit` from each other, row after row. Returns how many.
   std::size_t (*near_boxes)(const RowsOfBoxes& rows, const Block& boxes, float limit, const NearPairs& out);
-  /// The points that are not certainly further than `limit`; how many.
+  /// The points that are not certainly further than `limit`. Returns how many.
   std::size_t (*near_points)(const Point& point, const Block& points, float limit, const Survivors& out);
   /// Bounds all pairs, and gives one bit for each that is not certainly further than the limit. Voronoi
   /// regions are those of pairs with a bit. They mean nothing for lanes that hold no pair.
@@ -171,7 +171,7 @@ struct Filter {
                          const BoxInFrame& with, std::uint32_t* found);
 };
 
-/// The kernels in use, chosen once; see graze/instruction_set.hpp.
+/// The kernels in use, chosen once, see graze/instruction_set.hpp.
 const Filter& filter();
 
 }  // namespace graze::kernels

@@ -83,7 +83,7 @@ struct Measure {
   void (*fans_of_doubles)(const FanBatch<double>& batch);
 };
 
-/// The kernels in use, chosen once; see graze/instruction_set.hpp.
+/// The kernels in use, chosen once, see graze/instruction_set.hpp.
 const Measure& measure();
 
 }  // namespace graze::kernels

@@ -10,7 +10,7 @@
 /// set, so this header has no inline function that another translation unit might share with them.
 namespace graze::kernels {
 
-/// The result of a pass over positions; x, y and z.
+/// The result of a pass over positions, in x, y and z.
 template <typename Number>
 struct PositionsSeen {
   Number min[3], max[3];

@@ -40,7 +40,7 @@ struct VoronoiKernels {
   void (*points_and_triangles)(PointTriangleBatch& batch);
 };
 
-/// The kernels in use, chosen once; see graze/instruction_set.hpp.
+/// The kernels in use, chosen once, see graze/instruction_set.hpp.
 const VoronoiKernels& voronoi();
 
 }  // namespace graze::kernels

@@ -58,7 +58,7 @@ class FeatureBlock {
     make_room(other.points_.size() / Corners);
     graze::reserve_as(owners_, other.owners_);
   }
-  /// Makes room; the block keeps its content.
+  /// Makes room. The block keeps its content.
   void reserve(std::size_t most) {
     make_room(most);
     owners_.reserve(most);
@@ -127,7 +127,7 @@ class SelectedFeatures {
   [[nodiscard]] std::size_t count() const { return count_; }
   /// How many of them, the first, may touch.
   [[nodiscard]] std::size_t touching() const { return touching_; }
-  /// Each one's number in the block; there are as many more as make a multiple of 4, of any features.
+  /// Each one's number in the block. As many more of any features follow as make a multiple of 4.
   [[nodiscard]] const std::uint32_t* index() const { return index_.data(); }
 
  private:

@@ -54,8 +54,8 @@ class CloseFeatures {
 };
 
 /// Keeps one of sorted keys for each pair of features. Where two features meet in several pieces (a fold and
-/// a triangle, two crossings), the nearest stands for them; a piercing sorts first, and of equally near ones
-/// the first. Returns how many there are then, the first of the keys.
+/// a triangle, two crossings), the closest stands for them. A piercing sorts first, and of equally close ones
+/// the first counts. Returns how many there are then, the first of the keys.
 [[nodiscard]] std::size_t keep_nearest_of_each(const SurfacePair& pair, std::span<FeaturePairKey> keys);
 
 }  // namespace graze

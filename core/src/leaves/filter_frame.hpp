@@ -81,7 +81,7 @@ class FilterFrame {
   [[nodiscard]] float size_of(const Box& box) const {
     return static_cast<float>(clamped_size(to_local(box.min), to_local(box.max)));
   }
-  /// The part of a box that can be within a distance of another box; perhaps empty.
+  /// The part of a box that can be within a distance of another box. It may be empty.
   [[nodiscard]] kernels::BoxInFrame to_local_beside(const Box& box, const Box& other, double distance) const {
     const Eigen::Array3d reach = Eigen::Array3d::Constant(distance * scale_);
     return rounded(to_local(box.min).array().max(to_local(other.min).array() - reach),

@@ -72,7 +72,7 @@ struct FloatFilterScratch {
 
 /// The knowledge of float about a pair of features that it has not discarded.
 struct KnownInFloat {
-  bool is_bounded = false;  ///< that it may be near; otherwise it has not been tested
+  bool is_bounded = false;  ///< that it may be near. Otherwise it has not been tested
   std::int32_t voronoi = kernels::unsure_voronoi;
   // The distance in the frame from below and above, of a vertex and a triangle whose Voronoi region is known.
   float lower = 0;
@@ -92,7 +92,7 @@ class FloatBatch {
  public:
   void begin() { count_ = 0; }
 
-  /// Adds pairs of features by their numbers in two blocks; calls `full()`, which empties it, whenever it is.
+  /// Adds pairs of features by their numbers in two blocks. Calls `full()`, which empties it, whenever it is.
   template <typename Full>
   void add(const FeatureView<CornersA>& a, const std::uint32_t* of_a, const FeatureView<CornersB>& b,
            const std::uint32_t* of_b, std::size_t count, const Full& full) {
@@ -108,7 +108,7 @@ class FloatBatch {
       if (count_ == kernels::lanes) full();
     }
   }
-  /// Adds a pair of features by their corners; whether it is full then.
+  /// Adds a pair of features by their corners. Returns whether it is full then.
   bool add(const FeatureRef& a, const std::array<kernels::Point, CornersA>& corners_a, const FeatureRef& b,
            const std::array<kernels::Point, CornersB>& corners_b) {
     std::copy(corners_a.begin(), corners_a.end(), pairs_.a[count_]);

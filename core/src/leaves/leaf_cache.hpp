@@ -23,7 +23,7 @@ class LeafCache {
     for (Slot& slot : slots_) slot.leaf = nullptr;
   }
 
-  /// All features of a leaf of that surface; stays until the next call. `corners` is working memory.
+  /// All features of a leaf of that surface. They stay until the next call. `corners` is working memory.
   const LeafFeatures& of(const Surface& surface, const Region& leaf, LeafVertices& corners) {
     make_room(leaf);
     const std::size_t number = surface.mesh().regions().number(leaf);

@@ -17,7 +17,7 @@ namespace graze {
 /// points of every vertex-face and edge-edge pair between the selected features, and every edge that pierces
 /// a face. They are also every fold's contacts with edges, folds and faces. Pairs certainly too far for the
 /// range are left out, but never a piercing. A key may come several times. Pairs go from boxes to float and
-/// from there to double, several at once. So keys may come later than the features; all have come after
+/// from there to double, several at once. So keys may come later than the features. All have come after
 /// `finish`. Features that the pair's groups leave out are not tested against each other.
 ///
 /// From the distance `range.limit()` on a pair is of no interest. It may shrink meanwhile. Below the distance
@@ -186,7 +186,7 @@ class LeafFeaturePairs {
     pair_.count.discarded_in_float += discarded;
     return discarded > 0;
   }
-  /// Keeps those pairs that are not settled, in their order; returns how many they are.
+  /// Keeps those pairs that are not settled, in their order. Returns how many they are.
   template <typename Settle>
   std::size_t leave_out_settled(const kernels::NearPairs& near, std::size_t count, const Settle& settle) {
     if constexpr (!Range::may_settle) return count;

@@ -84,8 +84,8 @@ class SelectedLeaf {
   void reserve(const PairRoom& room) { reserve_features(*this, room); }
 };
 
-/// Whether diagonals of quads are folds (see `is_folded`); asked of few, again and again, so decided when
-/// asked and kept for a while.
+/// Whether diagonals of quads are folds (see `is_folded`). Few are asked, again and again. So each is decided
+/// when asked, and kept for a while.
 class FoldAnswers {
  public:
   /// Forgets all, so that what is decided does not depend on earlier queries.

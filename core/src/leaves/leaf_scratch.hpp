@@ -58,7 +58,7 @@ struct LeafScratch {
   }
   void begin(const FilterFrame& first) { frame = first; }
 
-  /// Selects the features of two leaves that are near each other; false where either has none.
+  /// Selects the features of two leaves that are near each other. Returns false where either has none.
   template <typename Range>
   bool select_near(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range) {
     return select_near(pair, leaf_a, leaf_b, range, range.touching(), false, &SelectedLeaf::select_near);

@@ -72,7 +72,7 @@ class NearestOfVertices {
   void make_slots(std::size_t count);
 
   std::vector<VertexNearest> nearest_;
-  std::vector<std::uint32_t> slots_;  ///< indices into `nearest_`, by hash; a power of two of them
+  std::vector<std::uint32_t> slots_;  ///< indices into `nearest_`, by hash, a power of two of them
   std::uint32_t last_ = no_entry;     ///< the entry that was met last, which is mostly met again
 };
 

@@ -31,7 +31,7 @@ struct TouchingEdges {
     of_b.insert(of_b.end(), other.of_b.begin(), other.of_b.end());
     pierced = pierced || other.pierced;
   }
-  /// Makes room for this many edges of each surface ahead of time; SceneCapacity states it.
+  /// Makes room for this many edges of each surface ahead of time. SceneCapacity states it.
   static constexpr std::size_t reserved = 8192;
   void reserve() {
     of_a.reserve(reserved);

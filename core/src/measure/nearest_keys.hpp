@@ -34,7 +34,7 @@ struct NearestKeysScratch {
 /// dropping it at once loses nothing.
 class NearestKeys {
  public:
-  /// Forgets all; of the next pair at most so many are kept, at least one.
+  /// Forgets all. Of the next pair at most so many are kept, at least one.
   void begin(std::size_t most);
   /// Takes sorted keys, each once, of each pair of features the nearest. Any number of threads at once.
   void add(const SurfacePair& pair, std::span<const FeaturePairKey> keys, MeasureScratch& measure,

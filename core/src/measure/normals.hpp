@@ -24,8 +24,8 @@ Side side_of(const Surface& surface, const FeaturePiece& piece, const Eigen::Vec
              DecisionCount& count);
 
 /// The normal of a contact whose points are one, from positions alone. It is the first of these that exists:
-/// a's face normal; minus b's face normal; for two edges their cross product, signed to agree with a's
-/// averaged vertex normal. Otherwise it is a's averaged normal, minus b's, or +z.
+/// a's face normal, then minus b's face normal, then for two edges their cross product, signed to agree with
+/// a's averaged vertex normal. Otherwise it is a's averaged normal, minus b's, or +z.
 Eigen::Vector3d touching_normal(const Surface& surface_a, const FeaturePiece& piece_a,
                                 const Surface& surface_b, const FeaturePiece& piece_b, DecisionCount& count);
 

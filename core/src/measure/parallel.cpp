@@ -40,7 +40,7 @@ std::array<double, 4> normal_of_triangle(const Simplex& triangle) {
 constexpr double least_angle_squared = 0x1p-80;
 constexpr double least_product = 0x1p-900;
 
-/// Whether two edges or two faces are certainly not parallel; or an edge and a face, if not
+/// Whether two edges or two faces are certainly not parallel, or an edge and a face, if not
 /// `are_of_one_kind`.
 template <bool are_of_one_kind>
 bool are_certainly_apart(const std::array<double, 4>& a, const std::array<double, 4>& b) {

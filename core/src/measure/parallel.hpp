@@ -26,7 +26,7 @@ struct Holder {
   std::array<double, 4> direction;
 };
 
-/// All that hold a feature, itself included where it is no vertex; a quad for each of its triangles.
+/// All that hold a feature, itself included where it is no vertex. A quad comes for each of its triangles.
 struct Holders {
   std::vector<Holder> edges;
   std::vector<Holder> faces;

@@ -67,7 +67,7 @@ class NormalCache {
 /// Says on which sides of two surfaces the points of contacts lie.
 class Sides {
  public:
-  /// For another pair; forgets what was not finished.
+  /// For another pair. Forgets what was not finished.
   void begin();
   /// Fills in the contact's sides, at the latest by finish(), until when it stays where it is.
   void add(const SurfacePair& pair, const FeaturePairKey& key, Contact& contact);

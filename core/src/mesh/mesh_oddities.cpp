@@ -27,7 +27,8 @@ bool is_degenerate(const Mesh& mesh, std::uint32_t index) {
   return corners.size() == 3 || !has_area(mesh, corners[0], corners[2], corners[3]);
 }
 
-/// Whether every face runs along `edge` in another direction than the next; edges of two faces only.
+/// Whether every face runs along `edge` in another direction than the next. It is asked of edges of two faces
+/// only.
 bool is_flipped(const Mesh& mesh, std::uint32_t edge) {
   int direction = 0;
   for (const std::uint32_t face : mesh.edge_faces(edge)) {

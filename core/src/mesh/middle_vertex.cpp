@@ -34,7 +34,7 @@ class LosslessSum {
   }
   [[nodiscard]] bool is_lost() const { return lost_; }
   [[nodiscard]] std::array<double, 3> terms() const { return {first_, second_, third_}; }
-  /// The sum rounded, and what is left; of equal sums they are equal. Nothing where two doubles do not do.
+  /// The sum rounded, and what is left. Of equal sums they are equal. Nothing where two doubles do not do.
   [[nodiscard]] bool as_two(double& rounded, double& left) const {
     double low = second_, high = first_;
     double lowest = pushed(low, third_);

@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-/// Squares along an edge of the cube; a power of two, so that directions are exact.
+/// Squares along an edge of the cube, a power of two, so that directions are exact.
 constexpr int squares = 8;
 constexpr int corners = squares + 1;
 

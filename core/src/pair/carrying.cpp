@@ -58,7 +58,7 @@ double distance_to_segment(const Vector& point, const Vector& begin, const Vecto
   return (point - (begin + along * way)).norm();
 }
 
-/// The distance of a point to a convex polygon, counter-clockwise, which may be a segment or a point; 0
+/// The distance of a point to a convex polygon, counter-clockwise, which may be a segment or a point. It is 0
 /// inside. A polygon that is hardly wider than its own rounding has no inside.
 template <typename Vector>
 double distance_to_outline(const Vector& point, const std::vector<Vector>& outline) {
@@ -153,7 +153,7 @@ void CarryingChoice::keep_band(double band) {
   }
 }
 
-/// The contact that leads among those that no leader covers yet; null if there is none. It is a listed one if
+/// The contact that leads among those that no leader covers yet. Null if there is none. It is a listed one if
 /// one of these is deep enough.
 CarryingChoice::Candidate* CarryingChoice::find_leader(std::span<const Contact> contacts, double band) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -243,7 +243,7 @@ void CarryingChoice::spread(std::size_t most) {
   }
 }
 
-/// The candidate that gains most, or one that was listed and gains nearly as much; null if none gains enough.
+/// The candidate that gains most, or one that was listed and gains nearly as much. Null if none gains enough.
 CarryingChoice::Candidate* CarryingChoice::find_next(double least_gain) {
   Candidate* best = nullptr;
   Candidate* listed = nullptr;

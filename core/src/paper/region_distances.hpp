@@ -19,12 +19,12 @@ namespace graze {
 /// the query's deadline comes are not tested.
 class RegionDistances {
  public:
-  /// Both surfaces are refitted now; what is pointed to stays until all is listed. `sliced`: a level may be
+  /// Both surfaces are refitted now. What is pointed to stays until all is listed. `sliced`: a level may be
   /// of many slices.
   void begin(const Surface& a, const Surface& b, const PairQuery& query, PairAnswer& answer, bool sliced);
 
-  /// Goes on to the next level of several slices; true when all is listed instead. Otherwise each of the
-  /// slices below `slice_count` is to be run once, and then this called again.
+  /// Goes on to the next level of several slices. Returns true when all is listed instead. Otherwise each of
+  /// the slices below `slice_count` is to be run once, and then this called again.
   bool advance();
   [[nodiscard]] std::size_t slice_count() const { return slice_count_; }
   void run_slice(std::size_t index);

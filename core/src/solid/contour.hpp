@@ -55,7 +55,7 @@ struct ContourScratch {
   std::vector<ContourEnd> ends;
   std::vector<ContourSegment> segments;
 
-  /// How many points there is room for ahead of time; SceneCapacity states it.
+  /// How many points there is room for ahead of time. SceneCapacity states it.
   static constexpr std::size_t reserved = 4096;
   void reserve() {
     points.reserve(reserved);

@@ -12,7 +12,7 @@ namespace graze {
 /// are made here when asked for, rather than by a refit of all.
 class LeafBoxes {
  public:
-  /// For one query; `surface` does not change meanwhile.
+  /// For one query. `surface` does not change meanwhile.
   void begin(const Surface& surface, RefitOf what) {
     surface_ = &surface;
     const bool fitted = surface.motion_since_refit(what) == 0;

@@ -12,7 +12,7 @@
 namespace graze {
 namespace {
 
-/// How far points are from one of them, along a direction and in all; four at a time.
+/// How far points are from one of them, along a direction and in all, four at a time.
 template <typename Number>
 class Reach {
  public:

@@ -14,7 +14,7 @@ namespace graze {
 struct LeafSlab {
   static constexpr float beyond = std::numeric_limits<float>::infinity();
 
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of the planes; its length is from 1 - 2^-20 to 1
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of the planes. Its length is from 1 - 2^-20 to 1
   /// At most and at least any corner's height, the product of the normal and the way from the middle vertex.
   /// Infinite where nothing is known.
   float low = -beyond;
@@ -27,11 +27,11 @@ struct LeafSlab {
 /// The slab of the corners of a leaf's features.
 LeafSlab slab_of(const Surface& surface, const Region& leaf);
 
-/// Whether the contents of two slabs are certainly further apart than a distance; `between` is the way from
+/// Whether the contents of two slabs are certainly further apart than a distance. `between` is the way from
 /// a's middle vertex to b's.
 bool are_apart(const LeafSlab& a, const LeafSlab& b, const Eigen::Vector3d& between, double distance);
 
-/// At most the squared distance of a point and the contents of a slab; `way` leads from the middle vertex to
+/// At most the squared distance of a point and the contents of a slab. `way` leads from the middle vertex to
 /// the point.
 double lower_squared(const LeafSlab& slab, const Eigen::Vector3d& way);
 

@@ -15,7 +15,7 @@ namespace graze {
 /// space.
 class LongLeafBoxes {
  public:
-  /// For one query; `surface` does not change meanwhile.
+  /// For one query. `surface` does not change meanwhile.
   void begin(const Surface& surface) {
     surface_ = surface.mesh().long_regions().empty() ? nullptr : &surface;
     if (surface_ == nullptr) return;

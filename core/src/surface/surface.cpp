@@ -25,7 +25,7 @@ std::uint64_t next_serial() {
   return count.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
-/// Empties a list and frees its memory; assigning an empty one in braces would keep that.
+/// Empties a list and frees its memory. Assigning an empty one in braces would keep that.
 template <typename Element>
 void let_go(std::vector<Element>& elements) noexcept {
   std::vector<Element>().swap(elements);
@@ -299,7 +299,7 @@ std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* bef
   Surface::PartSeen part;
   part.changed = seen.changed;
   part.box = box_of(seen);
-  // A difference is rounded once; where it underflows it is exact.
+  // A difference is rounded once. Where it underflows it is exact.
   if (displacement == Surface::Displacement::bound)
     for (int axis = 0; axis < 3; ++axis)
       part.furthest[axis] = static_cast<double>(seen.furthest[axis]) *

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t group_vertices = VertexBlocks::group_vertices;
 constexpr std::size_t bits_each = 64;
 
-/// The vertices of all marked groups, in the mesh's order; clears the marks.
+/// The vertices of all marked groups, in the mesh's order. Clears the marks.
 void take_groups(const IndexedMesh& mesh, NearPart& part) {
   const auto all = mesh.block_order();
   part.order.clear();

@@ -67,7 +67,7 @@ class NearVertices {
   /// Both surfaces have their blocks, or stretches.
   NearVertices(const SurfacePair& pair, double limit, NearBlocks& near, NearVerticesScratch& scratch);
 
-  /// Lists the blocks that may have such a pair; none of a where there is none.
+  /// Lists the blocks that may have such a pair. It lists none of a where there is none.
   void find_blocks();
   /// Appends the pairs of some of the listed blocks of a that are nearer than a threshold, in their order, by
   /// the points of a and then of b. Lists all pairs that are not certainly further than the limit. Returns

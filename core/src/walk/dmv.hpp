@@ -17,7 +17,7 @@
 
 namespace graze {
 
-/// The fronts that DMV steps through; kept from pair to pair so that their memory is.
+/// The fronts that DMV steps through. They are kept from pair to pair so that their memory is.
 struct DmvScratch {
   std::vector<RegionPair> front;
   std::vector<RegionPair> next;
@@ -45,7 +45,7 @@ class WorkMeter {
                    : counters.region_pairs_tested + query.work_limit),
         time_(time) {}
 
-  /// Counts one region pair; false when the budget is spent. Throws TimeIsUp.
+  /// Counts one region pair. Returns false when the budget is spent. Throws TimeIsUp.
   bool spend() {
     if (counters_.region_pairs_tested >= limit_) return false;
     ++counters_.region_pairs_tested;
@@ -70,7 +70,7 @@ struct Expansion {
 /// `scratch.front`. It stops where a level has more than `most` pairs, and leaves these there. Returns false
 /// when the budget ran out on the way.
 ///
-/// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf; neither
+/// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf. Neither
 /// ends the walk there. A leaf is never expanded. Where both are, a child that `may_meet` finds to be far
 /// from the whole of the other region is left out. `leaves(pair, a, b)` takes each pair of leaves that is
 /// reached.

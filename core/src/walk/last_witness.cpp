@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-/// From 0 to 1; 0 for NaN.
+/// From 0 to 1, and 0 for NaN.
 double clamped_share(double share) {
   return share > 0 ? std::min(share, 1.0) : 0;
 }

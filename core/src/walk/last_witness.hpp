@@ -10,8 +10,8 @@ namespace graze {
 LastWitness last_witness_of(const SurfacePair& pair, const FeaturePairKey& nearest,
                             const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b);
 
-/// At least the distance of the surfaces now, by where these points are; of their vertices with
-/// `vertices_only`. Infinite where that is not known.
+/// At least the distance of the surfaces now, by where these points are. With `vertices_only` it is the
+/// distance of their vertices. Infinite where that is not known.
 double upper_distance(const SurfacePair& pair, const LastWitness& witness, bool vertices_only);
 
 }  // namespace graze

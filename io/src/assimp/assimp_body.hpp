@@ -11,12 +11,12 @@
 
 namespace graze::io {
 
-/// One node's meshes as one object. `faces` has no positions; its corners count the body's vertices.
+/// One node's meshes as one object. `faces` has no positions. Its corners count the body's vertices.
 struct NodeObject {
   Body body;
   RawSurface faces;
   std::size_t small_faces = 0;          ///< points and lines left out
-  std::set<std::string> missing_bones;  ///< without a node; their weights are left out
+  std::set<std::string> missing_bones;  ///< without a node. Their weights are left out
 };
 
 /// Joins the meshes of a node and welds their vertices. `use_rest_weights`: whether the file's format gives

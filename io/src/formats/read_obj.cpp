@@ -106,7 +106,7 @@ class ObjReader {
     group.corner_counts.push_back(static_cast<std::uint32_t>(face_.size()));
   }
 
-  /// A corner is v, v/vt, v//vn or v/vt/vn; v counts from 1, or back from the last vertex before the line.
+  /// A corner is v, v/vt, v//vn or v/vt/vn. v counts from 1, or back from the last vertex before the line.
   std::uint32_t vertex_of(std::string_view word) {
     const auto number = parse_number<std::int64_t>(word.substr(0, word.find('/')));
     if (!number) fail(path_, line_, joined("'", word, "' is no corner of a face; correct the line"));
@@ -124,7 +124,7 @@ class ObjReader {
                 "; remove the face or add the vertex"));
   }
 
-  /// A face may come before its vertices; at the end they must be there.
+  /// A face may come before its vertices. At the end they must be there.
   void require_named_vertices() {
     if (!furthest_ || furthest_->first < positions_.size()) return;
     line_ = furthest_->second;

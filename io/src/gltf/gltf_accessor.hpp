@@ -25,7 +25,7 @@ struct GltfNumbers {
 /// The numbers of elements, ascending.
 using GltfElements = std::vector<std::uint32_t>;
 
-/// How many elements the accessor says it has; 0 where there is none.
+/// How many elements the accessor says it has, or 0 where there is none.
 std::size_t accessor_count(const GltfDocument& document, const nlohmann::json& number);
 
 /// Reads the accessor of that number, sparse ones too. `type` is the type that its use needs, such as VEC3.

@@ -26,7 +26,7 @@ struct Keys {
   Interpolation interpolation = Interpolation::linear;
   std::size_t numbers_a_key = 0;  ///< of one value, or of one tangent
 
-  /// A number of a key's value; of cubic keys the tangents stand before (`which` 0) and after (2) it.
+  /// A number of a key's value. Of cubic keys the tangents stand before (`which` 0) and after (2) it.
   [[nodiscard]] const double* at(std::size_t key, std::size_t which, std::size_t offset) const {
     const std::size_t values = interpolation == Interpolation::cubic ? 3 : 1;
     const std::size_t index = values == 3 ? 3 * key + which : key;

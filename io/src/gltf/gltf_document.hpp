@@ -29,7 +29,7 @@ class GltfDocument {
 
   [[noreturn]] void fail_at(const std::string& json_path, const std::string& what) const;
 
-  /// The whole number under `key`, at most `largest`; `without` where the key is missing.
+  /// The whole number under `key`, at most `largest`, or `without` where the key is missing.
   [[nodiscard]] std::uint64_t whole_number(const nlohmann::json& object, const char* key,
                                            const std::string& json_path, std::uint64_t largest,
                                            std::uint64_t without) const;

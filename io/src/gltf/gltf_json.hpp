@@ -27,7 +27,7 @@ inline std::string text_of(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-/// A whole number; 0 where there is none.
+/// A whole number, or 0 where there is none.
 inline std::uint64_t number_of(const nlohmann::json& value) {
   return value.is_number_unsigned() ? value.get<std::uint64_t>() : 0;
 }

@@ -11,7 +11,7 @@
 
 namespace graze::io {
 
-/// A mesh of a glTF file as one object, its vertices welded. `faces` has no positions; its corners count the
+/// A mesh of a glTF file as one object, its vertices welded. `faces` has no positions. Its corners count the
 /// body's vertices.
 struct GltfMesh {
   Body body;
@@ -25,7 +25,7 @@ struct GltfMesh {
 std::vector<Bone> read_gltf_skin(GltfDocument& document, const nlohmann::json& number,
                                  const std::string& user);
 
-/// Joins the primitives of `meshes[number]`. The joints that it uses are the body's bones; without a skin
+/// Joins the primitives of `meshes[number]`. The joints that it uses are the body's bones. Without a skin
 /// `joints` is null. Throws InputError.
 GltfMesh read_gltf_mesh(GltfDocument& document, const nlohmann::json& number,
                         const std::vector<Bone>* joints);

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// `count` numbers under `key`; `values` as they are where the key is missing.
+/// `count` numbers under `key`, or `values` as they are where the key is missing.
 void read_numbers(const GltfDocument& document, const json& node, const char* key,
                   const std::string& json_path, double* values, std::size_t count) {
   const json& list = member(node, key);

@@ -8,7 +8,7 @@
 
 namespace graze::io {
 
-/// Turns axes of which `up` points up to those in which z does. From y up, (x, y, z) becomes (x, −z, y); from
+/// Turns axes of which `up` points up to those in which z does. From y up, (x, y, z) becomes (x, −z, y). From
 /// x up, (x, y, z) becomes (−y, −z, x).
 Eigen::Matrix3d z_up_from(UpAxis up);
 

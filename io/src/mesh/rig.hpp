@@ -75,7 +75,7 @@ struct Body {
   std::vector<MorphTarget> targets;
   std::vector<Bone> bones;  ///< empty: the node alone places the object
   std::vector<std::vector<Influence>>
-      influences;  ///< for each vertex, when there are bones; none: its node's
+      influences;  ///< for each vertex, when there are bones. Where there are none, its node's
 };
 
 /// The nodes, animations and objects of a file. Immutable once read.

@@ -70,7 +70,7 @@ class EarClipper {
     return flat;
   }
 
-  /// The first ear from `start` on; `start` itself where rounding or crossing edges leave none.
+  /// The first ear from `start` on, or `start` itself where rounding or crossing edges leave none.
   [[nodiscard]] std::size_t find_ear(std::size_t start) const {
     if (ears_.empty()) return start;
     const auto ear = ears_.lower_bound(start);

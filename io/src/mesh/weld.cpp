@@ -7,7 +7,7 @@
 namespace graze::io {
 namespace {
 
-/// Adding zero makes -0 into 0; two NaN are equal when their bits are.
+/// Adding zero makes -0 into 0. Two NaN are equal when their bits are.
 std::uint64_t bits_of(double number) {
   return std::bit_cast<std::uint64_t>(number + 0.0);
 }

@@ -13,7 +13,7 @@ struct CosSin {
   double sin;
 };
 
-/// std::cos and std::sin of π/2 are not 0 and 1 to the last bit; a quarter turn of a box should be.
+/// std::cos and std::sin of π/2 are not 0 and 1 to the last bit. A quarter turn of a box should be.
 CosSin cos_sin_degrees(double degrees) {
   const double turn = std::remainder(degrees, 360.0);
   if (turn == 0) return {1, 0};

@@ -99,7 +99,7 @@ class VertexCache : public PositionSource {
   CacheHeader header_;
   std::ifstream stream_;
   std::vector<char> bytes_;
-  std::vector<std::uint32_t> vertices_;  ///< those of the cache that the mesh has; empty: all
+  std::vector<std::uint32_t> vertices_;  ///< those of the cache that the mesh has. Empty means all
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ struct PageWriter::State {
   PageObjects objects;
   PageMeshes meshes;
   PageBlock block;                           ///< the frames that wait
-  std::uint64_t block_frames = 0;            ///< in a block; 0 until the first one is written
+  std::uint64_t block_frames = 0;            ///< in a block, 0 until the first one is written
   std::uint64_t calls = 0;                   ///< of frame()
   std::uint64_t estimate = 0;                ///< of the file's size
   std::vector<std::uint64_t> frame_numbers;  ///< of the frames that were written

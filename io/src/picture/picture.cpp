@@ -18,7 +18,7 @@ constexpr double wire_darkness = 0.30;
 const Vector3d horizon_colour(0.955, 0.960, 0.970);
 const Vector3d zenith_colour(0.80, 0.85, 0.91);
 
-/// Distinct, muted, so that the marks stand out; beyond the last they start again, lighter.
+/// Distinct, muted, so that the marks stand out. Beyond the last they start again, lighter.
 Vector3d object_colour(std::size_t index) {
   static const std::array<Vector3d, 8> palette{{{0.36, 0.55, 0.76},
                                                 {0.86, 0.52, 0.36},

@@ -9,10 +9,10 @@
 
 namespace graze::io {
 
-/// A triangle to draw; a quad is two, and their common diagonal is no edge.
+/// A triangle to draw. A quad is two, and their common diagonal is no edge.
 struct PictureTriangle {
   std::array<Eigen::Vector3d, 3> points;
-  std::array<Eigen::Vector3d, 3> normals;  ///< unit; smooth up to a crease
+  std::array<Eigen::Vector3d, 3> normals;  ///< unit, smooth up to a crease
   std::array<bool, 3> is_edge;  ///< whether the side opposite to each corner is an edge of the mesh
   std::size_t object = 0;
 };

@@ -29,7 +29,7 @@ void write_settings(JsonText& json, const SceneSettings& settings);
 /// Whether anything of a way out is not 0, so that files have it.
 [[nodiscard]] bool is_written(const WayOut& way);
 
-/// Writes all statistics of a step; without times also no StepBytes::threads.
+/// Writes all statistics of a step. Without times it leaves out StepBytes::threads.
 void write_statistics(JsonText& json, const StepStatistics& statistics, bool include_times);
 
 /// The file's number of the frame of `since`, in a file that numbers the frame of `report` as `frame`. Steps

@@ -42,7 +42,7 @@ ReportLinesIn::ReportLinesIn(const std::filesystem::path& path)
   gzbuffer(file_.get(), buffer_bytes);
 }
 
-/// Unpacks more bytes behind those that are there; false at the end of the file.
+/// Unpacks more bytes behind those that are there. Returns false at the end of the file.
 bool ReportLinesIn::fill() {
   bytes_.erase(0, begin_);
   begin_ = 0;

@@ -37,8 +37,8 @@ class ReportLinesIn {
   /// Throws InputError where the file cannot be read.
   explicit ReportLinesIn(const std::filesystem::path& path);
 
-  /// Reads the next line, without its end; false at the end of the file. Throws InputError for a file that is
-  /// damaged or cut off, and for a compressed line that becomes longer than 1 GiB.
+  /// Reads the next line, without its end. Returns false at the end of the file. Throws InputError for a file
+  /// that is damaged or cut off, and for a compressed line that becomes longer than 1 GiB.
   bool next(std::string& line);
 
  private:

@@ -213,7 +213,7 @@ ReportedObject read_object(const json& value) {
 struct ReportReader::State {
   explicit State(const std::filesystem::path& file) : path(file.string()), lines(file) {}
 
-  /// Hands the next line, parsed, to `read`; false at the end of the file.
+  /// Hands the next line, parsed, to `read`. Returns false at the end of the file.
   template <typename Read>
   bool read_line(Read read);
   void read_header(const json& header);

@@ -98,7 +98,7 @@ struct Player::State {
   /// The objects of each entry by its name, and other objects by their own.
   std::unordered_map<std::string, std::vector<std::size_t>> objects_by_name;
   std::uint64_t ignored_pairs = 0;
-  std::vector<Playback> playbacks;  ///< of each object; outlives the scene, which reads its positions
+  std::vector<Playback> playbacks;  ///< of each object. It outlives the scene, which reads its positions
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;
   std::uint32_t frame_count = 1;

@@ -160,7 +160,7 @@ std::unique_ptr<PositionSource> Loader::open_source(const ObjectDescription& ent
       "cloth_####.ply");
 }
 
-/// The mesh with its rest positions replaced, the same one for equal placements. Numbers stay; a mirror turns
+/// The mesh with its rest positions replaced, the same one for equal placements. Numbers stay. A mirror turns
 /// the faces, so that the front stays outside.
 std::shared_ptr<const Mesh> Loader::moved_mesh(const std::shared_ptr<const Mesh>& mesh,
                                                const Eigen::Affine3d& placement) {

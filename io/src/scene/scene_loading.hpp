@@ -14,9 +14,10 @@ namespace graze::io {
 struct LoadedSceneObject {
   std::size_t entry = 0;  ///< into SceneDescription::objects
   ObjectSettings settings;
-  /// With the file's axes and unit converted; scaled where rigid or fixed, wholly placed where deformable.
+  /// With the file's axes and unit converted. It is scaled where rigid or fixed, wholly placed where
+  /// deformable.
   std::shared_ptr<const Mesh> mesh;
-  std::unique_ptr<PositionSource> source;                   ///< positions before `placement`; null: none
+  std::unique_ptr<PositionSource> source;                   ///< positions before `placement`. Null means none
   Eigen::Affine3d placement = Eigen::Affine3d::Identity();  ///< takes what `source` reads to the scene
 };
 

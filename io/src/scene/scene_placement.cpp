@@ -67,7 +67,7 @@ void read_pose(const JsonPath& json, Placement& placement) {
   if (matrix) placement = read_matrix(*matrix);
 }
 
-/// A key states the pose itself; what it leaves out is the transform's.
+/// A key states the pose itself. What it leaves out is the transform's.
 KeyPose read_key_pose(const JsonPath& json, const Placement& transform) {
   json.expect_keys({"frame", "translate", "rotate_degrees", "rotate_quaternion", "matrix"});
   const auto frame = json.require("frame", "say at which frame this pose holds").whole_number(0, last_frame);

@@ -38,7 +38,7 @@ class JsonPath {
   [[nodiscard]] std::optional<JsonPath> find(std::string_view key) const;
   [[nodiscard]] JsonPath require(std::string_view key, std::string_view remedy) const;
 
-  /// An array's length; `item(i)` its parts.
+  /// An array's length. `item(i)` gives its parts.
   [[nodiscard]] std::size_t array_size(std::string_view remedy) const;
   [[nodiscard]] JsonPath item(std::size_t index) const;
 

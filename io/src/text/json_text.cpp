@@ -58,7 +58,7 @@ JsonText& JsonText::key(std::string_view name) {
 
 JsonText& JsonText::text(std::string_view value) {
   separate();
-  // Names may hold anything; bytes that are not UTF-8 are replaced rather than thrown at.
+  // Names may hold anything. Bytes that are not UTF-8 are replaced rather than thrown at.
   line_ += without_late_controls(
       nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   return *this;

@@ -7,8 +7,8 @@
 
 namespace graze::io {
 
-/// Builds one line of JSON from left to right; places the commas. Doubles come back to the same bits; those
-/// that JSON has no number for are "infinity", "-infinity" and null.
+/// Builds one line of JSON from left to right, and places the commas. Doubles come back to the same bits.
+/// Those that JSON has no number for are "infinity", "-infinity" and null.
 class JsonText {
  public:
   JsonText& open(char bracket);

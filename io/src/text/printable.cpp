@@ -13,7 +13,7 @@ struct Utf8Character {
   bool is_valid = false;
 };
 
-/// The number of bytes that a first byte announces; 0 for a byte that begins no character.
+/// The number of bytes that a first byte announces, 0 for a byte that begins no character.
 std::size_t announced_bytes(unsigned char first) {
   if (first < 0x80) return 1;
   if (first < 0xC2) return 0;

@@ -14,7 +14,7 @@ struct Character {
   Eigen::Vector2d dodge = Eigen::Vector2d::Zero();  ///< m/s, out of the way of other characters
   double heading = 0;                               ///< rad
   double phase = 0;                                 ///< of its step, in rad
-  double step_height = 0;                           ///< how much it stretches in a step; it follows `touches`
+  double step_height = 0;                           ///< how much it stretches in a step. It follows `touches`
   int touches = 0;                                  ///< how many props touch it now
   std::uint32_t goals = 0;                          ///< how many goals it has had
   std::vector<Eigen::Vector3f> points;              ///< graze reads them in each step

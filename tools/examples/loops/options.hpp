@@ -7,11 +7,11 @@ namespace loops {
 
 /// The options that a loop is started with.
 struct Options {
-  std::string record;          ///< the file of a recording, or empty; see `graze view`
-  std::string organs;          ///< an OBJ file with the organs; empty means the loop's own choice
+  std::string record;          ///< the file of a recording, or empty, see `graze view`
+  std::string organs;          ///< an OBJ file with the organs. Empty means the loop's own choice
   bool blobs = false;          ///< organs are generated, not read
-  int length = 0;              ///< frames or ticks; 0 means the loop's own number
-  unsigned threads = 0;        ///< of graze's steps; 0 means one for each processor
+  int length = 0;              ///< frames or ticks. 0 means the loop's own number
+  unsigned threads = 0;        ///< of graze's steps. 0 means one for each processor
   bool deterministic = false;  ///< ticks are counted, not timed
 };
 

@@ -9,7 +9,7 @@ namespace loops {
 /// 0`.
 struct ConstraintPlane {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of length 1
-  double separation = 0;  ///< mm; negative if the instrument is behind the plane
+  double separation = 0;  ///< mm, negative if the instrument is behind the plane
 
   /// Returns how far behind the plane a way leads, or a negative number if it does not.
   [[nodiscard]] double violation(const Eigen::Vector3d& way) const {

@@ -30,7 +30,7 @@ class PushConstraint {
   ContactSide a_, b_;
   Eigen::Vector3d arm_a_ = Eigen::Vector3d::Zero(), arm_b_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_;  ///< of the push on b
-  double speed_ = 0;           ///< m/s, with which b shall leave a at least; negative if it may come nearer
+  double speed_ = 0;           ///< m/s, with which b shall leave a at least, negative if it may come closer
   double mass_ = 0;            ///< kg, against a push
   double sliding_mass_ = 0;    ///< kg, not more than that against any push across it
   double impulse_ = 0;

@@ -14,7 +14,7 @@ struct Spring {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   double rest_length = 0;
-  double compliance = 0;  ///< stretch by force, in m/N; 0 is rigid
+  double compliance = 0;  ///< stretch by force, in m/N, 0 is rigid
   double multiplier = 0;  ///< of XPBD: grows over the iterations of one step
 };
 

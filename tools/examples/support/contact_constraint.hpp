@@ -10,7 +10,7 @@ namespace examples {
 
 /// How contacts push.
 struct ContactSettings {
-  double gap = 0.005;         ///< how far surfaces stay apart, in m; less than the contact distance
+  double gap = 0.005;         ///< how far surfaces stay apart, in m, less than the contact distance
   double friction = 0.5;      ///< the coefficient of Coulomb's friction
   double recovery_speed = 1;  ///< how fast what is too near is pushed out at most, in m/s
 };

@@ -13,12 +13,12 @@ struct WorldSettings {
   double contact_distance = 0.02;  ///< in m: the gap, and how far surfaces come nearer in one step
   double gravity = 9.81;           ///< in m/s², downwards
   double damping = 0.1;            ///< how much of a velocity is lost in a second
-  int substeps = 1;                ///< into which a step is cut; graze looks once for all of them
+  int substeps = 1;                ///< into which a step is cut. graze looks once for all of them
   int iterations = 1;              ///< over springs and contacts in each substep
   ContactSettings contacts;
 };
 
-/// Bodies that move by XPBD: Müller, Heidelberger, Hennix and Ratcliff, Position Based Dynamics, 2007;
+/// Bodies that move by XPBD: Müller, Heidelberger, Hennix and Ratcliff, Position Based Dynamics, 2007, and
 /// Macklin, Müller and Chentanez, XPBD, 2016. Each step asks graze for the nearest contacts first.
 class World {
  public:

@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// Bytes of the allocator's that a vector holds; not what its elements hold themselves.
+/// Bytes of the allocator's that a vector holds. What its elements hold themselves does not count.
 template <typename Element>
 std::size_t bytes_of(const std::vector<Element>& elements) {
   return elements.capacity() * sizeof(Element);  // NOLINT(bugprone-sizeof-expression): of pointers too

@@ -9,9 +9,9 @@
 
 namespace graze {
 
-/// Rounding to nearest, no flushing of denormals and no traps while it lives; what the caller had is
-/// restored. Every task and every call that computes has one, so that results do not depend on what a foreign
-/// library left behind.
+/// Rounding to nearest, no flushing of denormals and no traps while it lives. Afterwards it restores what the
+/// caller had. Every task and every call that computes has one, so that results do not depend on what a
+/// foreign library left behind.
 class FloatingPointScope {
  public:
   FloatingPointScope() {

@@ -7,7 +7,7 @@
 
 namespace graze {
 
-/// A value that is made when it is first asked for, by any thread; copies share it.
+/// A value that is made when it is first asked for, by any thread. Copies share it.
 template <typename Value>
 class MadeOnce {
  public:

@@ -13,7 +13,7 @@ inline std::string number_text(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-/// A number for a message, rounded to so many digits; 1 to 17.
+/// A number for a message, rounded to so many digits, which are 1 to 17.
 inline std::string number_text(double value, int digits) {
   std::array<char, 32> text;
   return {

@@ -108,7 +108,7 @@ class GRAZE_API IndexedMesh {
   /// The regions of the octree whose faces are long.
   [[nodiscard]] const LongRegions& long_regions() const { return long_regions_; }
 
-  /// How far the rest shape reaches in any direction; made when it is first asked for, by any thread.
+  /// How far the rest shape reaches in any direction. It is made when it is first asked for, by any thread.
   [[nodiscard]] const RestReach& rest_reach() const;
 
   /// Bytes held now: with the region tree, and with such lists as have been made.

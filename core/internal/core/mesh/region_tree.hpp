@@ -62,7 +62,7 @@ class GRAZE_API RegionTree {
   /// The level of the leaf of the median vertex: how deep the tree is, but for where vertices crowd.
   [[nodiscard]] std::uint32_t leaf_level() const { return leaf_level_; }
   [[nodiscard]] std::uint32_t region_count() const { return static_cast<std::uint32_t>(regions_.size()); }
-  /// The number of the first region of `level`; `level_count()` gives the number of regions.
+  /// The number of the first region of `level`. `level_count()` gives the number of regions.
   [[nodiscard]] std::uint32_t level_begin(std::uint32_t level) const { return level_begin_[level]; }
 
   /// All used vertices, faces and edges in tree order. Every region owns a contiguous range of each.
@@ -123,8 +123,8 @@ class GRAZE_API RegionTree {
   std::vector<std::uint32_t> edges_;
   std::vector<std::uint32_t> border_;
   std::vector<std::uint32_t> local_indices_;
-  std::vector<LocalBegin> local_begin_;               ///< by region; of leaves
-  std::vector<std::array<std::uint32_t, 3>> spread_;  ///< by region; of leaves
+  std::vector<LocalBegin> local_begin_;               ///< by region, for leaves only
+  std::vector<std::array<std::uint32_t, 3>> spread_;  ///< by region, for leaves only
 };
 
 }  // namespace graze

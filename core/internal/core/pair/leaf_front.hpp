@@ -21,7 +21,7 @@ struct RegionPair {
 };
 
 /// A pair of leaves, and two lower bounds of their distance when they were listed. `lower` bounds all
-/// features that they have; `feature_lower_bound` comes from a test of the leaves. The test bounds each
+/// features that they have. `feature_lower_bound` comes from a test of the leaves. The test bounds each
 /// vertex with each face and each two edges, but not an edge that comes to pierce a face.
 struct ListedLeaves {
   RegionPair pair;
@@ -31,7 +31,7 @@ struct ListedLeaves {
 
 /// A point of a surface that moves with it: of a vertex, an edge, a fold or a triangle, by its corners.
 struct SurfacePoint {
-  std::uint32_t size = 0;  ///< how many corners; 0 for no point
+  std::uint32_t size = 0;  ///< how many corners, 0 for no point
   std::array<std::uint32_t, 3> corner{};
   std::array<float, 2> share{};  ///< of the ways from the first corner to the others, not more than 1 in all
 };
@@ -109,7 +109,7 @@ struct LeafFront {
     return bytes_of(leaves) + (near == nullptr ? 0 : sizeof(NearList) + bytes_of(near->pairs)) +
            (last_inside == nullptr ? 0 : sizeof(LastInside));
   }
-  /// No pair of leaves that is not listed is nearer than this now; not positive where nothing is known.
+  /// No pair of leaves that is not listed is closer than this now. Not positive where nothing is known.
   [[nodiscard]] double unlisted_lower_bound_now(const Surface& a, const Surface& b) const {
     if (!(unlisted_lower_bound > 0)) return -1;
     if (unlisted_lower_bound == std::numeric_limits<double>::infinity()) return unlisted_lower_bound;

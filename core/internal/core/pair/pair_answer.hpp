@@ -22,7 +22,7 @@ struct PairFinding {
 
 struct PairAnswer : PairFinding {
   std::vector<Contact> contacts;  ///< sorted by (kind, feature a, feature b)
-  /// By level; those of `PairDetector::region_distances`.
+  /// By level, as `PairDetector::region_distances`.
   std::vector<RegionDistance> region_distances;
 };
 

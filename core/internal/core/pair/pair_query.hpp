@@ -18,10 +18,10 @@ class FeatureFilter;
 struct PairQuery {
   ContactDetail detail = ContactDetail::features;
   AccuracyMode mode = AccuracyMode::exact;
-  double threshold = 0;  ///< strictly closer is a contact; margins included
-  double reach = 0;      ///< at least `threshold`; pairs strictly closer are listed
+  double threshold = 0;  ///< strictly closer is a contact, margins included
+  double reach = 0;      ///< at least `threshold`. Pairs strictly closer are listed
   double tolerance = 0;  ///< of AccuracyMode::within
-  /// How far the surfaces may move until a front found now is of no more use; 0: none is kept.
+  /// How far the surfaces may move until a front found now is of no more use. With 0 none is kept.
   double slack = 0;
   /// The extra distance within which a search for the closest points tests leaves. It gives lower bounds that
   /// tell for some steps which leaves have nothing near enough.
@@ -43,16 +43,17 @@ struct PairQuery {
   /// Whether the answer says how surfaces that pass through each other leave each other. This does not go
   /// with details about vertices, nor with AccuracyMode::paper.
   bool wants_way_out = false;
-  /// How many distances of regions are listed at most; 0: none.
+  /// How many distances of regions are listed at most. With 0 there are none.
   std::size_t region_distance_limit = 0;
-  /// Regions are listed that may be nearer than this; in AccuracyMode::paper, those that pass its test.
+  /// Regions are listed that may be closer than this. In AccuracyMode::paper these are those that pass its
+  /// test.
   double region_distance_reach = 0;
-  std::span<const double>
-      epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`; empty: eq. 3 and 6
+  std::span<const double> epsilon;  ///< AccuracyMode::paper's numbers, of which the last is DV's `threshold`.
+                                    ///< Empty means eq. 3 and 6
   /// Says which features are tested. It is null where all are. It leaves some. Fronts that are used were
   /// made with the same groups, ignored in the same way.
   const FeatureFilter* groups = nullptr;
-  /// Region pairs that may be tested; beyond it the answer is not complete.
+  /// Region pairs that may be tested. Beyond it the answer is not complete.
   std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
   static constexpr std::chrono::steady_clock::time_point no_deadline =
       std::chrono::steady_clock::time_point::max();

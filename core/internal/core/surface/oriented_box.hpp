@@ -17,7 +17,7 @@ struct GRAZE_API OrientedBox {
   /// The position from which the box is given. Coordinates enter by their differences from it alone.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< from the origin, along the axes
-  Eigen::Vector3d half = Eigen::Vector3d::Zero();    ///< half of the sides; not less for rounding
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();    ///< half of the sides, not less for rounding
 
   /// A box along the coordinate axes as an oriented one, where nothing better is known.
   static OrientedBox of(const Box& box);

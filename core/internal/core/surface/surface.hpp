@@ -19,7 +19,7 @@
 namespace graze {
 
 /// A mark on the way that a surface's vertices make. Between two marks of one epoch no vertex came further
-/// than the difference of their distances; a jump begins a new epoch.
+/// than the difference of their distances. A jump begins a new epoch.
 struct Travel {
   std::uint64_t epoch = 0;
   double distance = 0;
@@ -29,12 +29,12 @@ struct Travel {
 enum class RefitOf : std::uint8_t {
   vertices,  ///< a box of the region's vertices
   faces,     ///< a box of those and of all corners of the faces and edges that the region owns
-  radii,  ///< about the middle vertex (eq. 2), and of levels (eq. 3); AccuracyMode::paper alone asks for them
+  radii,  ///< about the middle vertex (eq. 2), and of levels (eq. 3). AccuracyMode::paper alone asks for them
 };
 
 /// A mesh at the positions it has now, and the bounds of its regions there or where they were a while ago.
-/// While it stands at rest its positions are the mesh's, and take no memory. One thread changes it at a time;
-/// while none does, any number may read.
+/// While it stands at rest its positions are the mesh's, and take no memory. One thread changes it at a time.
+/// While none does, any number may read.
 class GRAZE_API Surface {
  public:
   /// At the mesh's rest shape, not yet refitted. Throws Error for a null mesh.
@@ -53,7 +53,7 @@ class GRAZE_API Surface {
     if (in_double_.empty()) return in_float_[vertex].cast<double>();
     return in_double_[vertex];
   }
-  /// All of them, as they lie in memory; until they are set again.
+  /// All of them, as they lie in memory, until they are set again.
   [[nodiscard]] PositionView positions() const {
     if (viewed_.data() != nullptr) return viewed_;
     return in_double_.empty() ? PositionView(in_float_) : PositionView(in_double_);
@@ -70,7 +70,7 @@ class GRAZE_API Surface {
     /// The first used vertex that is not finite or has a coordinate beyond 2^120. Then nothing was taken.
     std::uint32_t bad_vertex = no_vertex;
     Eigen::Vector3d bad_position = Eigen::Vector3d::Zero();
-    /// How far the used vertex that moved furthest did; with Displacement::bound at least that.
+    /// How far the used vertex that moved furthest did. With Displacement::bound at least that.
     double displacement = 0;
     /// Whether some used vertex has other bits than before.
     bool changed = false;
@@ -102,7 +102,7 @@ class GRAZE_API Surface {
     /// Adds what was found in the vertices that come after.
     void add(const PartSeen& later);
   };
-  /// Reading by several threads has three phases. First scan the vertices from `begin` to `end`; several
+  /// Reading by several threads has three phases. First scan the vertices from `begin` to `end`. Several
   /// threads may scan ranges that do not overlap. Then `accept` what all scans found together. If that says
   /// that something changed, write the positions, again by ranges. Between `accept` and the last write the
   /// surface's positions must not be read.
@@ -232,7 +232,7 @@ class GRAZE_API Surface {
   std::vector<Eigen::Vector3d> in_double_;
   std::optional<std::array<double, 12>>
       pose_;                ///< by which they are those of the rest shape, where it is known
-  PositionView viewed_;     ///< used instead of these, where there is one; always while both are empty
+  PositionView viewed_;     ///< used instead of these, where there is one, and always while both are empty
   bool is_behind_ = false;  ///< there has been one since they were written
   Box box_;
   std::vector<double> radii_;

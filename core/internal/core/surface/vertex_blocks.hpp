@@ -26,8 +26,8 @@ class VertexBlocks {
   static constexpr std::size_t in_whole_groups(std::size_t count) {
     return (count + group_size - 1) / group_size * group_size;
   }
-  /// Boxes in six rows, least x, y, z and greatest, about the origin; up to a multiple of sixteen, of which
-  /// those behind the last are NaN and meet nothing.
+  /// Boxes in six rows, least x, y, z and greatest, about the origin. They go up to a multiple of sixteen, of
+  /// which those behind the last are NaN and meet nothing.
   struct Level {
     const float* rows = nullptr;
     std::size_t stride = 0;

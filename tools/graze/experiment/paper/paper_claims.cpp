@@ -67,7 +67,7 @@ Claim too_few_claim(const PaperResults& results) {
   };
   const auto found = [](const RowResult& row) { return row.found(); };
   return {"Rows 1 and 2 show fewer collisions because of a small ε in level 1.",
-          format("found of %llu: %s; with the numbers summed by eq. 6, %s",
+          format("found of %llu: %s. With the numbers summed by eq. 6: %s",
                  number(results.rows[0].sum(&StepCount::truth)),
                  list_of({results.rows[0], results.rows[1], results.rows[2]}, found).c_str(),
                  list_of({summed[0], summed[1], summed[2]}, found).c_str()),
@@ -89,7 +89,7 @@ Claim too_many_claim(const PaperResults& results) {
                  number(extra(fifth)), number(fourth.found()), number(best.found()),
                  number(best.sum(&StepCount::truth)), number(fifth.sum(&StepCount::truth)),
                  number(best.sum(&StepCount::truth))),
-          more ? "yes, if every end of DV's walk counts; if only near leaf regions count, only row 5, by its "
+          more ? "yes, if every end of DV's walk counts. If only near leaf regions count, only row 5, by its "
                  "last ε"
                : "no"};
 }
@@ -110,7 +110,7 @@ Claim best_claim(const PaperResults& results) {
   return {
       "Row 3 is the optimum: all collisions are detected, with the fewest nodes expanded, 76 in level 1, "
       "288 in level 2 and 151 in level 3.",
-      format("row 3 misses %llu of %llu; with the numbers summed by eq. 6 it misses %llu. In the last step "
+      format("row 3 misses %llu of %llu. With the numbers summed by eq. 6 it misses %llu. In the last step "
              "%llu pairs of regions pass eq. 4 in level 1, %llu in level 2, and %llu of %llu collisions "
              "are found. With summed numbers it is %llu, %llu, and %llu of %llu",
              number(missed(best)), number(best.sum(&StepCount::truth)), number(missed(summed[best_row])),
@@ -150,7 +150,7 @@ Claim escape_claim(const PaperResults& results) {
       "Vertices stay within ε of their middle vertex while the object deforms, so that it need not be "
       "updated (section 3.1).",
       format("%.3g %% of them, over all steps, are outside the initial ε of their region (eq. 2), %.3g %% "
-             "outside that of the level (eq. 3); the furthest is at %.3g times ε",
+             "outside that of the level (eq. 3). The furthest is at %.3g times ε",
              100 * static_cast<double>(own) / static_cast<double>(vertices),
              100 * static_cast<double>(level) / static_cast<double>(vertices), furthest),
       yes_or_no(own == 0)};
@@ -169,7 +169,7 @@ std::vector<Claim> claims_2(const PaperResults& results) {
   return {
       growth_claim(results),
       {"Rows 2 and 3 report the same number of collisions.",
-       format("found of %llu: row 2 %llu, row 3 %llu; in the last step %llu and %llu of %llu; DV reports "
+       format("found of %llu: row 2 %llu, row 3 %llu. In the last step %llu and %llu of %llu. DV reports "
               "%llu and %llu",
               number(third.sum(&StepCount::truth)), number(second.found()), number(third.found()),
               number(second.steps.back().found()), number(third.steps.back().found()),
@@ -177,11 +177,11 @@ std::vector<Claim> claims_2(const PaperResults& results) {
        yes_or_no(same)},
       {"Row 3 expands a lot fewer nodes than row 2, and so takes 5 ms less.",
        format("pairs of regions that pass eq. 4 in all steps, level 1: %llu instead of %llu, level 2: %llu "
-              "instead of %llu; leaf pairs given to DV: %llu instead of %llu (for times see the table)",
+              "instead of %llu. Leaf pairs given to DV: %llu instead of %llu (for times see the table)",
               number(third.passed(1)), number(second.passed(1)), number(third.passed(2)),
               number(second.passed(2)), number(third.sum(&StepCount::given_to_dv)),
               number(second.sum(&StepCount::given_to_dv))),
-       fewer ? "fewer, yes; but it is not the same that they find" : "no"},
+       fewer ? "fewer, yes, but it is not the same that they find" : "no"},
       thirty_claim(results)};
 }
 
@@ -206,8 +206,8 @@ std::vector<Claim> claims_3(const PaperResults& results) {
   return {
       growth_claim(results),
       {"The collisions detected are almost the same whatever ε is, because the surfaces are convex.",
-       format("the rows find between %.3g %% and %.3g %% of what there is at their last ε; with the numbers "
-              "summed by eq. 6 between %.4g %% and %.4g %%",
+       format("the rows find between %.3g %% and %.3g %% of what there is at their last ε. With the numbers "
+              "summed by eq. 6 it is between %.4g %% and %.4g %%",
               least, largest, least_summed, largest_summed),
        holds ? "yes" : (holds_summed ? "only with the numbers summed by eq. 6" : "no")},
       {"Row 3 is the optimum, with 199 collisions.",
@@ -239,7 +239,7 @@ Claim parts_claim(const PaperResults& whole, const PaperResults& parts) {
   return {
       "The human can be decomposed in its extremities, to have more control over the regions.",
       format("row 3 misses %.3g %% of the collisions with whole humans, %.3g %% with humans in six parts, "
-             "and row 2 then misses %.3g %%; with ε by eq. 3 and 6, which misses %llu and %llu, DV is given "
+             "and row 2 then misses %.3g %%. With ε by eq. 3 and 6, which misses %llu and %llu, DV is given "
              "%.0f and %.0f leaf pairs a step",
              percent_missed(row), percent_missed(row_of_parts), percent_missed(second_of_parts),
              number(missed(whole.formula)), number(missed(parts.formula)), given_a_step(whole),

@@ -278,31 +278,29 @@ std::string text_of(const std::vector<BesideBox>& all, const ComparisonScenes& s
       "**What was measured.** The paper's conclusion names a comparison with other methods as future "
       "work: \"the intersection test, tight fitting, computation time, and the use of memory\". Nine "
       "kinds of bound are compared here over the same regions, those of graze's octree.\n\n"
-      "| bound | what it is |\n| :-- | :-- |\n"
-      "| middle-vertex sphere | the paper's sphere (eq. 2) |\n"
-      "| centred sphere | a sphere about the centre of the region's box |\n"
-      "| box | along the coordinate axes; the one that the library has |\n"
-      "| oriented box | along the principal axes |\n"
-      "| line swept sphere | a sphere swept along a segment, which lies along a principal axis |\n"
-      "| rectangle swept sphere | a sphere swept along a rectangle, which lies along two principal axes "
-      "|\n"
-      "| 14-DOP | 14 sides, across the axes and the cube's diagonals |\n"
-      "| 18-DOP | 18 sides, across the axes and the faces' diagonals |\n"
-      "| 26-DOP | 26 sides, across all of these directions |\n\n"
-      "| condition | value |\n| :-- | :-- |\n"
-      "| walk | breadth first, as DMV; a pair of regions is expanded where its lower bound is below the "
-      "distance |\n"
-      "| arithmetic | double, rounded to the safe side |\n"
-      "| check | each bound must find all vertex pairs within the distance. A grid without a hierarchy "
-      "says which |\n"
-      "| update | all regions in each frame. A box or k-DOP of an inner region is made from its children, "
-      "which gives the same; all other bounds from all vertices of the region |\n"
-      "| lower bound of oriented boxes and swept spheres | the gap along a direction that three rounds of "
-      "alternating projections find |\n"
-      "| step, vertices | update, walk, and every vertex pair of the leaves reached |\n"
-      "| step, faces | for contacts between features. Bounds cover faces, and a step is update, walk and "
-      "clipping: each leaf reached keeps the corners within the distance of the other's box, as graze "
-      "does first. A pair reached in vain is left early |\n\n" +
+      "- *Middle-vertex sphere*: the paper's sphere (eq. 2).\n"
+      "- *Centred sphere*: a sphere about the centre of the region's box.\n"
+      "- *Box*: along the coordinate axes. It is the one that the library has.\n"
+      "- *Oriented box*: along the principal axes.\n"
+      "- *Line swept sphere*: a sphere swept along a segment, which lies along a principal axis.\n"
+      "- *Rectangle swept sphere*: a sphere swept along a rectangle, which lies along two principal axes.\n"
+      "- *14-DOP*: 14 sides, across the axes and the cube's diagonals.\n"
+      "- *18-DOP*: 18 sides, across the axes and the faces' diagonals.\n"
+      "- *26-DOP*: 26 sides, across all of these directions.\n\n"
+      "These are the conditions:\n\n"
+      "- The walk is breadth first, as DMV. A pair of regions is expanded where its lower bound is below "
+      "the distance.\n"
+      "- Arithmetic is double, rounded to the safe side.\n"
+      "- Each bound must find all vertex pairs within the distance. A grid without a hierarchy says "
+      "which.\n"
+      "- All regions are updated in each frame. A box or k-DOP of an inner region is made from its "
+      "children, which gives the same. All other bounds are made from all vertices of the region.\n"
+      "- The lower bound of oriented boxes and swept spheres is the gap along a direction that three "
+      "rounds of alternating projections find.\n"
+      "- A step between vertices is update, walk, and every vertex pair of the leaves reached.\n"
+      "- A step between faces is for contacts between features. Bounds cover faces, and a step is update, "
+      "walk and clipping: each leaf reached keeps the corners within the distance of the other's box, as "
+      "graze does first. A pair reached in vain is left early.\n\n" +
       scenes.left_out;
   const auto fewest = std::min_element(all.begin(), all.end(), [](const BesideBox& a, const BesideBox& b) {
     return a.leaf_pairs < b.leaf_pairs;
@@ -347,15 +345,15 @@ void add_claims(const std::vector<BesideBox>& all, const std::vector<SceneResult
              format("The walk needs %.1f times as many of them as of boxes.", sphere.tests), "not by itself"};
   if (with_times)
     test.measured = format(
-        "One test of two spheres takes %.1f ns, of two boxes %.1f ns; the walk needs %.1f times as "
+        "One test of two spheres takes %.1f ns, of two boxes %.1f ns. The walk needs %.1f times as "
         "many of the former and takes %.1f times as long.",
         median_test_ns(middle_sphere), median_test_ns(axis_box), sphere.tests, sphere.walk);
   if (with_times) test.holds = sphere.walk < 1 ? "yes" : "the test is cheap, but too many are needed";
   study.claims.push_back(std::move(test));
   Claim memory{
       "Only one parameter is required to be updated per region; a sphere needs a 3D vector and a float.",
-      format("8 bytes a region change (the radius, in double) beside 32 of a sphere and 48 of a box; "
-             "the sphere of eq. 2 reaches %.1f times as many leaf pairs as the box.",
+      format("8 bytes a region change (the radius, in double) beside 32 of a sphere and 48 of a box. "
+             "The sphere of eq. 2 reaches %.1f times as many leaf pairs as the box.",
              sphere.leaf_pairs),
       "yes, at the price of tightness"};
   if (with_times)

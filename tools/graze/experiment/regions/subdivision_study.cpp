@@ -256,13 +256,13 @@ std::string text_of(const std::vector<BesideOctree>& all, const std::vector<Scen
   std::string text =
       "**What was measured.** The octree of regions is compared with other partitions of the same "
       "vertices.\n\n"
-      "| partition | how it divides |\n| :-- | :-- |\n"
-      "| octree | eight equal boxes of a region's box, as in the library; at most 30 vertices a leaf |\n"
-      "| median | halves of equal count across the longest side; a control that also goes by space alone "
-      "|\n"
-      "| surface halves | halves of equal count by the distance along the surface between two far ends |\n"
-      "| edge collapse | bottom up: of two adjacent regions those become one first that stay the most "
-      "compact |\n\n"
+      "- *Octree*: eight equal boxes of a region's box, as in the library. A leaf has at most 30 "
+      "vertices.\n"
+      "- *Median*: halves of equal count across the longest side. It is a control that also goes by space "
+      "alone.\n"
+      "- *Surface halves*: halves of equal count by the distance along the surface between two far ends.\n"
+      "- *Edge collapse*: bottom up. Of two adjacent regions those become one first that stay the most "
+      "compact.\n\n"
       "The number after a name is how many vertices a leaf may have. The octree's leaves may have 30 but "
       "are seldom full. So 15 compares the partitions, and 30 shows what the same rule gives. All are "
       "measured over one kind of tree, with up to eight children a region, and by the same walk. All must "
@@ -310,7 +310,7 @@ void add_claims(const std::vector<BesideOctree>& all, Study& study) {
       all.begin(), all.end(),
       [](const BesideOctree& a, const BesideOctree& b) { return a.vertex_pairs < b.vertex_pairs; });
   study.claims.push_back({"Another subdivision method can be used to partition the objects.",
-                          format("All seven find every near pair; with boxes they leave from %.2f (%s) to "
+                          format("All seven find every near pair. With boxes they leave from %.2f (%s) to "
                                  "%.2f (%s) of the octree's "
                                  "vertex pairs.",
                                  spread.first->vertex_pairs, spread.first->name.c_str(),

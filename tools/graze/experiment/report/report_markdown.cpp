@@ -28,39 +28,40 @@ long for this page, and the points of every figure.
 
 ## Terms of the paper's experiments
 
-| term | meaning |
-| :-- | :-- |
-| DMV | the paper's walk through pairs of regions, level by level, down to pairs of leaf regions |
-| DV | what the paper does with two leaf regions: it walks from their nearest vertices along the mesh to nearer ones |
-| ε of a region (eq. 2) | the largest distance from the region's middle vertex to one of its vertices |
-| ε of a level (eq. 3) | the largest ε of the level's regions |
-| to pass eq. 4 | the middle vertices of two regions are nearer than ε |
-| ε summed by eq. 6 | ε of a pair of objects is the sum of both objects' ε |
-| row | a row of the paper's table for the experiment: ε of level 1, of level 2, and the last ε. The paper finds row 3 best |
-| last ε | the distance below which DV reports |
-| collision | a pair of leaf regions with a pair of vertices nearer than the last ε |
-| truth | all collisions, from a test of every pair of leaf regions. double holds the squares of all distances exactly |
-| found | collisions whose leaf regions DMV reaches |
-| missed | all other collisions |
-| reported by DV | pairs of leaf regions where DV's walk ends below the last ε |
-| reported, no collision | reported pairs without vertices that near. DV's walk has led out of the two leaf regions |
-| different vertex pairs | the vertex pairs where DV's walks end, each counted once. Many walks end at one pair |
-| all distances | the setting asks how far every pair of objects is apart, however far |
-| pairs of objects compared | all pairs of every step that is played; for the detail `features` one in ten, or all where `--frames` is given |
+- *DMV* is the paper's walk through pairs of regions, level by level, down to pairs of leaf regions.
+- *DV* is what the paper does with two leaf regions: it walks from their closest vertices along the mesh to closer ones.
+- *ε of a region* (eq. 2) is the largest distance from the region's middle vertex to one of its vertices.
+- *ε of a level* (eq. 3) is the largest ε of the level's regions.
+- Two regions *pass eq. 4* if their middle vertices are closer than ε.
+- *ε summed by eq. 6* is the sum of both objects' ε, for a pair of objects.
+- A *row* is one of the paper's table for the experiment: ε of level 1, of level 2, and the last ε. The paper finds row 3
+  best.
+- The *last ε* is the distance below which DV reports.
+- A *collision* is a pair of leaf regions with a pair of vertices closer than the last ε.
+- The *truth* is all collisions, from a test of every pair of leaf regions. double holds the squares of all distances
+  exactly.
+- *Found* are collisions whose leaf regions DMV reaches. *Missed* are all other collisions.
+- *Reported by DV* are pairs of leaf regions where DV's walk ends below the last ε.
+- *Reported, no collision* are reported pairs without vertices that near. DV's walk has led out of the two leaf regions.
+- *Different vertex pairs* are those where DV's walks end, each counted once. Many walks end at one pair.
+- *All distances* means that the setting asks how far every pair of objects is apart, however far.
+- *Pairs of objects compared* are all pairs of every step that is played. For the detail `features` they are one in ten, or
+  all where `--frames` is given.
 
 The paper leaves two things open, so its numbers are read in three ways:
 
-| reading | ε of a pair of objects | leaf regions |
-| :-- | :-- | :-- |
-| as in eq. 4 | one number, as in the paper's tables. `Accuracy::paper` reads a row like this | go to DV without a test, as in the paper's pseudocode |
-| leaves tested, too | one number | must pass eq. 4 before DV |
-| summed as in eq. 6 | each object has the number, and the pair has the sum | go to DV without a test |
+- *As in eq. 4*: ε of a pair of objects is one number, as in the paper's tables. `Accuracy::paper` reads a row like this.
+  Leaf regions go to DV without a test, as in the paper's pseudocode.
+- *Leaves tested, too*: ε is one number, and leaf regions must pass eq. 4 before DV.
+- *Summed as in eq. 6*: each object has the number, and the pair has the sum. Leaf regions go to DV without a test.
+
+What follows from this:
 
 - At this scale only the summed reading can find everything. Spheres of radius ε about two middle vertices touch up to a
   distance of twice ε.
 - A leaf has at most 30 vertices, and most of these meshes end at level 2. So ε of level 2 decides only where a region of
   level 2 still has children.
-- If leaves are tested, DV gets far fewer pairs, nearer to the paper's counts. More collisions are missed.
+- If leaves are tested, DV gets far fewer pairs, closer to the paper's counts. More collisions are missed.
 
 <a id="motion"></a>
 
@@ -68,7 +69,7 @@ The paper leaves two things open, so its numbers are read in three ways:
 
 Deforming bodies are mass-spring systems, with springs along edges and bends across them. Implicit Euler moves them, in
 the form of Liu and others (2013), which no step makes unstable. Bodies start with a spin and a stretch that the seed
-decides, and go to one point. They push each other off where exact mode finds their surfaces near. If two came nearer than
+decides, and go to one point. They push each other off where exact mode finds their surfaces near. If two came closer than
 a quarter of a unit, all would stand still from there on.
 
 The motion is made once, rounded to multiples of 2⁻¹⁴, and every setting plays the same one. The command writes it as scene
@@ -102,12 +103,19 @@ graze that was built with the viewer:
 
 )";
 
+/// The text as a sentence: with a full stop at its end.
+std::string sentence_of(const std::string& text) {
+  std::string shown = markdown_text(text);
+  if (!shown.ends_with('.')) shown += '.';
+  return shown;
+}
+
 std::string claims_of(const std::vector<Claim>& claims) {
   if (claims.empty()) return "";
-  const TextTable table(
-      {{"the paper says", 0, Align::left}, {"measured", 0, Align::left}, {"holds", 0, Align::left}});
-  std::string text = table.head();
-  for (const Claim& claim : claims) text += table.row({claim.said, claim.measured, claim.holds});
+  std::string text = "What the paper says, what was measured, and whether it holds:\n\n";
+  for (const Claim& claim : claims)
+    text += "- " + sentence_of(claim.said) + " **Measured:** " + sentence_of(claim.measured) +
+            " **Holds:** " + sentence_of(claim.holds) + "\n";
   return text + "\n";
 }
 

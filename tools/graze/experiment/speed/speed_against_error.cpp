@@ -16,29 +16,29 @@ const char* introduction =
     R"(**What was measured.** Which accuracy mode gives what for its time? Every scene is asked two questions. Both are about
 vertices, so that all modes can answer them.
 
-| question | answer |
-| :-- | :-- |
-| contacts | every vertex pair closer than the contact distance |
-| distances | the same, and how far each pair of objects is apart, however far |
+- *Contacts* asks for every vertex pair closer than the contact distance.
+- *Distances* asks the same, and how far each pair of objects is apart, however far.
 
 Each mode is turned along its dial:
 
-| setting | dial |
-| :-- | :-- |
-| `within(t)` | the tolerance, in mean edge lengths and as loose as the regions of a level are (eq. 6). A step stops at a level where its bounds are tight enough |
-| paper, eq. 3 and 6 | the numbers that these equations give in each step |
-| numbers × f | fixed parts of the most that eq. 3 and 6 give at rest |
-| the last × 1.5 | DV's threshold is 1.5 times the contact distance, as if ε were chosen badly the other way. Figures call it *last number too large* |
-| work budget, time budget | parts of what exact mode takes. Work is counted in region pairs |
+- Of `within(t)` it is the tolerance, in mean edge lengths and as loose as the regions of a level are (eq. 6). A step
+  stops at a level where its bounds are tight enough.
+- Of *paper, eq. 3 and 6* it is the numbers that these equations give in each step.
+- Of *numbers × f* it is fixed parts of the most that eq. 3 and 6 give at rest.
+- In *the last × 1.5*, DV's threshold is 1.5 times the contact distance, as if ε were chosen badly the other way. Figures
+  call it *last number too large*.
+- Of the *work budget* and the *time budget* it is parts of what exact mode takes. Work is counted in region pairs.
 
-| term or condition | meaning |
-| :-- | :-- |
-| truth | exact mode. Brute force over all pairs of vertices checks it in some of the frames |
-| distance error | how much further apart the two named vertices are than the closest ones |
-| budget | goes to the pairs of objects in order of urgency. A pair whose turn does not come, or that is cut short, has no contacts. Its distance is the upper bound known by then |
-| Pareto front | settings that no other beats: no other is both as fast and as right, and better in one |
-| the paper's scenes | the last 25 frames of its experiments. All pairs have one contact distance, the last number of row 3 |
-| real scenes | meshes whose parts wobble by half an edge length. Their contact distance is the mean edge length |
+Terms and conditions:
+
+- The *truth* is exact mode. Brute force over all pairs of vertices checks it in some of the frames.
+- The *distance error* is how much further apart the two named vertices are than the closest ones.
+- A *budget* goes to the pairs of objects in order of urgency. A pair whose turn does not come, or that is cut short, has
+  no contacts. Its distance is the upper bound known by then.
+- The *Pareto front* is the settings that no other beats: no other is both as fast and as right, and better in one.
+- *The paper's scenes* are the last 25 frames of its experiments. All pairs have one contact distance, the last number of
+  row 3.
+- *Real scenes* are meshes whose parts wobble by half an edge length. Their contact distance is the mean edge length.
 )";
 
 /// The least and largest of a value over scenes.
@@ -121,7 +121,7 @@ Claim accuracy_claim(std::span<const SpeedResults> scenes) {
   return {"One drawback is the accuracy of the algorithm (conclusion)",
           "by its own eq. 3 and 6 it finds " + percent_text(formula) +
               " of the contacts in these frames, with fixed numbers " + percent_text(numbers) +
-              "; exact mode on the same hierarchy finds " + percent_text(exact),
+              ". Exact mode on the same hierarchy finds " + percent_text(exact),
           formula.least == 1 ? "yes, but not by eq. 3 and 6 in these frames" : "yes"};
 }
 
