@@ -45,7 +45,7 @@ void ContactSearch::choose_parts() {
 
 template <typename Finder>
 void ContactSearch::choose_parts_for() {
-  const bool keeps_closest = Finder::keeps_closest && pair_.query.contact_limit > 0;
+  const bool keeps_closest = pair_.closest_kept() > 0;
   choose_source<Finder>(keeps_closest);
   leaves_choice_ = Finder::leaves_choice;
   collect_ = &ContactSearch::collect_all<Finder>;

@@ -15,9 +15,8 @@ SearchProgress ContactSearch::find_as_in_paper(SearchWorker& worker) {
   keys.clear();
   const PaperFound found = graze::find_as_in_paper(worker.pair, query, scratch.paper, worker.meter, keys);
   if (!found.complete) return SearchProgress::gave_up;
-  // The detail `nearest` keeps the deepest.
-  if (query.contact_limit > 0 && query.detail != ContactDetail::nearest) {
-    nearest_keys_.begin(query.contact_limit);
+  if (pair_.closest_kept() > 0) {
+    nearest_keys_.begin(pair_.closest_kept());
     nearest_keys_.add(worker.pair, keys, scratch.measure, scratch.nearest_keys);
     nearest_keys_.finish(worker.pair, keys, scratch.lowest);
     answer.cut = nearest_keys_.is_cut();

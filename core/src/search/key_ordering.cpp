@@ -106,7 +106,7 @@ void AllOrdering::order(Stretch& stretch, SearchWorker& worker) {
 
 void ClosestOrdering::begin(bool may_repeat_features) {
   KeyOrdering::begin(may_repeat_features);
-  nearest_.begin(pair_.query.contact_limit);
+  nearest_.begin(pair_.closest_kept());
 }
 
 double ClosestOrdering::threshold_now(const SearchWorker& worker) const {

@@ -60,7 +60,7 @@ void PairSearch::next_stage(SearchWorker& worker) {
   phase_ = Phase::done;
   if (pair_.query.detail != ContactDetail::nearest) return;
   leave_out_past_seams(worker.pair, pair_.query, *pair_.answer);
-  if (pair_.query.contact_limit > 0) keep_deepest(*pair_.answer, pair_.query.contact_limit);
+  if (pair_.deepest_kept() > 0) keep_deepest(*pair_.answer, pair_.deepest_kept());
 }
 
 /// Completes an answer about a pair with a solid. Where it asks for the closest points, these may be known at

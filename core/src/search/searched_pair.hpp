@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "closest_features/feature_pair_key.hpp"
 #include "core/pair/leaf_front.hpp"
 #include "core/pair/pair_answer.hpp"
@@ -20,6 +22,17 @@ struct SearchedPair {
   PairQuery query;
   LeafFront* front = nullptr;
   PairAnswer* answer = nullptr;
+
+  /// How many of the closest contacts the query's limit keeps; 0: all. They are chosen while a search finds
+  /// them.
+  [[nodiscard]] std::size_t closest_kept() const {
+    return query.detail == ContactDetail::nearest ? 0 : query.contact_limit;
+  }
+  /// How many of the deepest contacts the query's limit keeps; 0: all. They are chosen once all have been
+  /// measured.
+  [[nodiscard]] std::size_t deepest_kept() const {
+    return query.detail == ContactDetail::nearest ? query.contact_limit : 0;
+  }
 };
 
 /// Writes the distance and the witness into an answer, whose nearest points are those of a key.

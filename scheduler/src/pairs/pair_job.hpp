@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <graze/report.hpp>
 #include <span>
 
 #include "base/access.hpp"
 #include "base/slot_pair.hpp"
+#include "core/search/large_pair.hpp"
 #include "objects/object.hpp"
 #include "pairs/pair_filter.hpp"
 #include "pairs/pair_memory.hpp"
@@ -39,6 +41,11 @@ struct PairJob {
     return *memory;
   }
   [[nodiscard]] bool is_tested() const { return task == Task::detect || task == Task::end; }
+  /// Whether both surfaces are so large that a search of the pair is cut for several workers.
+  [[nodiscard]] bool is_large() const {
+    return std::min(a->surface().mesh().vertex_count(), b->surface().mesh().vertex_count()) >=
+           LargePair::least_vertex_count;
+  }
   /// Whether the last row of the pair is of a mesh that was replaced since.
   [[nodiscard]] bool speaks_of_replaced() const { return a->replaced != nullptr || b->replaced != nullptr; }
   [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/contact_limit.hpp"
 #include "base/task_pool.hpp"
 #include "broad_phase/broad_phase.hpp"
 #include "objects/object_store.hpp"
@@ -20,7 +21,7 @@ namespace graze {
 class PairTable {
  public:
   PairTable(const SceneSettings& settings, PairFilter& filter, ObjectStore& store)
-      : store_(store), filter_(filter), may_rest_(!settings.max_contacts) {}
+      : store_(store), filter_(filter), may_rest_(!ContactLimit(settings).is_shared()) {}
 
   [[nodiscard]] PairFilter& filter() { return filter_; }
 

@@ -53,11 +53,6 @@ bool RowComparison::must_be_listed(const RecordedRow& row, double least_range) c
   return !is_cut_short(row) && !has_loose_bounds(row);
 }
 
-/// Whether the contacts of a pair are chosen by those that the last report lists.
-bool RowComparison::chooses_by_history() const {
-  return settings_.carrying > 0 && settings_.detail == ContactDetail::nearest;
-}
-
 /// Whether the bounds of a row depend on the steps before. They are exact where the pair is in contact.
 bool RowComparison::has_loose_bounds(const RecordedRow& row) const {
   return settings_.accuracy.mode() == AccuracyMode::within && !is_in_contact(row);
@@ -80,11 +75,11 @@ RowVerdict RowComparison::compare_answers(const RecordedRow& recorded, const Rec
   if (!do_bounds_hold) return RowVerdict::differs;
   // Of the contacts of a pair the nearest are listed. So as many contacts are the same ones.
   const bool has_other_share =
-      settings_.max_contacts && (recorded.contacts_cut || replayed.contacts_cut) &&
+      limit_.is_shared() && (recorded.contacts_cut || replayed.contacts_cut) &&
       (recorded.contacts != replayed.contacts || recorded.contacts_cut != replayed.contacts_cut);
   if (has_other_share) return RowVerdict::holds;
   // The contacts that carry a pair also follow from those listed before. Either report lists some.
-  if (chooses_by_history() && recorded.contacts > 0 && replayed.contacts > 0) return RowVerdict::holds;
+  if (limit_.chooses_carrying() && recorded.contacts > 0 && replayed.contacts > 0) return RowVerdict::holds;
   if (recorded.contacts != replayed.contacts) return RowVerdict::differs;
   return holds_if(is_loose || settings_.region_distances > 0);
 }

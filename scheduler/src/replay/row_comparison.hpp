@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <graze/settings.hpp>
 
+#include "base/contact_limit.hpp"
 #include "recording/recorded_rows.hpp"
 
 namespace graze {
@@ -25,7 +26,7 @@ enum class RowVerdict : std::uint8_t {
 class RowComparison {
  public:
   RowComparison(const SceneSettings& settings, bool knows_history)
-      : settings_(settings), knows_all_(knows_history && !settings.time_budget) {}
+      : settings_(settings), limit_(settings), knows_all_(knows_history && !settings.time_budget) {}
 
   /// Each row is null where its report does not list the pair, and not both are. All pairs have at least the
   /// range `least_range`.
@@ -36,10 +37,10 @@ class RowComparison {
   [[nodiscard]] RowVerdict compare_in_both(const RecordedRow& recorded, const RecordedRow& replayed) const;
   [[nodiscard]] RowVerdict compare_answers(const RecordedRow& recorded, const RecordedRow& replayed) const;
   [[nodiscard]] bool must_be_listed(const RecordedRow& row, double least_range) const;
-  [[nodiscard]] bool chooses_by_history() const;
   [[nodiscard]] bool has_loose_bounds(const RecordedRow& row) const;
 
   const SceneSettings& settings_;
+  const ContactLimit limit_;
   bool knows_all_;
 };
 

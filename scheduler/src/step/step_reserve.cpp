@@ -1,0 +1,73 @@
+#include "step/step_reserve.hpp"
+
+#include <algorithm>
+
+namespace graze {
+namespace {
+
+/// A reserved pair's list has room for this many pairs of features for each of its share of the contacts;
+/// SceneCapacity states it.
+constexpr std::size_t features_of_contact = 4;
+
+PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
+  const bool has_lists = lists_piercings(detail) || detail == ContactDetail::vertices;
+  const std::size_t contacts = capacity.contacts / capacity.near_pairs + 1;
+  return {leaf_pairs_of_front, has_lists ? features_of_contact * contacts : 0};
+}
+
+bool is_nothing(const SceneCapacity& capacity) {
+  return capacity.objects == 0 && capacity.near_pairs == 0 && capacity.contacts == 0 && capacity.reports == 0;
+}
+
+/// The larger of each two numbers.
+SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
+  return {std::max(left.objects, right.objects), std::max(left.calls_per_step, right.calls_per_step),
+          std::max(left.near_pairs, right.near_pairs), std::max(left.contacts, right.contacts),
+          std::max(left.reports, right.reports)};
+}
+
+}  // namespace
+
+void StepReserve::reserve(const SceneCapacity& capacity) {
+  if (is_nothing(capacity)) return;
+  content_.store.reserve(capacity.objects);
+  reports_.reserve(capacity.reports, {capacity.near_pairs, capacity.contacts,
+                                      capacity.near_pairs > 0 ? settings_.region_distances : 0});
+  if (capacity.near_pairs > 0) reserve_for_pairs(capacity);
+  content_.reserved = both(content_.reserved, capacity);
+}
+
+void StepReserve::reserve_for_pairs(const SceneCapacity& capacity) {
+  ObjectStore& store = content_.store;
+  is_for_pairs_ = true;
+  pairs_.reserve(std::max(capacity.objects, store.objects().size()), capacity.near_pairs,
+                 room_for(capacity, settings_.detail));
+  refit_.reserve(capacity.near_pairs);
+  jobs_.reserve(capacity.near_pairs, capacity.contacts);
+  rows_.reserve(capacity.near_pairs);
+  for (const auto& object : store.objects()) {
+    if (object == nullptr) continue;  // removed in this step
+    object->end_view();
+    prepare_surface(object->surface_to_write(), object->settings);
+    store.count_bytes(*object);
+    prepare_copy(*object);
+  }
+}
+
+void StepReserve::prepare_surface(Surface& surface, const ObjectSettings& settings) {
+  if (settings.motion != Motion::deformable) surface.reserve_positions(true);
+  refit_.prepare(surface);
+  jobs_.reserve_for(surface.mesh(), settings.solid);
+  if (settings.solid && !is_about_vertices(settings_.detail)) pairs_.reserve_for_solids();
+}
+
+void StepReserve::prepare_copy(Object& object) {
+  if (!object.bound) return;
+  const bool is_viewed = wants_blocks(settings_.detail, settings_.accuracy.mode()) &&
+                         settings_.region_distances == 0 && object.surface().can_view(object.bound->view);
+  if (is_viewed) return;
+  object.surface_to_write().reserve_positions(object.bound->view.is_double());
+  content_.store.count_bytes(object);
+}
+
+}  // namespace graze
