@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "experiment/paper/paper_experiment.hpp"
-#include "experiment/regions/region_bounds_study.hpp"
 #include "experiment/regions/subdivision_study.hpp"
 #include "experiment/report/run_studies.hpp"
 #include "experiment/speed/speed_against_error.hpp"
@@ -34,7 +33,6 @@ std::vector<StudyMaker> all_makers() {
   return {paper_maker(1),
           paper_maker(2),
           paper_maker(3),
-          {"bounds", region_bounds_study},
           {"subdivision", subdivision_study},
           {"speed", speed_against_error_study}};
 }
@@ -67,7 +65,7 @@ void run(CommandOptions options) {
 void add_experiment_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("experiment",
                                          "Plays the paper's experiments beside the truth, and compares "
-                                         "bounds, subdivisions, and speed with error.");
+                                         "subdivisions, and speed with error.");
   const auto options = std::make_shared<CommandOptions>();
   options->experiment.out = "out/experiments";
   options->experiment.data = GRAZE_SHARED_DATA;

@@ -14,8 +14,7 @@ namespace graze::tools {
 /// The points of a hierarchy's regions where they are now, region after region.
 struct PlacedRegions {
   const RegionHierarchy& hierarchy;
-  Cover cover;
-  std::span<const Eigen::Vector3d> points;     ///< as RegionHierarchy::points(cover) names them
+  std::span<const Eigen::Vector3d> points;     ///< as RegionHierarchy::vertices() names them
   std::span<const Eigen::Vector3d> positions;  ///< of the mesh's vertices
 };
 
@@ -34,8 +33,8 @@ void refit(const PlacedRegions& placed, std::vector<Volume>& volumes) {
           volumes[index].add(volumes[node.first_child + child]);
         continue;
       }
-    volumes[index] = Volume::around(
-        {RegionHierarchy::part(placed.points, node, placed.cover), placed.positions[node.middle]});
+    volumes[index] =
+        Volume::around({RegionHierarchy::part(placed.points, node), placed.positions[node.middle]});
   }
 }
 
@@ -58,18 +57,15 @@ struct BoundedPair {
 };
 
 /// DMV with bounds (breadth first from the roots; both regions of a pair make way for their children, a leaf
-/// stays): calls `test(pair)` for each pair of regions that it tests and `leaves(pair)` for each pair of
-/// leaves whose bound is below `distance`.
-template <typename Volume, typename Test, typename Leaves>
-void walk(const BoundedPair<Volume>& pair, double distance, WalkCounts& counts, const Test& test,
-          const Leaves& leaves) {
+/// stays): calls `leaves(pair)` for each pair of leaves whose bound is below `distance`.
+template <typename Volume, typename Leaves>
+void walk(const BoundedPair<Volume>& pair, double distance, WalkCounts& counts, const Leaves& leaves) {
   std::vector<NodePair> front{{}};
   std::vector<NodePair> next;
   while (!front.empty()) {
     next.clear();
     for (const NodePair& regions : front) {
       ++counts.tested;
-      test(regions);
       if (!(lower_distance(pair.a[regions.a], pair.b[regions.b]) < distance)) continue;
       const RegionNode& a = pair.nodes_a[regions.a];
       const RegionNode& b = pair.nodes_b[regions.b];

@@ -53,21 +53,6 @@ class Collector {
 
 }  // namespace
 
-ComparisonScenes bound_scenes(const ExperimentOptions& options) {
-  Collector scenes(options);
-  scenes.add(meeting_models(options.seed));
-  scenes.add(striding_humans());
-  scenes.add(posing_wolves(options.data.string()));
-  scenes.add_large_bench("S7a", "organs");
-  scenes.add_bench("S7b", "armadillo");
-  scenes.add_bench("S7c", "funnel");
-  scenes.add(unfolding_sheets());
-  scenes.add_large_bench("S6a", "tori");
-  scenes.add_large_bench("S6c", "cloth");
-  scenes.add_large_bench("S4", "spheres");
-  return scenes.take();
-}
-
 ComparisonScenes partition_scenes(const ExperimentOptions& options) {
   Collector scenes(options);
   scenes.add(rigid_tori());

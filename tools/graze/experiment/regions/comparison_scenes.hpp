@@ -16,11 +16,9 @@ struct ComparisonScenes {
   std::string left_out;  ///< empty, or ends with a full stop
 };
 
-/// The scenes in which bounds are compared: the paper's models, real meshes and large generated ones. With
-/// fewer frames than usual (ExperimentOptions::frames) the large ones are left out.
-ComparisonScenes bound_scenes(const ExperimentOptions& options);
-
-/// The scenes in which partitions are compared: rigid motion, folding and unfolding, limbs, real meshes.
+/// The scenes in which partitions are compared: rigid motion, folding and unfolding, limbs, real meshes and
+/// large generated ones. With fewer frames than usual (ExperimentOptions::frames) the large ones are left
+/// out.
 ComparisonScenes partition_scenes(const ExperimentOptions& options);
 
 /// How many frames of each are looked at.

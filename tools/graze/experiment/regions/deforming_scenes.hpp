@@ -7,7 +7,7 @@
 #include "bench/scenes.hpp"
 #include "experiment/recorded_motion.hpp"
 
-// Motions that bounds and partitions are compared on, each the same in every run.
+// Motions that partitions are compared on, each the same in every run.
 namespace graze::tools {
 
 /// A recorded motion; thresholds are `edges` mean edge lengths.

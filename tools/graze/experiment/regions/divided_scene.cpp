@@ -61,9 +61,9 @@ std::uint64_t DividedScene::near_leaf_pairs() const {
   return count;
 }
 
-void DividedScene::lay_out(std::size_t object, std::size_t frame, Cover cover,
+void DividedScene::lay_out(std::size_t object, std::size_t frame,
                            std::vector<Eigen::Vector3d>& points) const {
-  const auto vertices = hierarchies_[object]->points(cover);
+  const auto vertices = hierarchies_[object]->vertices();
   points.resize(vertices.size());
   const std::vector<Eigen::Vector3d>& positions = scene_.frames[frame].positions[object];
   for (std::size_t i = 0; i < vertices.size(); ++i) points[i] = positions[vertices[i]];

@@ -25,8 +25,7 @@ class DividedScene {
   /// Over all frames, the pairs of leaves that have vertices nearer than the scene's distance.
   [[nodiscard]] std::uint64_t near_leaf_pairs() const;
   /// The points of an object's regions in a frame, region after region.
-  void lay_out(std::size_t object, std::size_t frame, Cover cover,
-               std::vector<Eigen::Vector3d>& points) const;
+  void lay_out(std::size_t object, std::size_t frame, std::vector<Eigen::Vector3d>& points) const;
 
  private:
   const PlacedFrames& scene_;

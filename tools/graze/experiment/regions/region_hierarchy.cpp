@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace graze::tools {
@@ -23,13 +22,11 @@ std::uint32_t middle_of(std::span<const Eigen::Vector3d> rest, std::span<const s
 }  // namespace
 
 RegionHierarchy::RegionHierarchy(const Mesh& mesh, const ClusterTree& tree)
-    : leaf_of_vertex_(mesh.vertex_count(), 0), listed_for_(mesh.vertex_count(), 0) {
+    : leaf_of_vertex_(mesh.vertex_count(), 0) {
   std::vector<std::uint32_t> cluster_of_node;
   number(tree, cluster_of_node);
-  place(mesh, tree, cluster_of_node, 0);
-  for (RegionNode& node : nodes_)
-    node.middle = middle_of(mesh.rest(), part(points(Cover::vertices), node, Cover::vertices));
-  listed_for_ = {};
+  place(tree, cluster_of_node, 0);
+  for (RegionNode& node : nodes_) node.middle = middle_of(mesh.rest(), part(vertices(), node));
 }
 
 void RegionHierarchy::number(const ClusterTree& tree, std::vector<std::uint32_t>& cluster_of_node) {
@@ -47,39 +44,18 @@ void RegionHierarchy::number(const ClusterTree& tree, std::vector<std::uint32_t>
 }
 
 /// Depth first, so that what is of one region is one range.
-void RegionHierarchy::place(const Mesh& mesh, const ClusterTree& tree,
-                            std::span<const std::uint32_t> cluster_of_node, std::uint32_t index) {
+void RegionHierarchy::place(const ClusterTree& tree, std::span<const std::uint32_t> cluster_of_node,
+                            std::uint32_t index) {
   RegionNode& node = nodes_[index];
   node.first_vertex = static_cast<std::uint32_t>(vertices_.size());
-  node.first_corner = static_cast<std::uint32_t>(corners_.size());
   if (node.is_leaf()) {
     const std::vector<std::uint32_t>& members = tree.clusters[cluster_of_node[index]].vertices;
     vertices_.insert(vertices_.end(), members.begin(), members.end());
-    add_corners(mesh, members, index);
+    for (const std::uint32_t vertex : members) leaf_of_vertex_[vertex] = index;
   }
   for (std::uint32_t child = 0; child < node.child_count; ++child)
-    place(mesh, tree, cluster_of_node, node.first_child + child);
+    place(tree, cluster_of_node, node.first_child + child);
   node.vertex_count = static_cast<std::uint32_t>(vertices_.size()) - node.first_vertex;
-  node.corner_count = static_cast<std::uint32_t>(corners_.size()) - node.first_corner;
-}
-
-/// A face is its first corner's, an edge its lower vertex's.
-void RegionHierarchy::add_corners(const Mesh& mesh, std::span<const std::uint32_t> leaf,
-                                  std::uint32_t leaf_index) {
-  const auto add = [&](std::uint32_t vertex) {
-    if (std::exchange(listed_for_[vertex], leaf_index + 1) != leaf_index + 1) corners_.push_back(vertex);
-  };
-  for (const std::uint32_t vertex : leaf) {
-    leaf_of_vertex_[vertex] = leaf_index;
-    add(vertex);
-  }
-  for (const std::uint32_t vertex : leaf) {
-    for (const std::uint32_t face : mesh.vertex_faces(vertex))
-      if (mesh.face(face).front() == vertex)
-        for (const std::uint32_t corner : mesh.face(face)) add(corner);
-    for (const std::uint32_t other : mesh.vertex_neighbours(vertex))
-      if (other > vertex) add(other);
-  }
 }
 
 std::size_t RegionHierarchy::leaf_count() const {
@@ -88,7 +64,7 @@ std::size_t RegionHierarchy::leaf_count() const {
 }
 
 std::size_t RegionHierarchy::byte_count() const {
-  return nodes_.size() * sizeof(RegionNode) + (vertices_.size() + corners_.size()) * sizeof(std::uint32_t);
+  return nodes_.size() * sizeof(RegionNode) + vertices_.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace graze::tools

@@ -17,12 +17,6 @@ struct ClusterTree {
   std::vector<Cluster> clusters;
 };
 
-/// The points that a bound goes around.
-enum class Cover : std::uint8_t {
-  vertices,  ///< the region's vertices
-  faces,  ///< those and all corners of the faces and edges that the region owns, as graze's RegionTree does
-};
-
 /// A region of any partition; the fields mean what they do in graze's Region.
 struct RegionNode {
   std::uint32_t level = 0;
@@ -30,8 +24,6 @@ struct RegionNode {
   std::uint32_t child_count = 0;
   std::uint32_t first_vertex = 0;
   std::uint32_t vertex_count = 0;
-  std::uint32_t first_corner = 0;  ///< into corners()
-  std::uint32_t corner_count = 0;
   std::uint32_t middle = 0;
 
   [[nodiscard]] bool is_leaf() const { return child_count == 0; }
@@ -48,31 +40,23 @@ class RegionHierarchy {
   [[nodiscard]] std::size_t leaf_count() const;
   /// The leaf of each vertex of the mesh; of an unused one it means nothing.
   [[nodiscard]] std::span<const std::uint32_t> leaf_of_vertex() const { return leaf_of_vertex_; }
-  /// Vertices region after region, or all that face bounds go around: leaf after leaf, some in several.
-  [[nodiscard]] std::span<const std::uint32_t> points(Cover cover) const {
-    return cover == Cover::vertices ? vertices_ : corners_;
-  }
-  /// The part of `of_all`, which has something for each of points(cover), that is of one region.
+  /// The mesh's used vertices, region after region.
+  [[nodiscard]] std::span<const std::uint32_t> vertices() const { return vertices_; }
+  /// The part of `of_all`, which has something for each of vertices(), that is of one region.
   template <typename Value>
-  static std::span<const Value> part(std::span<const Value> of_all, const RegionNode& node, Cover cover) {
-    return cover == Cover::vertices ? of_all.subspan(node.first_vertex, node.vertex_count)
-                                    : of_all.subspan(node.first_corner, node.corner_count);
+  static std::span<const Value> part(std::span<const Value> of_all, const RegionNode& node) {
+    return of_all.subspan(node.first_vertex, node.vertex_count);
   }
   /// The bytes of nodes and vertex numbers; those of bounds come on top.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   void number(const ClusterTree& tree, std::vector<std::uint32_t>& cluster_of_node);
-  void place(const Mesh& mesh, const ClusterTree& tree, std::span<const std::uint32_t> cluster_of_node,
-             std::uint32_t index);
-  void add_corners(const Mesh& mesh, std::span<const std::uint32_t> leaf, std::uint32_t leaf_index);
+  void place(const ClusterTree& tree, std::span<const std::uint32_t> cluster_of_node, std::uint32_t index);
 
   std::vector<RegionNode> nodes_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> leaf_of_vertex_;
-  std::vector<std::uint32_t>
-      listed_for_;  ///< for each vertex, the last leaf whose corners it is among, plus 1
 };
 
 }  // namespace graze::tools

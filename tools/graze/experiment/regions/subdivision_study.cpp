@@ -58,7 +58,6 @@ bool is_of_folds(const SceneResult& result) {
 
 DivisionResult measure_division(const PlacedFrames& placed, const Division& division, std::uint32_t runs) {
   const DividedScene divided(placed, division.partition, division.capacity);
-  const MeasureSettings settings{Cover::vertices, runs};
   DivisionResult result;
   result.name = division.name();
   result.regions = divided.region_count();
@@ -67,8 +66,8 @@ DivisionResult measure_division(const PlacedFrames& placed, const Division& divi
   result.bytes = divided.byte_count();
   result.build_ms = divided.build_ms();
   result.near_leaf_pairs = divided.near_leaf_pairs();
-  result.boxes = measure_bound<AxisBox>(divided, settings, {});
-  result.spheres = measure_bound<MiddleSphere>(divided, settings, {});
+  result.boxes = measure_bound<AxisBox>(divided, runs);
+  result.spheres = measure_bound<MiddleSphere>(divided, runs);
   return result;
 }
 

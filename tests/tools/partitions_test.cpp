@@ -1,6 +1,7 @@
-// Bounds of regions and partitions as `graze experiment bounds` and `subdivision` compare them: no bound is
-// above the true distance, by exact arithmetic; known distances are met; no near pair is lost on the way
-// down.
+// Partitions and their bounds as `graze experiment subdivision` compares them: no bound is above the true
+// distance, by exact arithmetic; no near pair is lost on the way down.
+
+#include "experiment/regions/partitions.hpp"
 
 #include <gmpxx.h>
 
@@ -9,15 +10,12 @@
 #include <cmath>
 #include <graze/mesh.hpp>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <vector>
 
 #include "core/mesh/indexed_mesh.hpp"
 #include "experiment/regions/bound_walk.hpp"
 #include "experiment/regions/near_vertices.hpp"
-#include "experiment/regions/partitions.hpp"
-#include "experiment/regions/swept_box.hpp"
 #include "models/models.hpp"
 #include "scenes/random.hpp"
 #include "support/catch.hpp"
@@ -127,34 +125,7 @@ void check_is_lower(const Volume& a, const Volume& b, const CloudPair& clouds) {
 template <typename Check>
 void with_all_volumes(const Check& check) {
   check(MiddleSphere{});
-  check(CentredSphere{});
   check(AxisBox{});
-  check(SweptBox<1>{});
-  check(SweptBox<2>{});
-  check(SweptBox<3>{});
-  check(DirectionPolytope<14>{});
-  check(DirectionPolytope<18>{});
-  check(DirectionPolytope<26>{});
-}
-
-template <typename Volume>
-double lower_of(const Cloud& a, const Cloud& b) {
-  return lower_distance(around<Volume>(a), around<Volume>(b));
-}
-
-Cloud placed(const Cloud& cloud, const Eigen::Isometry3d& pose) {
-  Cloud result;
-  for (const Vector& point : cloud) result.push_back(pose * point);
-  return result;
-}
-
-/// Corners of a box of these sides about the origin; of no length along an axis: each twice.
-Cloud box_corners(const Vector& sides) {
-  Cloud corners;
-  for (const double x : {-0.5, 0.5})
-    for (const double y : {-0.5, 0.5})
-      for (const double z : {-0.5, 0.5}) corners.emplace_back(x * sides.x(), y * sides.y(), z * sides.z());
-  return corners;
 }
 
 Mesh mesh_of(const graze::models::MeshData& data) {
@@ -173,9 +144,9 @@ Cloud deformed(const Mesh& mesh, double amount, const Vector& offset) {
   return result;
 }
 
-Cloud in_order(const RegionHierarchy& hierarchy, Cover cover, const Cloud& positions) {
+Cloud in_order(const RegionHierarchy& hierarchy, const Cloud& positions) {
   Cloud points;
-  for (const std::uint32_t vertex : hierarchy.points(cover)) points.push_back(positions[vertex]);
+  for (const std::uint32_t vertex : hierarchy.vertices()) points.push_back(positions[vertex]);
   return points;
 }
 
@@ -183,19 +154,16 @@ using LeafPairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 template <typename Volume>
 LeafPairs reached(const RegionHierarchy& a, const Cloud& positions_a, const RegionHierarchy& b,
-                  const Cloud& positions_b, Cover cover, double distance) {
-  const Cloud points_a = in_order(a, cover, positions_a);
-  const Cloud points_b = in_order(b, cover, positions_b);
+                  const Cloud& positions_b, double distance) {
+  const Cloud points_a = in_order(a, positions_a);
+  const Cloud points_b = in_order(b, positions_b);
   std::vector<Volume> volumes_a, volumes_b;
-  refit(PlacedRegions{a, cover, points_a, positions_a}, volumes_a);
-  refit(PlacedRegions{b, cover, points_b, positions_b}, volumes_b);
+  refit(PlacedRegions{a, points_a, positions_a}, volumes_a);
+  refit(PlacedRegions{b, points_b, positions_b}, volumes_b);
   LeafPairs leaves;
   WalkCounts counts;
-  std::uint64_t tests = 0;
-  walk(
-      BoundedPair<Volume>{a.nodes(), b.nodes(), volumes_a, volumes_b}, distance, counts,
-      [&](const NodePair&) { ++tests; }, [&](const NodePair& pair) { leaves.emplace(pair.a, pair.b); });
-  CHECK(counts.tested == tests);
+  walk(BoundedPair<Volume>{a.nodes(), b.nodes(), volumes_a, volumes_b}, distance, counts,
+       [&](const NodePair& pair) { leaves.emplace(pair.a, pair.b); });
   CHECK(counts.reached == leaves.size());
   return leaves;
 }
@@ -229,57 +197,6 @@ TEST_CASE("Region bounds: at the largest and the smallest coordinates") {
   }
 }
 
-TEST_CASE("Region bounds: distances that a kind of bound gives whole") {
-  const Eigen::Isometry3d pose =
-      Eigen::Translation3d(0.3, -0.2, 5) * Eigen::AngleAxisd(0.7, Vector(1, 2, 3).normalized());
-  const auto moved = [&](const Cloud& cloud) { return placed(cloud, pose); };
-
-  // Two segments askew, 1.5 apart where they pass each other.
-  const Cloud along_x = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}};
-  const Cloud along_y = {{0.2, -1, 1.5}, {0.2, 0, 1.5}, {0.2, 1, 1.5}};
-  CHECK(lower_of<SweptBox<1>>(moved(along_x), moved(along_y)) == Approx(1.5));
-
-  // Two flat squares face each other, 0.75 apart.
-  const Cloud square = box_corners({2, 1, 0});
-  const Cloud above = placed(square, Eigen::Isometry3d(Eigen::Translation3d(0.3, 0.1, 0.75)));
-  CHECK(lower_of<SweptBox<2>>(moved(square), moved(above)) == Approx(0.75));
-  CHECK(lower_of<SweptBox<3>>(moved(square), moved(above)) == Approx(0.75));
-  CHECK(lower_of<SweptBox<1>>(moved(square), moved(above)) < 0.75);
-
-  // Two boxes corner to corner along (1, 2, 2) / 3, 3 apart.
-  const Cloud box = box_corners({3, 2, 1});
-  const Cloud beyond = placed(box, Eigen::Isometry3d(Eigen::Translation3d(3 + 1, 2 + 2, 1 + 2)));
-  CHECK(lower_of<SweptBox<3>>(moved(box), moved(beyond)) == Approx(3));
-  CHECK(lower_of<AxisBox>(box, beyond) == Approx(3));
-  CHECK(lower_of<DirectionPolytope<14>>(box, beyond) == Approx(3));
-
-  // Two points: every kind is a point.
-  const Cloud one(1, {1, 2, 3});
-  const Cloud other(1, {1.5, 2, 3});
-  with_all_volumes([&](auto volume) {
-    INFO(decltype(volume)::name);
-    CHECK(lower_of<decltype(volume)>(one, other) == Approx(0.5));
-  });
-
-  // Plates that lean against the axes at 45 degrees: the diagonals of the cube's faces see between them, the
-  // axes and the cube's own diagonals do not.
-  const Eigen::Isometry3d leaning(Eigen::AngleAxisd(std::numbers::pi / 4, Vector::UnitX()));
-  const Cloud low = placed(box_corners({4, 4, 0}), leaning);
-  const Cloud high =
-      placed(placed(box_corners({4, 4, 0}), Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.5))), leaning);
-  CHECK(lower_of<DirectionPolytope<18>>(low, high) == Approx(0.5));
-  CHECK(lower_of<DirectionPolytope<26>>(low, high) == Approx(0.5));
-  CHECK(lower_of<AxisBox>(low, high) == 0);
-  CHECK(lower_of<DirectionPolytope<14>>(low, high) == 0);
-}
-
-TEST_CASE("Region bounds: spheres' radii") {
-  const Cloud points = {{0, 0, 0}, {4, 0, 0}, {1, 0, 0}};
-  CHECK(MiddleSphere::around({points, points[2]}).radius == Approx(3));
-  CHECK(CentredSphere::around({points, points[2]}).radius == Approx(2));
-  CHECK(CentredSphere::around({points, points[2]}).centre == Vector(2, 0, 0));
-}
-
 TEST_CASE("Partitions: every used vertex once, in leaves that are small enough") {
   for (const graze::models::MeshData& data : {graze::models::tooth(), graze::models::torus(40, 30, 1, 0.3)}) {
     const Mesh mesh = mesh_of(data);
@@ -288,8 +205,7 @@ TEST_CASE("Partitions: every used vertex once, in leaves that are small enough")
         if (partition == Partition::octree && capacity != 30) continue;
         INFO(name_of(partition) << " of " << capacity);
         const RegionHierarchy hierarchy(mesh, divide(mesh, partition, capacity));
-        std::vector<std::uint32_t> vertices(hierarchy.points(Cover::vertices).begin(),
-                                            hierarchy.points(Cover::vertices).end());
+        std::vector<std::uint32_t> vertices(hierarchy.vertices().begin(), hierarchy.vertices().end());
         std::sort(vertices.begin(), vertices.end());
         std::vector<std::uint32_t> all(mesh.vertex_count());
         for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -298,8 +214,7 @@ TEST_CASE("Partitions: every used vertex once, in leaves that are small enough")
           REQUIRE(node.child_count <= 8);
           REQUIRE(node.vertex_count > 0);
           if (node.is_leaf()) REQUIRE(node.vertex_count <= capacity);
-          const auto members =
-              RegionHierarchy::part(hierarchy.points(Cover::vertices), node, Cover::vertices);
+          const auto members = RegionHierarchy::part(hierarchy.vertices(), node);
           REQUIRE(std::find(members.begin(), members.end(), node.middle) != members.end());
           std::uint32_t in_children = 0;
           for (std::uint32_t i = 0; i < node.child_count; ++i) {
@@ -318,8 +233,8 @@ TEST_CASE("Partitions: the octree is the library's own") {
   const RegionHierarchy hierarchy(mesh, divide(mesh, Partition::octree));
   const auto& tree = indexed(mesh).regions();
   REQUIRE(hierarchy.nodes().size() == tree.region_count());
-  CHECK(std::equal(tree.vertices().begin(), tree.vertices().end(), hierarchy.points(Cover::vertices).begin(),
-                   hierarchy.points(Cover::vertices).end()));
+  CHECK(std::equal(tree.vertices().begin(), tree.vertices().end(), hierarchy.vertices().begin(),
+                   hierarchy.vertices().end()));
   for (std::uint32_t i = 0; i < tree.region_count(); ++i) {
     const graze::Region& region = tree.region(i);
     const RegionNode& node = hierarchy.nodes()[i];
@@ -328,7 +243,6 @@ TEST_CASE("Partitions: the octree is the library's own") {
     REQUIRE(node.vertex_count == region.vertex_count);
     REQUIRE(node.child_count == region.child_count);
     if (!region.is_leaf()) REQUIRE(node.first_child == region.first_child);
-    if (region.is_leaf()) REQUIRE(node.corner_count == region.vertex_count + region.border_count);
   }
 }
 
@@ -378,48 +292,25 @@ TEST_CASE("Near vertices: as every pair tells, with vertices that no face uses")
   }
 }
 
-TEST_CASE("Region bounds: no near vertex and no near point of a face is lost on the way down") {
+TEST_CASE("Region bounds: no near vertex is lost on the way down") {
   const Mesh pawn = mesh_of(graze::models::pawn());
   const Mesh ring = mesh_of(graze::models::torus());
   const double distance = 0.06;
   const Cloud a = deformed(pawn, 0.6, Vector::Zero());
   const Cloud b = deformed(ring, -0.5, {0.75, 0.1, 0});
-  // Points on faces, each with the face's owner: the leaf of its first corner.
-  Random random(2);
-  const auto sample = [&](const Mesh& mesh, const Cloud& positions) {
-    std::vector<std::pair<std::uint32_t, Vector>> samples;
-    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-      const auto corners = mesh.face(face);
-      const double u = random.between(0, 1);
-      const double v = random.between(0, 1 - u);
-      samples.emplace_back(corners[0], positions[corners[0]] +
-                                           u * (positions[corners[1]] - positions[corners[0]]) +
-                                           v * (positions[corners[2]] - positions[corners[0]]));
-    }
-    return samples;
-  };
-  const auto on_a = sample(pawn, a);
-  const auto on_b = sample(ring, b);
   for (const Partition partition : all_partitions) {
     const RegionHierarchy tree_a(pawn, divide(pawn, partition));
     const RegionHierarchy tree_b(ring, divide(ring, partition));
-    LeafPairs near, near_faces;
+    LeafPairs near;
     for (const VertexPair& pair : near_vertices({pawn, a}, {ring, b}, distance))
       near.emplace(tree_a.leaf_of_vertex()[pair.a], tree_b.leaf_of_vertex()[pair.b]);
-    for (const auto& [owner_a, p] : on_a)
-      for (const auto& [owner_b, q] : on_b)
-        if (is_near(p, q, 0.99 * distance))
-          near_faces.emplace(tree_a.leaf_of_vertex()[owner_a], tree_b.leaf_of_vertex()[owner_b]);
     REQUIRE(near.size() > 5);
-    REQUIRE(near_faces.size() > 5);
     with_all_volumes([&](auto volume) {
       using Volume = decltype(volume);
       INFO(name_of(partition) << ", " << Volume::name);
-      const LeafPairs leaves = reached<Volume>(tree_a, a, tree_b, b, Cover::vertices, distance);
+      const LeafPairs leaves = reached<Volume>(tree_a, a, tree_b, b, distance);
       CHECK(std::includes(leaves.begin(), leaves.end(), near.begin(), near.end()));
       CHECK(leaves.size() < tree_a.leaf_count() * tree_b.leaf_count() / 2);
-      const LeafPairs face_leaves = reached<Volume>(tree_a, a, tree_b, b, Cover::faces, distance);
-      CHECK(std::includes(face_leaves.begin(), face_leaves.end(), near_faces.begin(), near_faces.end()));
     });
   }
 }
