@@ -1,5 +1,5 @@
 // Gives the same rigid motion of a scene's bodies in each way: `graze_inputs_bench [FRAMES]`. Prints medians
-// of a step with the calls before it, on one thread, of scenes like S3 and S5 of `graze bench` in two
+// of a step with the calls before it, on one thread, of scenes like S3 and S5 of `graze_studies bench` in two
 // details. Then it prints time and bytes of a mesh of a million vertices. Reports of doubles and of poses are
 // compared.
 
