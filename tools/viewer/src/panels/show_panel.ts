@@ -1,8 +1,8 @@
 // Which settings has the view, and which filters have the contacts?
 
 import { button, h } from './dom';
-import { SIDES } from './report';
-import { newFilter, type Display, type Filter, type Viewer } from './viewer';
+import { SIDES } from '../data/report';
+import { newFilter, type Display, type Filter, type Viewer } from '../viewer';
 
 type Flag = { [K in keyof Display]: Display[K] extends boolean ? K : never }[keyof Display];
 type Range = 'distanceFrom' | 'distanceTo' | 'ageFrom' | 'ageTo';

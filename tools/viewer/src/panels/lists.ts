@@ -1,10 +1,10 @@
 // Which objects, pairs and contacts are there, and how does one find one of them?
 
 import { count, h, short, swatch } from './dom';
-import { groupOf, INSIDE_GROUPS, INSIDE_MARKS, INSIDES, insideWords, SHORT_GROUPS } from './inside';
-import { KIND_COLOURS, palette, PHASE_COLOURS } from './palette';
-import { KINDS, PHASES } from './report';
-import type { Selection, Viewer } from './viewer';
+import { groupOf, INSIDE_GROUPS, INSIDE_MARKS, INSIDES, insideWords, SHORT_GROUPS } from '../data/inside';
+import { KIND_COLOURS, palette, PHASE_COLOURS } from '../palette';
+import { KINDS, PHASES } from '../data/report';
+import type { Selection, Viewer } from '../viewer';
 import { VirtualList } from './virtual_list';
 
 type Tab = 'objects' | 'pairs' | 'contacts';

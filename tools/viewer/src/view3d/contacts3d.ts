@@ -1,8 +1,8 @@
 // How are contacts drawn: points, pushes, kinds and sides, and where diagnostics happened?
 
 import { PointBatch, SegmentBatch, SHAPE, type Vec3 } from './batches3d';
-import type { ObjectState } from './motion';
-import { KIND_COLOURS, palette } from './palette';
+import type { ObjectState } from '../data/motion';
+import { KIND_COLOURS, palette } from '../palette';
 import type { Layer, Stage } from './scene3d';
 
 /** What a point's shape says: 0 no side, 1 in front of both, 2 behind one, 3 the two sides disagree. */

@@ -1,7 +1,7 @@
 // How are many points, segments and spheres drawn in one call each?
 
 import * as THREE from 'three';
-import { channels } from './palette';
+import { channels } from '../palette';
 
 export type Vec3 = readonly [number, number, number];
 

@@ -1,8 +1,8 @@
 // How is one object drawn: its faces, the edges over them, and what other objects hide of it?
 
 import * as THREE from 'three';
-import type { ObjectState } from './motion';
-import { channels, type Palette } from './palette';
+import type { ObjectState } from '../data/motion';
+import { channels, type Palette } from '../palette';
 
 const CLIP = /* glsl */ `
   uniform vec4 clip;

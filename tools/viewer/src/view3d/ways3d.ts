@@ -3,7 +3,7 @@
 import { PointBatch, SegmentBatch, SHAPE } from './batches3d';
 import { addArrow, arrowLength } from './contacts3d';
 import type { DrawnLine } from './lines3d';
-import { palette } from './palette';
+import { palette } from '../palette';
 import type { Layer, Stage } from './scene3d';
 
 /** A way out begins inside the two objects, so it is hardly fainter there. */

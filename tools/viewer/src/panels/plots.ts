@@ -2,9 +2,9 @@
 
 import uPlot from 'uplot';
 import { h, short } from './dom';
-import { STAGES } from './head';
-import { isDark, palette, STAGE_COLOURS } from './palette';
-import type { Viewer } from './viewer';
+import { STAGES } from '../data/head';
+import { isDark, palette, STAGE_COLOURS } from '../palette';
+import type { Viewer } from '../viewer';
 
 interface Line { label: string; colour: string; values: (number | null)[] }
 interface Plot { title: string; id: string; lines: Line[] }

@@ -2,9 +2,9 @@
 
 import { button, copy, h } from './dom';
 import { frameFacts, numberText, selectionFacts, type Fact, type Facts } from './facts';
-import { insideWords } from './inside';
-import { KINDS } from './report';
-import type { Selection, Viewer } from './viewer';
+import { insideWords } from '../data/inside';
+import { KINDS } from '../data/report';
+import type { Selection, Viewer } from '../viewer';
 
 const LABELS: Record<string, string> = { type: '', a: 'a', b: 'b' };
 /** These are in the heading already. */

@@ -1,10 +1,10 @@
 // What do the colours and shapes over the surfaces mean, how many are there, and which are shown?
 
-import { CLASS_NAMES, sideClass } from './contacts3d';
+import { CLASS_NAMES, sideClass } from '../view3d/contacts3d';
 import { count, h, swatch } from './dom';
-import { KIND_COLOURS, levelColour, palette } from './palette';
-import { KINDS } from './report';
-import type { Viewer } from './viewer';
+import { KIND_COLOURS, levelColour, palette } from '../palette';
+import { KINDS } from '../data/report';
+import type { Viewer } from '../viewer';
 
 const CLASS_STYLES = ['dot', 'disc', 'ring', 'diamond'];
 

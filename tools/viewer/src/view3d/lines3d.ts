@@ -1,7 +1,7 @@
 // How are the lines between middle vertices, the bounds of regions and the witnesses of pairs drawn?
 
 import { PointBatch, SegmentBatch, SHAPE, SphereBatch, type Vec3 } from './batches3d';
-import { levelColour, palette } from './palette';
+import { levelColour, palette } from '../palette';
 import type { Layer, Stage } from './scene3d';
 
 export interface DrawnLine { a: Vec3; b: Vec3; pair: number; level: number }

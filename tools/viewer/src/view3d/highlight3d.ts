@@ -2,10 +2,10 @@
 
 import { PointBatch, SegmentBatch, SHAPE } from './batches3d';
 import { Bounds } from './camera3d';
-import type { ObjectState } from './motion';
-import { palette } from './palette';
+import type { ObjectState } from '../data/motion';
+import { palette } from '../palette';
 import type { Layer, Stage } from './scene3d';
-import type { Viewer } from './viewer';
+import type { Viewer } from '../viewer';
 
 export class HighlightLayer implements Layer {
   private readonly points = new PointBatch(70);

@@ -1,7 +1,7 @@
 // What can the reader do, and whose work is in the page?
 
 import { h } from './dom';
-import { commands } from './keys';
+import { commands } from '../keys';
 
 declare const LICENCES: { name: string; version: string; text: string }[];
 

@@ -1,10 +1,10 @@
 // Which frame is shown, what happened when, and how does one get there?
 
 import { button, h } from './dom';
-import { droppedAt } from './head';
-import { palette, PHASE_COLOURS } from './palette';
-import { SPEEDS, type Player } from './player';
-import type { Viewer } from './viewer';
+import { droppedAt } from '../data/head';
+import { palette, PHASE_COLOURS } from '../palette';
+import { SPEEDS, type Player } from '../player';
+import type { Viewer } from '../viewer';
 
 /** A lane of a state marks each frame in which it lasts. */
 interface Lane { name: string; colour: () => string; test: (frame: number) => boolean; isState?: boolean }

@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import type { Vec3 } from './batches3d';
 import type { Stage } from './scene3d';
-import type { PickMode, Selection } from './viewer';
+import type { PickMode, Selection } from '../viewer';
 
 const NEAR_PIXELS = 9;
 

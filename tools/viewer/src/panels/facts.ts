@@ -1,8 +1,8 @@
 // What are the numbers of what is selected?
 
-import { INSIDES } from './inside';
-import { FEATURE_KINDS, KINDS, PHASES, SIDES } from './report';
-import type { Selection, Viewer } from './viewer';
+import { INSIDES } from '../data/inside';
+import { FEATURE_KINDS, KINDS, PHASES, SIDES } from '../data/report';
+import type { Selection, Viewer } from '../viewer';
 
 export type Fact = string | number | boolean | null | readonly Fact[] | { readonly [key: string]: Fact };
 export type Facts = Record<string, Fact>;

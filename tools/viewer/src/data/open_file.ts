@@ -1,8 +1,8 @@
 // How does a .grazeview file get into the page?
 
 import { FileChunks } from './chunks';
-import { button, byId, h, note } from './dom';
-import type { Viewer } from './viewer';
+import { button, byId, h, note } from '../panels/dom';
+import type { Viewer } from '../viewer';
 
 export class FileOpener {
   private readonly input = h('input', {

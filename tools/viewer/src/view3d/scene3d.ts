@@ -3,12 +3,12 @@
 import * as THREE from 'three';
 import { Bounds, Eye } from './camera3d';
 import { ContactsLayer } from './contacts3d';
-import { objectsInside } from './inside';
+import { objectsInside } from '../data/inside';
 import { HighlightLayer } from './highlight3d';
 import { LinesLayer } from './lines3d';
-import { channels, palette } from './palette';
+import { channels, palette } from '../palette';
 import { SurfaceView } from './surfaces3d';
-import type { Viewer } from './viewer';
+import type { Viewer } from '../viewer';
 import { WaysLayer } from './ways3d';
 
 /** A part of the picture that is drawn over the surfaces. */
