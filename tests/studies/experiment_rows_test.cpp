@@ -101,7 +101,7 @@ TEST_CASE("a recorded motion is the same again, on its grid, and ends close with
         REQUIRE(value * 0x1p14F == std::round(value * 0x1p14F));
         REQUIRE(std::abs(value) < 512);
       }
-  PlayedScene scene(motion, exact_setting(ContactDetail::none, 0, std::numeric_limits<double>::infinity()));
+  PlayedMotion scene(motion, exact_setting(ContactDetail::none, 0, std::numeric_limits<double>::infinity()));
   double before = std::numeric_limits<double>::infinity();
   for (std::size_t frame = 0; frame < motion.frame_count(); ++frame) {
     const ReportHandle report = scene.step(frame);
@@ -291,7 +291,7 @@ TEST_CASE("the program plays a row's scene file with the same collisions") {
     REQUIRE(run.exit_code == 0);
     const auto frames = tests::read_report(report);
     REQUIRE(frames.size() == motion.frame_count());
-    PlayedScene scene(motion, settings[i]);
+    PlayedMotion scene(motion, settings[i]);
     for (std::size_t frame = 0; frame < frames.size(); ++frame) {
       const ReportHandle expected = scene.step(frame);
       REQUIRE(frames[frame].pairs.size() == 1);

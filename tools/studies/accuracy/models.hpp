@@ -6,14 +6,14 @@
 #include <memory>
 #include <vector>
 
-#include "accuracy/moving_scene.hpp"
+#include "accuracy/moving_surfaces.hpp"
 #include "support/oracle.hpp"
 
 namespace graze::tools {
 
 /// The paper's five models, each bending, twisting and turning, which meet in the middle and part again:
 /// apart, near, touching and interpenetrating in the course of `frame_count` frames.
-class MovingModels final : public MovingScene {
+class MovingModels final : public MovingSurfaces {
  public:
   MovingModels(std::uint64_t seed, std::uint32_t frame_count);
 

@@ -49,7 +49,7 @@ double ModeResult::precision() const {
   return share(contacts_below, contacts_reported);
 }
 
-ModeStudy::ModeStudy(const MovingScene& bodies, double contact_distance)
+ModeStudy::ModeStudy(const MovingSurfaces& bodies, double contact_distance)
     : bodies_(bodies),
       contact_distance_(contact_distance),
       features_(run(exact_settings(ContactDetail::features, contact_distance)).reports),

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "accuracy/moving_scene.hpp"
+#include "accuracy/moving_surfaces.hpp"
 #include "accuracy/settings.hpp"
 #include "accuracy/tally.hpp"
 
@@ -42,7 +42,7 @@ class ModeStudy {
   using Reports = std::vector<ReportHandle>;
 
   /// Runs exact mode in the three details that settings are compared with. `bodies` must outlive the study.
-  ModeStudy(const MovingScene& bodies, double contact_distance);
+  ModeStudy(const MovingSurfaces& bodies, double contact_distance);
 
   [[nodiscard]] double contact_distance() const { return contact_distance_; }
   /// The reports of exact mode, one a frame; every pair of bodies is listed.
@@ -60,7 +60,7 @@ class ModeStudy {
   void compare(const FrameReport& report, const FrameReport& truth, const FrameReport& below,
                ModeResult& result) const;
 
-  const MovingScene& bodies_;
+  const MovingSurfaces& bodies_;
   double contact_distance_;
   Reports features_, regions_, vertices_;
 };

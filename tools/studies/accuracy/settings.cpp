@@ -14,7 +14,7 @@ ModeSetting exact_setting(ContactDetail detail, double contact_distance) {
 }
 
 /// Each level's number is `part` of the most that eq. 6 gives for the models at rest.
-ModeSetting paper_setting(const MovingScene& models, ContactDetail detail, double contact_distance,
+ModeSetting paper_setting(const MovingSurfaces& models, ContactDetail detail, double contact_distance,
                           double part, double last_part) {
   std::vector<double> epsilon;
   for (std::size_t level = 1; level < models.level_epsilon().size(); ++level)
@@ -60,7 +60,7 @@ SceneSettings exact_settings(ContactDetail detail, double contact_distance) {
   return settings;
 }
 
-std::vector<ModeSetting> surface_settings(const MovingScene& models, ContactDetail detail,
+std::vector<ModeSetting> surface_settings(const MovingSurfaces& models, ContactDetail detail,
                                           double contact_distance, std::uint64_t exact_work) {
   std::vector<ModeSetting> settings = {exact_setting(detail, contact_distance)};
   for (const double edges : {0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0}) {
@@ -79,7 +79,7 @@ std::vector<ModeSetting> surface_settings(const MovingScene& models, ContactDeta
   return settings;
 }
 
-std::vector<ModeSetting> vertex_settings(const MovingScene& models, ContactDetail detail,
+std::vector<ModeSetting> vertex_settings(const MovingSurfaces& models, ContactDetail detail,
                                          double contact_distance) {
   std::vector<ModeSetting> settings = {exact_setting(detail, contact_distance)};
   ModeSetting formula{"paper, eq. 3 and 6", ModeFamily::paper_formula,

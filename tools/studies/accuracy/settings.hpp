@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/moving_scene.hpp"
+#include "accuracy/moving_surfaces.hpp"
 
 namespace graze::tools {
 
@@ -33,11 +33,11 @@ SceneSettings exact_settings(ContactDetail detail, double contact_distance);
 
 /// Exact, within and work budgets for a detail of surfaces. `exact_work` is how many region pairs a step of
 /// exact mode tests; budgets are parts of it.
-std::vector<ModeSetting> surface_settings(const MovingScene& models, ContactDetail detail,
+std::vector<ModeSetting> surface_settings(const MovingSurfaces& models, ContactDetail detail,
                                           double contact_distance, std::uint64_t exact_work);
 
 /// Exact and paper, by eq. 6 and by numbers, for a detail of vertices.
-std::vector<ModeSetting> vertex_settings(const MovingScene& models, ContactDetail detail,
+std::vector<ModeSetting> vertex_settings(const MovingSurfaces& models, ContactDetail detail,
                                          double contact_distance);
 
 /// Time budgets that are parts of `exact_ms`, which a step of exact mode takes.

@@ -6,8 +6,9 @@
 #include <span>
 
 #include "bench/contender.hpp"
-#include "bench/scenes/shapes.hpp"
+#include "bench/scenes/wobbling.hpp"
 #include "models/models.hpp"
+#include "scenes/mesh_of.hpp"
 
 namespace graze::bench {
 namespace {
@@ -100,7 +101,7 @@ bool are_closed(const BenchScene& scene) {
 /// A body that goes up and down by a hundredth, so that each frame has something to do.
 Body almost_at_rest(const models::MeshData& data) {
   Body body;
-  body.mesh = mesh_of(data);
+  body.mesh = scenes::mesh_of(data);
   body.place = [points = data.positions](std::size_t frame, std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i)
       out[i] = static_cast<float>(points[i / 3][static_cast<Eigen::Index>(i % 3)]);

@@ -108,7 +108,7 @@ StressResult run_objects_study(const ObjectsOptions& options) {
                             8, 7);
   print(table.head());
   for (const std::size_t count : options.counts) {
-    MovingWorld world = MovingWorld::lattice(count);
+    DriftingBodies world = DriftingBodies::lattice(count);
     const ScalingRun run = run_scaling(world, frames_of(count, options));
     check_hashes(std::to_string(count) + " objects", run, result);
     print(table.row({std::to_string(count), std::to_string(run.frames),
@@ -130,7 +130,7 @@ StressResult run_objects_study(const ObjectsOptions& options) {
   print_growth(counts, times, bytes, result);
   print_threads((std::to_string(many_count) + " objects, many small pairs").c_str(), of_many);
 
-  MovingWorld pair = MovingWorld::large_pair();
+  DriftingBodies pair = DriftingBodies::large_pair();
   const ScalingRun of_pair = run_scaling(pair, options.frames > 0 ? options.frames : 20);
   check_hashes("large pair", of_pair, result);
   print_threads("one pair of 100,000 vertices each", of_pair);

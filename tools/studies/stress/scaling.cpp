@@ -14,7 +14,7 @@ namespace {
 /// One of the two scenes, and what its steps took.
 class TimedScene {
  public:
-  TimedScene(const MovingWorld& world, unsigned threads) : scene_(settings_of(world, threads)) {
+  TimedScene(const DriftingBodies& world, unsigned threads) : scene_(settings_of(world, threads)) {
     world.add_to(scene_);
   }
 
@@ -45,7 +45,7 @@ class TimedScene {
   [[nodiscard]] const StepStatistics& statistics() const { return statistics_; }
 
  private:
-  static SceneSettings settings_of(const MovingWorld& world, unsigned threads) {
+  static SceneSettings settings_of(const DriftingBodies& world, unsigned threads) {
     SceneSettings settings = world.settings();
     settings.threads = threads;
     return settings;
@@ -58,7 +58,7 @@ class TimedScene {
   std::array<std::vector<double>, phase_names.size()> phases_;
 };
 
-double reading_ms(const MovingWorld& world) {
+double reading_ms(const DriftingBodies& world) {
   std::vector<double> times;
   volatile float sum = 0;  // so that nobody finds the reading needless
   for (int i = 0; i < 7; ++i) {
@@ -104,7 +104,7 @@ double serial_fraction_of(double one, double two) {
 
 }  // namespace
 
-ScalingRun run_scaling(MovingWorld& world, std::size_t frames) {
+ScalingRun run_scaling(DriftingBodies& world, std::size_t frames) {
   constexpr std::size_t warm_up = 3;  // memory grows, fronts are made
   TimedScene one(world, 1);
   TimedScene two(world, 2);

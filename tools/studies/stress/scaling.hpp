@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stress/moving_world.hpp"
+#include "stress/drifting_bodies.hpp"
 
 namespace graze::tools {
 
@@ -45,7 +45,7 @@ struct ScalingRun {
   }
 };
 
-ScalingRun run_scaling(MovingWorld& world, std::size_t frames);
+ScalingRun run_scaling(DriftingBodies& world, std::size_t frames);
 
 /// The speedup on `threads` threads that a serial fraction leaves.
 double predicted_speedup(double serial_fraction, unsigned threads);

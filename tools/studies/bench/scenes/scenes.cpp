@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/scenes/scene_parts.hpp"
-#include "bench/scenes/shapes.hpp"
+#include "bench/scenes/scene_makers.hpp"
+#include "bench/scenes/wobbling.hpp"
+#include "scenes/mesh_of.hpp"
 #include "scenes/random.hpp"
 
 namespace graze::bench {
@@ -31,7 +32,7 @@ Eigen::Vector3d cell_of(std::size_t index, std::size_t columns, std::size_t rows
 BenchScene paths() {
   BenchScene scene{"S1", "5 tori and 5 pawns on paths that cross", 0.05, 300, {}};
   Random random(1);
-  const std::array meshes{mesh_of(models::torus()), mesh_of(models::pawn())};
+  const std::array meshes{scenes::mesh_of(models::torus()), scenes::mesh_of(models::pawn())};
   for (std::size_t i = 0; i < 10; ++i) {
     const Eigen::Matrix3d turn = random.turn();
     const Eigen::Vector3d centre = random.vector(-1, 1);
@@ -46,8 +47,8 @@ BenchScene paths() {
 BenchScene pile() {
   BenchScene scene{"S2", "a loose pile of 100 surfaces of about 1,000 vertices", 0.04, 40, {}};
   Random random(3);
-  const std::array meshes{mesh_of(models::torus(40, 25, 0.7, 0.3)), mesh_of(models::pawn()),
-                          mesh_of(models::sphere(40, 25))};
+  const std::array meshes{scenes::mesh_of(models::torus(40, 25, 0.7, 0.3)), scenes::mesh_of(models::pawn()),
+                          scenes::mesh_of(models::sphere(40, 25))};
   for (std::size_t i = 0; i < 100; ++i) {
     const Eigen::Matrix3d turn = random.turn();
     const Eigen::Vector3d centre = 1.5 * cell_of(i, 5, 5) + random.vector(-0.2, 0.2);
@@ -65,8 +66,8 @@ BenchScene lattice() {
   scene.tries_telling = true;
   constexpr double spacing = 3.2;
   Random random(4);
-  const auto ball = mesh_of(models::sphere(40, 25));
-  const auto ring = mesh_of(models::torus(40, 25, 0.7, 0.3));
+  const auto ball = scenes::mesh_of(models::sphere(40, 25));
+  const auto ring = scenes::mesh_of(models::torus(40, 25, 0.7, 0.3));
   for (std::size_t i = 0; i < 1000; ++i) {
     Eigen::Vector3d centre = spacing * cell_of(i, 10, 10);
     const bool is_mover = i % 40 == 5;
@@ -89,7 +90,7 @@ BenchScene spheres(std::string name, std::uint32_t segments, std::uint32_t rings
       0.02 * edge,
       20,
       {}};
-  const auto mesh = mesh_of(models::sphere(segments, rings));
+  const auto mesh = scenes::mesh_of(models::sphere(segments, rings));
   for (const double side : {-1.0, 1.0})
     scene.bodies.push_back(wobbling(mesh, {Eigen::Matrix3d::Identity(),
                                            {side * (1 - 0.001 * edge), 0, 0},
@@ -106,7 +107,7 @@ BenchScene crowd(std::string name, std::size_t count) {
       std::move(name), thousands(count) + " surfaces of 258 vertices on a jittered lattice", 0.04, 8, {}};
   constexpr double jitter = 0.328;
   Random random(5);
-  const auto mesh = mesh_of(models::sphere(16, 16));
+  const auto mesh = scenes::mesh_of(models::sphere(16, 16));
   const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d centre = 2.55 * cell_of(i, side, side) + random.vector(-jitter, jitter);

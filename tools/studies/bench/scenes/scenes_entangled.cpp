@@ -2,8 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/scenes/scene_parts.hpp"
-#include "bench/scenes/shapes.hpp"
+#include "bench/scenes/scene_makers.hpp"
+#include "bench/scenes/wobbling.hpp"
+#include "scenes/mesh_of.hpp"
 #include "scenes/random.hpp"
 
 namespace graze::bench {
@@ -14,7 +15,7 @@ using Vector = Eigen::Vector3d;
 std::shared_ptr<const Mesh> scaled_sphere(std::uint32_t segments, std::uint32_t rings, double radius) {
   models::MeshData sphere = models::sphere(segments, rings);
   for (Vector& position : sphere.positions) position *= radius;
-  return mesh_of(sphere);
+  return scenes::mesh_of(sphere);
 }
 
 /// The height of a cloth that lies on a ball of radius 1 about the origin, `above` it, and hangs straight
@@ -31,7 +32,7 @@ double draped_height(double radius, double above) {
 
 BenchScene linked_tori() {
   BenchScene scene{"S6a", "a chain of 20 linked tori of 4,000 vertices", 0.04, 60, {}};
-  const auto mesh = mesh_of(models::torus(80, 50, 0.7, 0.2));
+  const auto mesh = scenes::mesh_of(models::torus(80, 50, 0.7, 0.2));
   const Eigen::Matrix3d upright = Eigen::AngleAxisd(std::numbers::pi / 2, Vector::UnitX()).toRotationMatrix();
   for (std::size_t i = 0; i < 20; ++i) {
     const Vector centre(0.995 * static_cast<double>(i), 0, 0);
@@ -61,7 +62,7 @@ BenchScene draped_cloth() {
   constexpr std::uint32_t cells = 199;
   BenchScene scene{"S6c", "a cloth of 40,000 vertices over a ball of 10,000", width / cells, 60, {}};
   scene.bodies.push_back(wobbling(scaled_sphere(125, 80, 1), {.wobble = 0.003}));
-  const auto cloth = mesh_of(models::sheet(cells, cells, width, width, models::Faces::triangles));
+  const auto cloth = scenes::mesh_of(models::sheet(cells, cells, width, width, models::Faces::triangles));
   const auto place = [cloth](std::size_t frame, std::span<float> out) {
     const auto time = static_cast<double>(frame);
     std::size_t next = 0;

@@ -7,9 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include "bench/scenes/scene_parts.hpp"
-#include "bench/scenes/shapes.hpp"
+#include "bench/scenes/scene_makers.hpp"
+#include "bench/scenes/wobbling.hpp"
 #include "mean_edge_length.hpp"
+#include "scenes/mesh_of.hpp"
 #include "scenes/random.hpp"
 
 namespace graze::bench {
@@ -56,7 +57,7 @@ std::vector<std::shared_ptr<const Mesh>> connected_parts(const Mesh& mesh) {
   }
   std::vector<std::shared_ptr<const Mesh>> meshes;
   meshes.reserve(pieces.size());
-  for (const auto& [vertex, piece] : pieces) meshes.push_back(mesh_of(piece.data));
+  for (const auto& [vertex, piece] : pieces) meshes.push_back(scenes::mesh_of(piece.data));
   return meshes;
 }
 

@@ -1,9 +1,10 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/scenes/scene_parts.hpp"
-#include "bench/scenes/shapes.hpp"
+#include "bench/scenes/scene_makers.hpp"
+#include "bench/scenes/wobbling.hpp"
 #include "scenes/grid.hpp"
+#include "scenes/mesh_of.hpp"
 #include "scenes/random.hpp"
 
 namespace graze::bench {
@@ -98,7 +99,7 @@ models::MeshData cropped(const models::MeshData& land) {
 }
 
 Body standing(const models::MeshData& data) {
-  const auto mesh = mesh_of(data);
+  const auto mesh = scenes::mesh_of(data);
   const auto place = [mesh](std::size_t frame, std::span<float> out) {
     if (frame > 0) return false;
     std::size_t next = 0;
@@ -139,7 +140,7 @@ BenchScene heap(bool is_noisy) {
   constexpr double edge = 0.157;
   scene.is_told = true;
   Random random(8);
-  const auto mesh = mesh_of(models::sphere(40, 25));
+  const auto mesh = scenes::mesh_of(models::sphere(40, 25));
   for (std::size_t i = 0; i < 1000; ++i) {
     Path path;
     path.turn = random.turn();
@@ -154,7 +155,7 @@ BenchScene sleepers() {
   BenchScene scene{"S9", "10,000 bodies of 258 vertices, 100 of them move", 0.04, 300, {}};
   scene.is_told = scene.has_sleepers = true;
   Random random(9);
-  const auto mesh = mesh_of(models::sphere(16, 16));
+  const auto mesh = scenes::mesh_of(models::sphere(16, 16));
   for (std::size_t i = 0; i < 10'000; ++i) {
     Path path;
     path.turn = random.turn();
@@ -178,7 +179,7 @@ BenchScene landscape(bool is_cropped) {
                    {}};
   scene.bodies.push_back(standing(is_cropped ? cropped(hills()) : hills()));
   Random random(10);
-  const auto mesh = mesh_of(models::sphere(25, 20));
+  const auto mesh = scenes::mesh_of(models::sphere(25, 20));
   for (std::size_t i = 0; i < prop_count; ++i)
     scene.bodies.push_back(prop(mesh, prop_place(i), random.between(0, 6)));
   return scene;

@@ -76,7 +76,7 @@ void ContactChecks::add(const RecordedMotion& motion, const PlayedSetting& setti
   Checked& checked = checked_.emplace_back();
   checked.setting = setting;
   checked.result = check;
-  checked.scene = std::make_unique<PlayedScene>(motion, setting);
+  checked.scene = std::make_unique<PlayedMotion>(motion, setting);
 }
 
 void ContactChecks::step(std::size_t frame) {

@@ -32,7 +32,7 @@ class ContactChecks {
   struct Checked {
     PlayedSetting setting;
     ContactCheck result;
-    std::unique_ptr<PlayedScene> scene;
+    std::unique_ptr<PlayedMotion> scene;
     ReportHandle report;
   };
   void add(const RecordedMotion& motion, const PlayedSetting& setting);

@@ -108,7 +108,7 @@ class Comparison {
   Comparison(const RecordedMotion& motion, double contact_distance)
       : motion_(motion), contact_distance_(contact_distance) {
     for (const PlayedSetting& setting : feature_settings(contact_distance)) {
-      scenes_.push_back(std::make_unique<PlayedScene>(motion, setting));
+      scenes_.push_back(std::make_unique<PlayedMotion>(motion, setting));
       checks_.emplace_back();
       checks_.back().name = setting.name;
       checks_.back().detail = ContactDetail::features;
@@ -145,7 +145,7 @@ class Comparison {
 
   const RecordedMotion& motion_;
   double contact_distance_;
-  std::vector<std::unique_ptr<PlayedScene>> scenes_;
+  std::vector<std::unique_ptr<PlayedMotion>> scenes_;
   std::vector<ContactCheck> checks_;
 };
 

@@ -66,7 +66,7 @@ void count_expansion(std::uint64_t regions, ExpansionCount& count) {
 /// A row whose answers the library gives, too.
 struct LibraryRow {
   RowResult* result = nullptr;
-  std::unique_ptr<PlayedScene> scene;
+  std::unique_ptr<PlayedMotion> scene;
   ReportHandle report;
 };
 
@@ -112,7 +112,7 @@ class Measurement {
   void add_to_library(RowResult& result, const PlayedSetting& setting) {
     LibraryRow& row = library_.emplace_back();
     row.result = &result;
-    row.scene = std::make_unique<PlayedScene>(motion_, setting);
+    row.scene = std::make_unique<PlayedMotion>(motion_, setting);
     settings_.push_back(setting);
   }
 

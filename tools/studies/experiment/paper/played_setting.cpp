@@ -45,7 +45,7 @@ PlayedSetting within_setting(ContactDetail detail, double contact_distance, doub
   return setting;
 }
 
-PlayedScene::PlayedScene(const RecordedMotion& motion, const PlayedSetting& setting)
+PlayedMotion::PlayedMotion(const RecordedMotion& motion, const PlayedSetting& setting)
     : motion_(motion), scene_(setting.settings) {
   for (const RowRule& rule : setting.rules)
     scene_.set_rule(rule.kinds[0], rule.kinds[1],
@@ -59,7 +59,7 @@ PlayedScene::PlayedScene(const RecordedMotion& motion, const PlayedSetting& sett
   }
 }
 
-ReportHandle PlayedScene::step(std::size_t frame) {
+ReportHandle PlayedMotion::step(std::size_t frame) {
   for (std::size_t i = 0; i < ids_.size(); ++i)
     scene_.set_positions(ids_[i], motion_.objects[i].positions(frame));
   const auto start = std::chrono::steady_clock::now();
@@ -69,7 +69,7 @@ ReportHandle PlayedScene::step(std::size_t frame) {
   return report;
 }
 
-const PairReport* PlayedScene::row(const FrameReport& report, std::size_t a, std::size_t b) const {
+const PairReport* PlayedMotion::row(const FrameReport& report, std::size_t a, std::size_t b) const {
   const auto found = std::ranges::find_if(
       report.pairs(), [&](const PairReport& row) { return row.a == ids_[a] && row.b == ids_[b]; });
   return found == report.pairs().end() ? nullptr : &*found;
@@ -79,7 +79,7 @@ std::vector<double> step_times(const RecordedMotion& motion, const PlayedSetting
                                std::uint32_t runs) {
   std::vector<double> fastest(motion.frame_count(), std::numeric_limits<double>::infinity());
   for (std::uint32_t run = 0; run < std::max(1U, runs); ++run) {
-    PlayedScene scene(motion, setting);
+    PlayedMotion scene(motion, setting);
     for (std::size_t frame = 0; frame < fastest.size(); ++frame) {
       scene.step(frame);
       fastest[frame] = std::min(fastest[frame], scene.step_ms());

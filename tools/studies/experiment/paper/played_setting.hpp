@@ -28,10 +28,10 @@ PlayedSetting exact_setting(ContactDetail detail, double contact_distance, doubl
 PlayedSetting within_setting(ContactDetail detail, double contact_distance, double tolerance);
 
 /// A recorded motion in a scene of its own.
-class PlayedScene {
+class PlayedMotion {
  public:
   /// `motion` must outlive it.
-  PlayedScene(const RecordedMotion& motion, const PlayedSetting& setting);
+  PlayedMotion(const RecordedMotion& motion, const PlayedSetting& setting);
 
   /// Brings every object to where it is in `frame`, and steps.
   ReportHandle step(std::size_t frame);

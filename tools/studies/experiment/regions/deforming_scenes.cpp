@@ -10,10 +10,11 @@
 #include <utility>
 
 #include "accuracy/models.hpp"
-#include "bench/scenes/shapes.hpp"
+#include "bench/scenes/wobbling.hpp"
 #include "core/base/box.hpp"
 #include "mean_edge_length.hpp"
 #include "models/models.hpp"
+#include "scenes/mesh_of.hpp"
 #include "scenes/skinned_human.hpp"
 
 namespace graze::tools {
@@ -57,7 +58,7 @@ BenchScene folding(std::string name, std::string what, double rest_slope, double
       for (std::size_t i = 0; i < points.size(); ++i) write(points[i], i, out);
       return true;
     };
-    scene.bodies.push_back({bench::mesh_of(sheet), place});
+    scene.bodies.push_back({scenes::mesh_of(sheet), place});
   }
   return scene;
 }
@@ -128,7 +129,7 @@ BenchScene striding_humans() {
 }
 
 BenchScene rigid_tori() {
-  const auto mesh = bench::mesh_of(models::torus(80, 50, 0.7, 0.2));
+  const auto mesh = scenes::mesh_of(models::torus(80, 50, 0.7, 0.2));
   const std::vector<std::shared_ptr<const Mesh>> meshes{mesh};
   BenchScene scene{"rigid",
                    "six linked tori of 4,000 vertices that turn without deforming",

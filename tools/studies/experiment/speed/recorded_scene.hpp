@@ -2,13 +2,13 @@
 
 #include <vector>
 
-#include "accuracy/moving_scene.hpp"
+#include "accuracy/moving_surfaces.hpp"
 #include "experiment/recorded_motion.hpp"
 
 namespace graze::tools {
 
 /// A recorded motion, for settings to be measured on.
-class RecordedScene final : public MovingScene {
+class RecordedScene final : public MovingSurfaces {
  public:
   explicit RecordedScene(RecordedMotion motion);
 

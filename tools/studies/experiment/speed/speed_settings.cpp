@@ -22,7 +22,7 @@ ModeSetting within(std::string name, double tolerance, const SceneSettings& sett
 
 /// Each level's number is `part` of the most that eq. 6 gives at rest; the last, which decides what is
 /// reported, is `last_part` of the contact distance.
-ModeSetting paper(const MovingScene& scene, double part, double last_part, const SceneSettings& settings) {
+ModeSetting paper(const MovingSurfaces& scene, double part, double last_part, const SceneSettings& settings) {
   std::vector<double> epsilon;
   for (std::size_t level = 1; level < scene.level_epsilon().size(); ++level)
     epsilon.push_back(part * scene.level_epsilon()[level]);
@@ -34,7 +34,8 @@ ModeSetting paper(const MovingScene& scene, double part, double last_part, const
   return setting;
 }
 
-void add_tolerances(const MovingScene& scene, const SceneSettings& settings, std::vector<ModeSetting>& all) {
+void add_tolerances(const MovingSurfaces& scene, const SceneSettings& settings,
+                    std::vector<ModeSetting>& all) {
   for (const double edges : {0.01, 0.1, 0.3, 1.0, 3.0, 10.0})
     all.push_back(within(format("within(%g edges)", edges), edges * scene.mean_edge_length(), settings));
   for (std::size_t level = 1; level < scene.level_epsilon().size(); ++level)
@@ -50,7 +51,7 @@ ModeSetting exact_speed_setting(SpeedQuestion question, double contact_distance)
   return {"exact", ModeFamily::exact, settings_of(question, contact_distance)};
 }
 
-std::vector<ModeSetting> speed_settings(const MovingScene& scene, SpeedQuestion question,
+std::vector<ModeSetting> speed_settings(const MovingSurfaces& scene, SpeedQuestion question,
                                         double contact_distance, std::uint64_t exact_work) {
   const SceneSettings settings = settings_of(question, contact_distance);
   std::vector<ModeSetting> all;

@@ -19,7 +19,7 @@ ModeSetting exact_speed_setting(SpeedQuestion question, double contact_distance)
 /// and as loose as the regions of each level (eq. 6); the paper's test by eq. 3 and 6, and by parts of those
 /// numbers; and parts of `exact_work`, the most region pairs that a step of exact mode tests. Contacts do not
 /// hang on the tolerance, so that for them there is only one.
-std::vector<ModeSetting> speed_settings(const MovingScene& scene, SpeedQuestion question,
+std::vector<ModeSetting> speed_settings(const MovingSurfaces& scene, SpeedQuestion question,
                                         double contact_distance, std::uint64_t exact_work);
 
 /// Time budgets that are parts of `exact_ms`, the longest step of exact mode. Their answers depend on the

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "models/models.hpp"
+#include "scenes/mesh_of.hpp"
 #include "stress/soak/timeless_rows.hpp"
 
 namespace graze::tools {
@@ -14,11 +15,6 @@ constexpr std::size_t least_bodies = 4;  // of each owner
 constexpr std::size_t most_bodies = 14;
 constexpr std::uint32_t kind_count = 3;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
-  return std::make_shared<const Mesh>(
-      Mesh::from_polygons(data.positions, data.corners, std::span<const std::uint32_t>(data.corner_counts)));
-}
 
 struct Mode {
   const char* name;
@@ -42,9 +38,9 @@ static_assert(std::ranges::all_of(enumerators<ContactDetail>,
 }  // namespace
 
 SoakWorld::SoakWorld(std::uint64_t seed)
-    : meshes_{mesh_of(models::sphere(9, 6, models::Faces::quads)), mesh_of(models::torus(12, 8, 0.5, 0.2)),
-              mesh_of(models::box({0.7, 0.5, 0.9})), mesh_of(models::sheet(6, 6, 1.5, 1.5)),
-              mesh_of(models::sphere(16, 9))},
+    : meshes_{scenes::mesh_of(models::sphere(9, 6, models::Faces::quads)),
+              scenes::mesh_of(models::torus(12, 8, 0.5, 0.2)), scenes::mesh_of(models::box({0.7, 0.5, 0.9})),
+              scenes::mesh_of(models::sheet(6, 6, 1.5, 1.5)), scenes::mesh_of(models::sphere(16, 9))},
       owners_{Owner(3 * seed), Owner(3 * seed + 1), Owner(3 * seed + 2)} {
   remake_scene();
   for (std::size_t i = 0; i < owners_.size(); ++i)

@@ -1,4 +1,4 @@
-#include "stress/moving_world.hpp"
+#include "stress/drifting_bodies.hpp"
 
 #include <cmath>
 #include <utility>
@@ -17,8 +17,8 @@ std::shared_ptr<const Mesh> sphere(std::uint32_t segments, std::uint32_t rings) 
 
 }  // namespace
 
-MovingWorld::MovingWorld(std::shared_ptr<const Mesh> mesh, std::vector<Body> bodies, double wobble,
-                         double drift, double distance)
+DriftingBodies::DriftingBodies(std::shared_ptr<const Mesh> mesh, std::vector<Body> bodies, double wobble,
+                               double drift, double distance)
     : mesh_(std::move(mesh)), bodies_(std::move(bodies)), wobble_(wobble), drift_(drift) {
   settings_.contact_distance = settings_.range = distance;
   settings_.detail = ContactDetail::features;
@@ -28,7 +28,7 @@ MovingWorld::MovingWorld(std::shared_ptr<const Mesh> mesh, std::vector<Body> bod
   move(0);
 }
 
-MovingWorld MovingWorld::lattice(std::size_t count) {
+DriftingBodies DriftingBodies::lattice(std::size_t count) {
   constexpr double spacing = 2.55;
   constexpr double jitter = 0.3;
   const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
@@ -45,17 +45,17 @@ MovingWorld MovingWorld::lattice(std::size_t count) {
   return {sphere(16, 16), std::move(bodies), 0.02, 0.02, 0.04};
 }
 
-MovingWorld MovingWorld::large_pair() {
+DriftingBodies DriftingBodies::large_pair() {
   return {sphere(400, 250), {{{-0.999, 0, 0}, 0}, {{0.999, 0, 0}, 2}}, 0.006, 0.002, 0.02};
 }
 
-void MovingWorld::add_to(Scene& scene) const {
+void DriftingBodies::add_to(Scene& scene) const {
   const std::size_t count = mesh_->vertex_count();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     scene.bind_positions(scene.add(mesh_), PositionView(positions_.data() + 3 * count * i, count));
 }
 
-void MovingWorld::move(std::size_t frame) {
+void DriftingBodies::move(std::size_t frame) {
   const auto time = static_cast<double>(frame);
   float* out = positions_.data();
   const auto rest = mesh_->rest();
@@ -71,7 +71,7 @@ void MovingWorld::move(std::size_t frame) {
   }
 }
 
-float MovingWorld::read() const {
+float DriftingBodies::read() const {
   // Sixteen sums, so that the memory is what it waits for.
   using Row = Eigen::Array<float, 16, 1>;
   Row sums = Row::Zero();

@@ -1,4 +1,4 @@
-#include "accuracy/moving_scene.hpp"
+#include "accuracy/moving_surfaces.hpp"
 
 #include <algorithm>
 

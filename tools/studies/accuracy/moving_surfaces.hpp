@@ -10,12 +10,12 @@
 namespace graze::tools {
 
 /// Surfaces whose vertices move, the same in every run: what settings are measured on.
-class MovingScene {
+class MovingSurfaces {
  public:
-  MovingScene() = default;
-  virtual ~MovingScene() = default;
-  MovingScene(const MovingScene&) = delete;
-  MovingScene& operator=(const MovingScene&) = delete;
+  MovingSurfaces() = default;
+  virtual ~MovingSurfaces() = default;
+  MovingSurfaces(const MovingSurfaces&) = delete;
+  MovingSurfaces& operator=(const MovingSurfaces&) = delete;
 
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual std::uint32_t frame_count() const = 0;

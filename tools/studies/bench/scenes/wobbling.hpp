@@ -4,11 +4,8 @@
 #include <memory>
 
 #include "bench/scenes/scenes.hpp"
-#include "models/models.hpp"
 
 namespace graze::bench {
-
-std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data);
 
 /// A way through a scene: the rest shape is turned once, moved along a Lissajous path about `centre`, and
 /// swells and shrinks in waves along its own z axis.

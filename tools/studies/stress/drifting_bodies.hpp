@@ -10,13 +10,13 @@ namespace graze::tools {
 
 /// Many bodies of one mesh whose vertices all move in every frame: they drift about their places and wobble.
 /// Positions are float, all in one block of memory.
-class MovingWorld {
+class DriftingBodies {
  public:
   /// Surfaces of 258 vertices on a jittered lattice: about one pair in a hundred neighbours touches, however
   /// many there are.
-  static MovingWorld lattice(std::size_t count);
+  static DriftingBodies lattice(std::size_t count);
   /// Two spheres of 100,000 vertices that touch in a small patch.
-  static MovingWorld large_pair();
+  static DriftingBodies large_pair();
 
   [[nodiscard]] std::size_t object_count() const { return bodies_.size(); }
   [[nodiscard]] const SceneSettings& settings() const { return settings_; }
@@ -33,8 +33,8 @@ class MovingWorld {
     Eigen::Vector3d centre;
     double phase = 0;
   };
-  MovingWorld(std::shared_ptr<const Mesh> mesh, std::vector<Body> bodies, double wobble, double drift,
-              double distance);
+  DriftingBodies(std::shared_ptr<const Mesh> mesh, std::vector<Body> bodies, double wobble, double drift,
+                 double distance);
 
   std::shared_ptr<const Mesh> mesh_;
   std::vector<Body> bodies_;

@@ -1,14 +1,9 @@
-#include "bench/scenes/shapes.hpp"
+#include "bench/scenes/wobbling.hpp"
 
 #include <cmath>
 #include <utility>
 
 namespace graze::bench {
-
-std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
-  return std::make_shared<const Mesh>(
-      Mesh::from_polygons(data.positions, data.corners, std::span<const std::uint32_t>(data.corner_counts)));
-}
 
 Body wobbling(std::shared_ptr<const Mesh> mesh, const Path& path) {
   const auto place = [mesh, path](std::size_t frame, std::span<float> out) {
