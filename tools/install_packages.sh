@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian packages that graze is built, run and tested with. With the argument `demo` these are only the
-# packages that the demonstration needs. With the argument `peers` they are also the libraries that `graze bench`
+# packages that the demonstration needs. With the argument `peers` they are also the libraries that `graze_studies bench`
 # compares graze with, and the programs that measure and check the sources. Run it as root, or where sudo asks for no
 # password.
 set -eu

@@ -1,7 +1,7 @@
 // Makes the two pictures of docs/experiments.md that show the paper's figures 7 and 8 in graze's viewer.
 //   node docs/experiments/make_pictures.mjs PROGRAM [FOLDER]
 // PROGRAM is the program graze in its build folder, where the viewer was built. FOLDER is where the pictures go, by
-// default this script's own. CHROMIUM names the browser. `graze experiment` makes the meshes and the motion: this takes
+// default this script's own. CHROMIUM names the browser. `graze_studies experiment` makes the meshes and the motion: this takes
 // about a minute.
 
 import { execFileSync } from 'node:child_process';

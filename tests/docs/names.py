@@ -5,6 +5,7 @@ import re
 PUBLIC_FOLDERS = ["core/include", "scheduler/include", "io/include"]
 # Where words of user pages may come from: all but the sources of the two libraries behind the public headers.
 OUTER_FOLDERS = ["io", "tools", "tests/fuzz", "tests/contract", "tests/docs"]
+PROGRAMS = {"graze": "tools/graze/", "graze_studies": "tools/studies/"}  # and where their commands are
 SOURCE_FOLDERS = ["core", "scheduler", "io", "tools", "tests"]
 SOURCE_ENDINGS = {".cpp", ".hpp", ".inc", ".txt", ".cmake", ".in", ".sh", ".py"}
 
@@ -41,7 +42,8 @@ class Names:
         self.public_members = {}  # class or enum -> words of its body
         self.members = {}
         self.file_names, self.paths = set(), set()
-        self.options, self.commands = set(), set()
+        self.options = set()
+        self.commands = {program: set() for program in PROGRAMS}  # by program
         self.targets = set()
         self.words_by_path = {}
         for folder in SOURCE_FOLDERS:
@@ -77,8 +79,9 @@ class Names:
                     self.members[name].add(member)
         if relative.startswith(("tools/", "tests/")):
             self.options.update(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", text))
-        if relative.startswith("tools/graze/"):
-            self.commands.update(re.findall(r"add_subcommand\(\s*\"(\w+)\"", text))
+        for program, folder in PROGRAMS.items():
+            if relative.startswith(folder):
+                self.commands[program].update(re.findall(r"add_subcommand\(\s*\"(\w+)\"", text))
         self.targets.update(re.findall(r"\bgraze::(\w+)\s+ALIAS", text))
         self.targets.update(re.findall(r"graze_add_library\((\w+)", text))
         if is_build:

@@ -31,7 +31,7 @@ MADE = ("build/", "out/")  # what commands make is not in a checkout
 ENDINGS = (".hpp", ".cpp", ".inc", ".md", ".sh", ".py", ".txt", ".cmake", ".png", ".svg", ".json", ".in")
 UNIQUE_ENDINGS = (".hpp", ".cpp", ".inc", ".md", ".sh", ".py", ".cmake")  # of names without a folder
 USER_PAGES = {"README.md", "quickstart.md", "embedding.md", "answers.md", "choosing.md", "troubleshooting.md"}
-HISTORY_PAGES = {"tried.md", "changelog.md"}  # they speak of names that are gone
+HISTORY_PAGES = {"tried.md", "changelog.md", "bounding_volumes.md"}  # they speak of names that are gone
 OTHER_PROGRAMS = {"cmake", "ctest", "ninja", "git", "apt-get", "pkg-config", "python3", "clang-format", "clang-tidy",
                   "valgrind", "g++", "clang++", "doxygen", "assimp"}
 NAME = r"[A-Za-z_]\w*"
@@ -83,9 +83,8 @@ class Checker:
         for word in words:
             self.check_path(page, line, word)
         self.check_options(page, line, words)
-        if words[0] == "graze" and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
-            if words[1] not in self.names.commands:
-                self.add(page, line, "command", f"graze has no command {words[1]}")
+        if page.path.name not in HISTORY_PAGES:
+            self.check_subcommand(page, line, words)
         if "/" not in span or "::" in span:
             self.check_names(page, line, span)
 
@@ -97,12 +96,16 @@ class Checker:
         for word in words:
             if word.startswith(FOLDERS):
                 self.check_path(page, line, word)
-        name = words[0].rsplit("/", 1)[-1]
-        if name == "graze" and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
-            if words[1] not in self.names.commands:
-                self.add(page, line, "command", f"graze has no command {words[1]}")
-        if name == "graze" or words[0].startswith(FOLDERS):
+        self.check_subcommand(page, line, words)
+        if words[0].rsplit("/", 1)[-1] in known.PROGRAMS or words[0].startswith(FOLDERS):
             self.check_options(page, line, words)
+
+    def check_subcommand(self, page, line, words):
+        """What is asked of one of our programs: it must be a command of that program, and not of the other."""
+        program = words[0].rsplit("/", 1)[-1]
+        if program in known.PROGRAMS and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
+            if words[1] not in self.names.commands[program]:
+                self.add(page, line, "command", f"{program} has no command {words[1]}")
 
     def check_options(self, page, line, words):
         if words[0].rsplit("/", 1)[-1] in OTHER_PROGRAMS:

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Counts the instructions of the steps in baseline.txt and compares: `count.sh PROGRAM [--update]`. More than 3 % off in
 # either direction fails, so that every change of speed is a change of that file, made knowingly with --update. Counts do
-# not see memory: what waits for it is measured by `graze bench`.
+# not see memory: what waits for it is measured by `graze_studies bench`.
 #
 # Valgrind knows SSE2 and AVX2 and not AVX-512: the kernels for AVX-512 are not seen. They are the same source, and their
 # results are compared with the others' by the tests. Where the processor has no AVX2 its rows are left out. Exits 77,

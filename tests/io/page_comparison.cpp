@@ -70,14 +70,14 @@ void compare_way_out(Differences& differences, const DecodedReport& decoded, std
   differences.expect(decoded.real_bits("way_extent", *row) == bits(way.extent));
 }
 
-std::uint32_t index_of(const PlayedScene& scene, ObjectId id) {
+std::uint32_t index_of(const PagePlay& scene, ObjectId id) {
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (scene.objects[i].id == id) return i;
   return std::numeric_limits<std::uint32_t>::max();
 }
 
 void compare_pair(Differences& differences, const DecodedReport& decoded, std::size_t row,
-                  const PlayedScene& scene, const FrameReport& report, const PairReport& pair) {
+                  const PagePlay& scene, const FrameReport& report, const PairReport& pair) {
   differences.expect(decoded.word("pair_a", row) == index_of(scene, pair.a));
   differences.expect(decoded.word("pair_b", row) == index_of(scene, pair.b));
   differences.expect(decoded.byte("pair_phase", row) == static_cast<int>(pair.phase));
@@ -103,7 +103,7 @@ void compare_pair(Differences& differences, const DecodedReport& decoded, std::s
     compare_region(differences, decoded, regions + i, report.region_distances(pair)[i]);
 }
 
-void compare_reports(const DecodedPage& page, const PlayedScene& scene, std::uint64_t every) {
+void compare_reports(const DecodedPage& page, const PagePlay& scene, std::uint64_t every) {
   Differences differences;
   for (std::uint64_t frame = 0; frame < page.frame_count(); ++frame) {
     const FrameReport& report = scene.reports[static_cast<std::size_t>(frame * every)];
@@ -138,7 +138,7 @@ void compare_shape(Differences& differences, const DecodedShape& shape, const Pl
   }
 }
 
-void compare_motion(const DecodedPage& page, const PlayedScene& scene, std::uint64_t every) {
+void compare_motion(const DecodedPage& page, const PagePlay& scene, std::uint64_t every) {
   Differences differences;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const PlayedObject& object = scene.objects[i];
@@ -163,7 +163,7 @@ void compare_motion(const DecodedPage& page, const PlayedScene& scene, std::uint
   CHECK(differences.count == 0);
 }
 
-void compare_head(const DecodedPage& page, const PlayedScene& scene, std::uint64_t every) {
+void compare_head(const DecodedPage& page, const PagePlay& scene, std::uint64_t every) {
   const nlohmann::json& head = page.head();
   CHECK(head.at("version") == 2);
   CHECK(head.at("title") == "a </script> title");
@@ -193,7 +193,7 @@ void compare_head(const DecodedPage& page, const PlayedScene& scene, std::uint64
   CHECK(head.at("meshes").size() == 2);
 }
 
-void compare_series(const DecodedPage& page, const PlayedScene& scene, std::uint64_t every) {
+void compare_series(const DecodedPage& page, const PagePlay& scene, std::uint64_t every) {
   const nlohmann::json& series = page.head().at("series");
   for (std::uint64_t frame = 0; frame < page.frame_count(); ++frame) {
     const FrameReport& report = scene.reports[static_cast<std::size_t>(frame * every)];
@@ -215,7 +215,7 @@ void compare_series(const DecodedPage& page, const PlayedScene& scene, std::uint
 
 }  // namespace
 
-void compare_page(const std::filesystem::path& file, const PlayedScene& scene, std::uint64_t every) {
+void compare_page(const std::filesystem::path& file, const PagePlay& scene, std::uint64_t every) {
   const DecodedPage page(file);
   compare_head(page, scene, every);
   compare_series(page, scene, every);

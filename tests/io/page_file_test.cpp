@@ -163,7 +163,7 @@ TEST_CASE("page: a link stays a link") {
 
 TEST_CASE("page: calls that name no object of the page are errors") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageWriter page(folder / "view.grazeview", {}, {});
   const auto mesh = grid(2);
   const graze::ObjectId soft{0, 1};

@@ -74,7 +74,7 @@ Eigen::Isometry3d box_at(double moment) {
   return pose;
 }
 
-PlayedObject& add(PlayedScene& played, Scene& scene, io::PageObject object, std::uint64_t frame) {
+PlayedObject& add(PagePlay& played, Scene& scene, io::PageObject object, std::uint64_t frame) {
   PlayedObject added;
   added.id = scene.add(
       object.mesh,
@@ -85,7 +85,7 @@ PlayedObject& add(PlayedScene& played, Scene& scene, io::PageObject object, std:
   return played.objects.back();
 }
 
-void move_objects(PlayedScene& played, Scene& scene, std::uint64_t frame) {
+void move_objects(PagePlay& played, Scene& scene, std::uint64_t frame) {
   for (std::size_t i = 0; i < played.objects.size(); ++i) {
     PlayedObject& object = played.objects[i];
     if (object.removed) continue;
@@ -101,8 +101,8 @@ void move_objects(PlayedScene& played, Scene& scene, std::uint64_t frame) {
   }
 }
 
-PlayedScene play() {
-  PlayedScene played;
+PagePlay play() {
+  PagePlay played;
   played.settings.contact_distance = 0.03;
   played.settings.range = std::numeric_limits<double>::infinity();
   played.settings.region_distances = 60;
@@ -127,12 +127,12 @@ PlayedScene play() {
 
 }  // namespace
 
-const PlayedScene& played_scene() {
-  static const PlayedScene scene = play();
+const PagePlay& page_play() {
+  static const PagePlay scene = play();
   return scene;
 }
 
-void write_page(const PlayedScene& scene, io::PageWriter& page) {
+void write_page(const PagePlay& scene, io::PageWriter& page) {
   for (std::uint64_t frame = 0; frame < scene.reports.size(); ++frame) {
     for (const PlayedObject& object : scene.objects) {
       if (object.added == frame) page.add_object(object.id, object.page);
@@ -152,7 +152,7 @@ void write_page(const PlayedScene& scene, io::PageWriter& page) {
   page.close();
 }
 
-io::PageOptions options_of(const PlayedScene& scene) {
+io::PageOptions options_of(const PagePlay& scene) {
   io::PageOptions options;
   options.title = "a </script> title";
   options.source = "scene.json";

@@ -24,7 +24,7 @@ struct PlayedObject {
 
 /// A small scene of deformable, rigid and fixed objects that come and go, with all its reports, which
 /// mark_report() has marked.
-struct PlayedScene {
+struct PagePlay {
   SceneSettings settings;
   std::vector<PlayedObject> objects;
   std::vector<FrameReport> reports;
@@ -37,17 +37,17 @@ constexpr std::uint64_t source_number(std::uint64_t frame) {
 
 /// Plays 75 frames. In frame 5 a vertex is not finite, frames 20 to 24 are all the same, an object comes in
 /// frame 7 and one goes in frame 40 while it is in contact.
-const PlayedScene& played_scene();
+const PagePlay& page_play();
 
 /// The template of a page, which has no viewer.
 inline const std::string page_template =
     "<html>\n<head></head>\n<!-- graze-data -->\n<script>play()</script>\n</html>\n";
 
 /// The options of a page of a scene, with a title that could break the page.
-io::PageOptions options_of(const PlayedScene& scene);
+io::PageOptions options_of(const PagePlay& scene);
 
 /// Writes the scene into a page.
-void write_page(const PlayedScene& scene, io::PageWriter& page);
+void write_page(const PagePlay& scene, io::PageWriter& page);
 
 /// A square grid of side × side quads.
 std::shared_ptr<const Mesh> grid(std::uint32_t side);

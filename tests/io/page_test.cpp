@@ -14,7 +14,7 @@ namespace io = graze::io;
 
 TEST_CASE("page: a decoder of its own reads back every row, contact, region distance and position") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   const auto file = folder / "view.html";
   io::PageWriter page(file, page_template, options_of(scene));
   write_page(scene, page);
@@ -24,7 +24,7 @@ TEST_CASE("page: a decoder of its own reads back every row, contact, region dist
 }
 
 TEST_CASE("page: the played scene has what a page must show") {
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   std::size_t contacts = 0;
   std::size_t regions = 0;
   std::size_t crossing = 0;
@@ -44,7 +44,7 @@ TEST_CASE("page: the played scene has what a page must show") {
 
 TEST_CASE("page: a file of data alone has the same chunks as a page") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageWriter page(folder / "view.html", page_template, options_of(scene));
   write_page(scene, page);
   io::PageWriter data(folder / "view.grazeview", {}, options_of(scene));
@@ -55,7 +55,7 @@ TEST_CASE("page: a file of data alone has the same chunks as a page") {
 
 TEST_CASE("page: every third frame, also where objects come and go between these frames") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageOptions options = options_of(scene);
   options.every = 3;
   io::PageWriter page(folder / "view.grazeview", {}, options);
@@ -116,7 +116,7 @@ TEST_CASE("page: an object with another mesh is another object of the page, also
 
 TEST_CASE("page: frames that did not change share their rows, and take no positions") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageWriter page(folder / "view.grazeview", {}, options_of(scene));
   write_page(scene, page);
   const DecodedPage decoded(folder / "view.grazeview");
@@ -133,7 +133,7 @@ TEST_CASE("page: frames that did not change share their rows, and take no positi
 
 TEST_CASE("page: a way out has numbers in its own frame alone, and none has no bytes") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   // What a step says, once without ways out, and then with them.
   graze::FrameReport plain = scene.reports[15];
   for (const graze::PairReport& pair : plain.pairs()) const_cast<graze::PairReport&>(pair).way_out = {};
@@ -164,7 +164,7 @@ TEST_CASE("page: a way out has numbers in its own frame alone, and none has no b
 
 TEST_CASE("page: a diagnostic has the frame of the page and the index of the object") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageWriter page(folder / "view.grazeview", {}, options_of(scene));
   write_page(scene, page);
   const DecodedPage decoded(folder / "view.grazeview");
@@ -178,7 +178,7 @@ TEST_CASE("page: a diagnostic has the frame of the page and the index of the obj
 
 TEST_CASE("page: faces, edges and regions of a mesh") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageWriter page(folder / "view.grazeview", {}, options_of(scene));
   write_page(scene, page);
   const DecodedPage decoded(folder / "view.grazeview");
@@ -234,7 +234,7 @@ TEST_CASE("page: the regions of a mesh have their middle vertices, and children 
 
 TEST_CASE("page: no name breaks the page, which keeps its template") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageWriter page(folder / "view.html", page_template, options_of(scene));
   write_page(scene, page);
   const std::string text = read_file(folder / "view.html");
@@ -249,7 +249,7 @@ TEST_CASE("page: no name breaks the page, which keeps its template") {
 
 TEST_CASE("page: without times equal answers are equal files") {
   const TemporaryFolder folder;
-  const PlayedScene& scene = played_scene();
+  const PagePlay& scene = page_play();
   io::PageOptions options = options_of(scene);
   options.include_times = false;
   for (const char* const name : {"a.grazeview", "b.grazeview"}) {

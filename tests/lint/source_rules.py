@@ -18,7 +18,7 @@ import re
 import sys
 
 LIBRARIES = ["core", "scheduler", "io"]
-COMMANDS = ["tools/graze", "tools/graze/recording"]  # the files in them, not the folders below
+COMMANDS = ["tools/graze", "tools/graze/recording", "tools/program"]  # the files in them, not the folders below
 
 # A comment, a raw text, a text, a character.
 TOKEN = re.compile(

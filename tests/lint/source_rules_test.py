@@ -44,7 +44,7 @@ class SourceRulesTest(unittest.TestCase):
 
     def test_commands_that_print_by_themselves(self):
         found = self.problems({"tools/graze/recording/a.cpp": 'std::printf("%s", name);\n',
-                               "tools/graze/bench/b.cpp": 'std::printf("%s", name);\n',
+                               "tools/studies/bench/b.cpp": 'std::printf("%s", name);\n',
                                "tools/graze/c.cpp": 'say("%s", name);\n'})
         self.assertEqual([problem.split(": ")[0] for problem in found], ["tools/graze/recording/a.cpp:1"])
 

@@ -1,6 +1,6 @@
 // This test compares hashes of all that reports say with committed values. The bits must be the same with any
-// number of threads, in every run and on every machine. `graze stress --determinism` does this for 300 frames
-// and 20 repeats.
+// number of threads, in every run and on every machine. `graze_studies stress --determinism` does this for
+// 300 frames and 20 repeats.
 
 #include <oneapi/tbb/global_control.h>
 
@@ -31,10 +31,10 @@ struct Golden {
 /// changed answer. One thing is not fixed: the witness of surfaces that touch, where distances alone are
 /// asked for. It follows the order of leaf pairs (docs/method.md, section 2).
 ///
-/// `graze stress --determinism --frames 20 --repeats 1` prints them all, for a change that is meant to answer
-/// otherwise. `nearest` has the pairs of that detail alone. `solids` also has sides by winding numbers, and
-/// what is inside. `limits` also has the order by which contacts are kept, and `carrying` those that are
-/// chosen to carry a pair, which depend on the frame before.
+/// `graze_studies stress --determinism --frames 20 --repeats 1` prints them all, for a change that is meant
+/// to answer otherwise. `nearest` has the pairs of that detail alone. `solids` also has sides by winding
+/// numbers, and what is inside. `limits` also has the order by which contacts are kept, and `carrying` those
+/// that are chosen to carry a pair, which depend on the frame before.
 constexpr std::array<Golden, 10> golden = {{
     {"paths", 0x2a460bba2118de22U},
     {"pile", 0xe8d81a16d3e3979fU},

@@ -178,32 +178,6 @@ bool has_parallel_edges(const ExactShape& a, const ExactShape& b) {
 
 }  // namespace
 
-std::uint64_t Random::next() {
-  state_ += 0x9e3779b97f4a7c15U;
-  std::uint64_t mixed = state_;
-  mixed = (mixed ^ (mixed >> 30U)) * 0xbf58476d1ce4e5b9U;
-  mixed = (mixed ^ (mixed >> 27U)) * 0x94d049bb133111ebU;
-  return mixed ^ (mixed >> 31U);
-}
-
-std::uint32_t Random::below(std::uint32_t count) {
-  return static_cast<std::uint32_t>((next() >> 32U) * count >> 32U);
-}
-
-double Random::between(double low, double high) {
-  return low + (high - low) * std::ldexp(static_cast<double>(next() >> 11U), -53);
-}
-
-bool Random::chance(double probability) {
-  return between(0, 1) < probability;
-}
-
-Eigen::Vector3d Random::vector(double low, double high) {
-  const double x = between(low, high);
-  const double y = between(low, high);
-  return {x, y, between(low, high)};
-}
-
 RandomScene random_scene(std::uint64_t seed) {
   Random random(seed);
   RandomScene scene;

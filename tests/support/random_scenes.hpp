@@ -7,28 +7,22 @@
 #include <optional>
 #include <vector>
 
+#include "scenes/random.hpp"
 #include "support/oracle.hpp"
 
 namespace graze::oracle {
 
-/// A small generator of random numbers (splitmix64): the same numbers from every standard library. What is
-/// made of several asks for each in a statement of its own, or in braces: compilers differ in the order of a
-/// call's arguments.
-class Random {
+/// The generator of scenes, with a `below` of its own. So a seed of a test stays the scene that it was. What
+/// is made of several numbers asks for each in a statement of its own, or in braces: compilers differ in the
+/// order of a call's arguments.
+class Random : public scenes::Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
+  using scenes::Random::Random;
 
-  std::uint64_t next();
   /// 0 to count - 1, where count > 0.
-  std::uint32_t below(std::uint32_t count);
-  /// In [low, high).
-  double between(double low, double high);
-  bool chance(double probability);
-  /// Each coordinate between them.
-  Eigen::Vector3d vector(double low, double high);
-
- private:
-  std::uint64_t state_;
+  std::uint32_t below(std::uint32_t count) {
+    return static_cast<std::uint32_t>((next() >> 32U) * count >> 32U);
+  }
 };
 
 enum class Placement { apart, near, touching, interpenetrating };

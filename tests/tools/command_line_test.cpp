@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "tools/bad_calls.hpp"
 #include "tools/program.hpp"
 #include "tools/program_report.hpp"
 #include "tools/shapes.hpp"
@@ -21,21 +22,8 @@ namespace {
 using Catch::Matchers::Contains;
 using Words = std::vector<std::string>;
 
-struct BadCall {
-  Words arguments;
-  std::string complaint;
-};
-
-/// Each ends with exit code 2 and one line on standard error that has the complaint.
-void check_refused(const std::vector<BadCall>& calls) {
-  for (const BadCall& call : calls) {
-    const ProgramResult result = run_graze(call.arguments);
-    INFO("wanted: " << call.complaint << "\ngot: " << result.err);
-    CHECK(result.exit_code == 2);
-    CHECK(is_one_line(result.err));
-    CHECK(result.out.empty());
-    CHECK_THAT(result.err, Contains("graze: " + call.complaint));
-  }
+void check_graze_refuses(const std::vector<BadCall>& calls) {
+  check_refused(run_graze, "graze", calls);
 }
 
 /// A spike that stands on a sheet of 4 by 4 quads, and another one beside it: 2 pairs in contact.
@@ -65,9 +53,7 @@ TEST_CASE("numbers out of their range are refused with the range") {
   };
   const std::string from_1 = "expected a whole number of at least 1, got ";
   const std::string from_0 = "expected a whole number of at least 0, got ";
-  const std::string threads =
-      "expected a whole number from 1 to " + std::to_string(max_threads()) + " (8 for each processor), got ";
-  check_refused({
+  check_graze_refuses({
       {run("--frames", "0"), "--frames: " + from_1 + "\"0\""},
       {run("--frames", "-3"), "--frames: " + from_1 + "\"-3\""},
       {run("--frames", "2.5"), "--frames: " + from_1 + "\"2.5\""},
@@ -93,22 +79,16 @@ TEST_CASE("numbers out of their range are refused with the range") {
        "--carrying-band: expected a number that is not negative, got \"-0.1\""},
       {run("--carrying-band", "inf"), "--carrying-band: expected a number that is not negative, got \"inf\""},
       {run("--picture-frame", "-1"), "--picture-frame: " + from_0 + "\"-1\""},
-      {{"stress", "--budgets", "--threads", "100000"}, "--threads: " + threads + "\"100000\""},
-      {{"stress", "--objects", "10,1"}, "--objects: expected a whole number from 2 to 1000000, got \"1\""},
-      {{"stress", "--reader", "--seconds", "0"}, "--seconds: expected a number above 0, got \"0\""},
-      {{"stress", "--soak", "--minutes", "inf"}, "--minutes: expected a number above 0, got \"inf\""},
-      {{"stress", "--soak", "--seed", "x"}, "--seed: " + from_0 + "\"x\""},
   });
 }
 
 TEST_CASE("misspelt commands and options are told the nearest ones") {
   const SpikesOnSheet files;
   const std::string commands = " the commands are run, inspect";
-  check_refused({
+  check_graze_refuses({
       {{}, "expected a command; the commands are run, inspect"},
       {{"rnu", files.scene}, "there is no command \"rnu\"; did you mean run?" + commands},
       {{"inspcet"}, "there is no command \"inspcet\"; did you mean inspect?" + commands},
-      {{"stres", "--soak"}, "there is no command \"stres\"; did you mean stress?" + commands},
       {{"fly"}, "there is no command \"fly\";" + commands},
       {{"run", files.scene, "--frame", "3"},
        "graze run has no option --frame; did you mean --frames? graze run --help lists them"},
@@ -117,9 +97,17 @@ TEST_CASE("misspelt commands and options are told the nearest ones") {
        "graze run has no option --contact-distnace; did you mean --contact-distance?"},
       {{"run", "--pic", "x.png"}, "graze run has no option --pic; did you mean --picture?"},
       {{"run", files.scene, "--quack"}, "graze run has no option --quack; graze run --help lists them"},
-      {{"stress", "--sock"}, "graze stress has no option --sock; did you mean --soak?"},
+      {{"info", "a.graze", "b.graze"}, "\"b.graze\" is one argument too many; graze info --help says"},
       {{"--versoin"}, "graze has no option --versoin; did you mean --version? graze --help lists them"},
-      {{"stress", "--soak", "now"}, "\"now\" is one argument too many; graze stress --help says"},
+  });
+}
+
+TEST_CASE("command line: commands that measure graze have moved to graze_studies") {
+  check_graze_refuses({
+      {{"stress", "--soak"}, "stress has moved to another program: run graze_studies stress\n"},
+      {{"bench"}, "bench has moved to another program: run graze_studies bench\n"},
+      {{"accuracy"}, "accuracy has moved to another program: run graze_studies accuracy\n"},
+      {{"experiment", "all"}, "experiment has moved to another program: run graze_studies experiment\n"},
   });
 }
 
@@ -130,7 +118,7 @@ TEST_CASE("files that cannot be written are refused before anything is read") {
   // The scene is not there, and nothing is said of it: the outputs come first.
   const auto report = [&](const std::string& file) { return Words{"run", "no.json", "--report", file}; };
   const auto picture = [&](const std::string& file) { return Words{"run", "no.json", "--picture", file}; };
-  check_refused({
+  check_graze_refuses({
       {report(none + "/r.jsonl"), "--report: " + none + "/r.jsonl cannot be written: there is no folder " +
                                       none + "; make it, or name a file in another one"},
       {report(folder), "--report: " + folder + " cannot be written: it is a folder; name a file in it"},
@@ -145,7 +133,6 @@ TEST_CASE("files that cannot be written are refused before anything is read") {
        "--picture: " + files.in("p") + " cannot be written: it has no ending; end it in .png"},
       {{"run", files.scene, "--report", files.scene},
        "--report: " + files.scene + " cannot be written: it is what the run reads"},
-      {{"stress", "--soak", "--out", none + "/x.json"}, "--out: " + none + "/x.json cannot be written"},
   });
   CHECK_FALSE(std::filesystem::exists(files.in("p.jpg")));
   CHECK(read_file(files.scene).starts_with("{\"graze\": 1"));
@@ -232,39 +219,6 @@ TEST_CASE("command line: ways out and contacts that carry are settings of a run,
   const SceneSettings on = settings_with({"--ways-out", "--carrying", "4", "--carrying-band", "0.25"});
   CHECK((on.ways_out && on.carrying == 4 && on.carrying_band == 0.25));
 }
-
-#if GRAZE_HAS_STUDIES
-
-TEST_CASE("what is wrong with the command line of graze bench is said in a line") {
-  const SpikesOnSheet files;
-  const std::string none = files.in("none");
-  const std::string folder = files.folder.path().string();
-  check_refused({
-      {{"bench", "--frames", "0"}, "--frames: expected a whole number of at least 1, got \"0\""},
-      {{"bench", "--threads", "1,100000"}, "--threads: expected a whole number"},
-      {{"bench", "--slow", "5000"}, "--slow: expected a whole number from 1 to 4096, got \"5000\""},
-      {{"bench", "--task", "A"}, "graze bench has no option --task; did you mean --tasks?"},
-      {{"bench", "--scenes", "S1", "--csv", none + "/x.csv"}, "--csv: " + none + "/x.csv cannot be written"},
-      {{"bench", "--scenes", "S1", "--json", folder},
-       "--json: " + folder + " cannot be written: it is a folder"},
-  });
-}
-
-TEST_CASE("bench compares with its aims only where that is asked for, and says what they are") {
-  const Words short_run = {"bench", "--scenes", "S1", "--tasks", "A", "--frames", "2", "--peers", "none"};
-  const ProgramResult plain = run_graze(short_run);
-  CHECK(plain.exit_code == 0);
-  CHECK(plain.out.find("aim") == std::string::npos);
-  Words with_aims = short_run;
-  with_aims.emplace_back("--aims");
-  const ProgramResult asked = run_graze(with_aims);
-  CHECK(asked.exit_code == 0);
-  CHECK_THAT(asked.out, Contains("Aims: what graze's developers want of it (docs/performance.md).") &&
-                            Contains("An aim that is not reached is no error.") &&
-                            Contains("| memory, bytes a vertex"));
-}
-
-#endif
 
 TEST_CASE("command line: help lists every detail and every setting of a run, and each detail is taken") {
   const std::string help = run_graze({"run", "--help"}).out;

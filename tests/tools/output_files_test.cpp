@@ -183,14 +183,3 @@ TEST_CASE("a time series writes over no recording and no other output in its fol
   CHECK(run_graze({"export", files.file, "--csv", files.in("p/c.csv"), "--paraview", files.in("p.pvd")})
             .exit_code == 0);
 }
-
-#if GRAZE_HAS_STUDIES
-
-TEST_CASE("graze bench writes over no mesh that it may read") {
-  const ReadingScene files;
-  files.check_refused({"bench", "--data", files.folder().path().string(), "--csv", files.in("a.obj")},
-                      "--csv: ");
-  files.check_refused({"bench", "--csv", files.in("x"), "--json", files.in("x")}, "--json: ");
-}
-
-#endif

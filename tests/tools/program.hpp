@@ -18,6 +18,9 @@ ProgramResult run_graze(const std::vector<std::string>& arguments);
 /// empty.
 ProgramResult run_graze_redirected(const std::vector<std::string>& arguments, const std::string& redirection);
 
+/// Runs the built `graze_studies` with these arguments, its output piped.
+ProgramResult run_studies(const std::vector<std::string>& arguments);
+
 /// Whether a text is exactly one line.
 bool is_one_line(const std::string& text);
 

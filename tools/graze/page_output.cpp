@@ -39,12 +39,6 @@ io::PageOptions page_options(const fs::path& path, const SceneSettings& settings
   return page;
 }
 
-}  // namespace
-
-bool is_page_data(const fs::path& file) {
-  return file.extension() == ".grazeview";
-}
-
 void check_page_file(const std::string& option, const fs::path& file) {
   check_output_file(option, file);
   if (is_page_data(file)) return;
@@ -52,6 +46,17 @@ void check_page_file(const std::string& option, const fs::path& file) {
     throw io::InputError(option + ": " + file.string() +
                          " cannot be written: end it in .html for a page, or in .grazeview for its data");
   if (!has_viewer()) viewer_page();  // its error says how to get one
+}
+
+}  // namespace
+
+bool is_page_data(const fs::path& file) {
+  return file.extension() == ".grazeview";
+}
+
+void add_page(OutputFiles& outputs, const std::string& option, const fs::path& file) {
+  check_page_file(option, file);
+  outputs.add_growing(option, file);
 }
 
 io::PageObject page_object(const std::string& name, const std::shared_ptr<const Mesh>& mesh,

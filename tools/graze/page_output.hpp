@@ -9,14 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "output_files.hpp"
+
 namespace graze::tools {
 
 /// A page is made smaller than this, unless the user says how many frames it has.
 inline constexpr std::uint64_t most_page_bytes = 100'000'000;
 
-/// Throws io::InputError where a page cannot be written, also since its ending is none that pages have, or
-/// since the program was built without the viewer.
-void check_page_file(const std::string& option, const std::filesystem::path& file);
+/// Adds a page or its data to a command's files. Throws io::InputError where it cannot be written, also since
+/// its ending is none that pages have, or since the program was built without the viewer.
+void add_page(OutputFiles& outputs, const std::string& option, const std::filesystem::path& file);
 
 /// Whether a file has a page's data alone, by its ending.
 bool is_page_data(const std::filesystem::path& file);

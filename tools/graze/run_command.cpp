@@ -199,7 +199,7 @@ OutputFiles check_outputs(const RunOptions& options) {
   if (options.report) files.add("--report", *options.report);
   if (options.record) files.add("--record", *options.record);
   if (options.picture) files.add_picture("--picture", *options.picture);
-  if (options.html) files.add_page("--html", *options.html);
+  if (options.html) add_page(files, "--html", *options.html);
   files.check_inputs(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()));
   return files;
 }

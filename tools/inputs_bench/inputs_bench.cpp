@@ -1,5 +1,5 @@
 // Gives the same rigid motion of a scene's bodies in each way: `graze_inputs_bench [FRAMES]`. Prints medians
-// of a step with the calls before it, on one thread, of scenes like S3 and S5 of `graze bench` in two
+// of a step with the calls before it, on one thread, of scenes like S3 and S5 of `graze_studies bench` in two
 // details. Then it prints time and bytes of a mesh of a million vertices. Reports of doubles and of poses are
 // compared.
 
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "models/models.hpp"
+#include "scenes/mesh_of.hpp"
 #include "scenes/random.hpp"
 
 namespace {
@@ -31,11 +32,6 @@ double cpu_ms() {
 double median(std::vector<double> times) {
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
-}
-
-std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
-  return std::make_shared<const Mesh>(
-      Mesh::from_polygons(data.positions, data.corners, std::span<const std::uint32_t>(data.corner_counts)));
 }
 
 /// Bodies that turn and sway, placed by the formula of a pose.
@@ -98,8 +94,8 @@ class Bodies {
 Bodies like_s3() {
   Bodies bodies;
   scenes::Random random(4);
-  const auto ball = mesh_of(models::sphere(40, 25));
-  const auto ring = mesh_of(models::torus(40, 25, 0.7, 0.3));
+  const auto ball = scenes::mesh_of(models::sphere(40, 25));
+  const auto ring = scenes::mesh_of(models::torus(40, 25, 0.7, 0.3));
   for (std::size_t i = 0; i < 1000; ++i) {
     const std::size_t column = i % 10, row = i / 10 % 10, layer = i / 100;
     Eigen::Vector3d centre(static_cast<double>(column), static_cast<double>(row), static_cast<double>(layer));
@@ -114,7 +110,7 @@ Bodies like_s3() {
 Bodies like_s5() {
   Bodies bodies;
   scenes::Random random(5);
-  const auto mesh = mesh_of(models::sphere(16, 16));
+  const auto mesh = scenes::mesh_of(models::sphere(16, 16));
   for (std::size_t i = 0; i < 10'000; ++i) {
     const std::size_t column = i % 22, row = i / 22 % 22, layer = i / 484;
     const Eigen::Vector3d cell(static_cast<double>(column), static_cast<double>(row),

@@ -84,7 +84,7 @@ class ReplayedPage {
 
 void view(const ViewOptions& options) {
   OutputFiles outputs;
-  outputs.add_page("-o", options.output);
+  add_page(outputs, "-o", options.output);
   outputs.check_inputs(std::vector<std::filesystem::path>{options.file});
   const Recording recording(options.file);
   Replay replay(recording);

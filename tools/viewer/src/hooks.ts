@@ -1,13 +1,13 @@
 // What may tests and the console ask of the page?
 
-import type { Vec3 } from './batches3d';
-import type { Facts } from './facts';
-import { frameFacts, selectionFacts } from './facts';
-import { selectionKey, type Lists } from './lists';
+import type { Vec3 } from './view3d/batches3d';
+import type { Facts } from './panels/facts';
+import { frameFacts, selectionFacts } from './panels/facts';
+import { selectionKey, type Lists } from './panels/lists';
 import { parseSelection, selectionText, type Link } from './link';
-import { Screen } from './picking';
+import { Screen } from './view3d/picking';
 import type { Player } from './player';
-import type { Stage } from './scene3d';
+import type { Stage } from './view3d/scene3d';
 import type { Selection, Viewer } from './viewer';
 
 export interface Hooks {

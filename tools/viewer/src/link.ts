@@ -1,8 +1,8 @@
 // How does the address hold the frame, the camera and the selection?
 
 import * as THREE from 'three';
-import { KINDS, FEATURE_KINDS } from './report';
-import type { Stage } from './scene3d';
+import { KINDS, FEATURE_KINDS } from './data/report';
+import type { Stage } from './view3d/scene3d';
 import type { Selection, Viewer } from './viewer';
 
 const places = (v: THREE.Vector3): string => v.toArray().map((x) => Number(x.toPrecision(7))).join(',');

@@ -1,24 +1,24 @@
 // How do the parts of the page come together?
 
-import { PageChunks } from './chunks';
-import { button, byId, copy, h, note } from './dom';
-import { droppedAt } from './head';
-import { fillHelp } from './help';
+import { PageChunks } from './data/chunks';
+import { button, byId, copy, h, note } from './panels/dom';
+import { droppedAt } from './data/head';
+import { fillHelp } from './panels/help';
 import { makeHooks, type Hooks } from './hooks';
-import { solidsText } from './inside';
-import { Inspector } from './inspector';
+import { solidsText } from './data/inside';
+import { Inspector } from './panels/inspector';
 import { listenForKeys, setCommands, type Command } from './keys';
-import { Legend, toggleLevel } from './legend';
+import { Legend, toggleLevel } from './panels/legend';
 import { Link } from './link';
-import { Lists } from './lists';
-import { FileOpener } from './open_file';
+import { Lists } from './panels/lists';
+import { FileOpener } from './data/open_file';
 import { Player } from './player';
-import { Plots } from './plots';
-import { Stage } from './scene3d';
-import { resetFilter, ShowPanel } from './show_panel';
+import { Plots } from './panels/plots';
+import { Stage } from './view3d/scene3d';
+import { resetFilter, ShowPanel } from './panels/show_panel';
 import { StageExtras } from './stage_extras';
 import { nextTheme, startTheme } from './theme';
-import { Timeline } from './timeline';
+import { Timeline } from './panels/timeline';
 import { Viewer, type Display, type PickMode } from './viewer';
 
 declare global {

@@ -1,11 +1,11 @@
 // What stands over the picture: quick switches, names of objects, axes, and the tip at the pointer?
 
 import * as THREE from 'three';
-import { button, byId, h, short } from './dom';
-import { INSIDE_MARKS } from './inside';
-import { KINDS, SIDES } from './report';
-import { pick, Screen } from './picking';
-import type { Stage } from './scene3d';
+import { button, byId, h, short } from './panels/dom';
+import { INSIDE_MARKS } from './data/inside';
+import { KINDS, SIDES } from './data/report';
+import { pick, Screen } from './view3d/picking';
+import type { Stage } from './view3d/scene3d';
 import type { PickMode, Viewer } from './viewer';
 
 const PICKS: [PickMode, string][] = [['auto', 'Any'], ['object', 'Object'], ['pair', 'Pair'], ['contact', 'Contact'], ['feature', 'Feature']];

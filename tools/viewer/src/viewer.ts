@@ -1,8 +1,8 @@
 // What is shown now: the page, the frame, the selection and the settings of the view. Panels listen to its changes.
 
-import type { ChunkSource } from './chunks';
-import { Page } from './page';
-import type { FrameReport } from './report';
+import type { ChunkSource } from './data/chunks';
+import { Page } from './data/page';
+import type { FrameReport } from './data/report';
 
 export type Selection =
   | { type: 'object'; object: number }

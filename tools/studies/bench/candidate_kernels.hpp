@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <graze/instruction_set.hpp>
+#include <memory>
+#include <vector>
+
+#include "bench/contender.hpp"
+#include "bench/scenes/scenes.hpp"
+
+namespace graze::bench {
+
+/// Task B by what another finds near and graze's own kernels: shows what of graze's time the hierarchy wins
+/// and what the kernels. One thread.
+///
+/// `candidates` lists pairs of triangles, those of one pair of objects and of one triangle of a one after the
+/// other. Every vertex and edge belongs to the first triangle that has it; what belongs to a triangle is
+/// looked at with what belongs to those near it, as graze looks at two leaves.
+std::unique_ptr<Contender> make_candidate_kernels(const BenchScene& scene, const World& world,
+                                                  std::unique_ptr<Contender> candidates, InstructionSet set);
+
+}  // namespace graze::bench

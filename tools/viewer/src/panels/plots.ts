@@ -1,0 +1,168 @@
+// How do numbers run over the frames: contacts, near pairs, times by stage, bounds of the selected pair?
+
+import uPlot from 'uplot';
+import { h, short } from './dom';
+import { STAGES } from '../data/head';
+import { isDark, palette, STAGE_COLOURS } from '../palette';
+import type { Viewer } from '../viewer';
+
+interface Line { label: string; colour: string; values: (number | null)[] }
+interface Plot { title: string; id: string; lines: Line[] }
+
+export class Plots {
+  readonly element = h('div', { id: 'plots', 'data-testid': 'plots' });
+  private charts: uPlot[] = [];
+  private boundsOf = '';
+  private bounds: [(number | null)[], (number | null)[]] = [[], []];
+  private isSetting = false;
+
+  constructor(private readonly viewer: Viewer) {
+    viewer.on(['page'], () => {
+      this.boundsOf = '';
+      this.make();
+    });
+    viewer.on(['theme'], () => this.make());
+    viewer.on(['frame'], () => this.mark());
+    viewer.on(['selection'], () => void this.readBounds());
+    new ResizeObserver(() => this.resize()).observe(this.element);
+  }
+
+  private plots(): Plot[] {
+    const { head } = this.viewer.page!;
+    const series = (name: keyof typeof head.series) => head.series[name] ?? [];
+    const { neutral, selected, second } = palette();
+    const green = isDark() ? '#19c795' : '#009e73';
+    return [
+      { title: 'Contacts', id: 'contacts', lines: [{ label: 'contacts', colour: palette().warning, values: series('contacts') }] },
+      { title: 'Pairs', id: 'pairs', lines: [
+        { label: 'near', colour: neutral, values: series('near') },
+        { label: 'in contact', colour: green, values: series('in_contact') },
+        ...(['inside', 'crossing'] as const).map((name) => ({ label: name, colour: palette()[name], values: series(name) }))
+          .filter((line) => line.values.some((n) => n > 0))] },
+      { title: 'ms', id: 'ms', lines: [
+        { label: 'step', colour: neutral, values: series('step_ms') },
+        ...STAGES.map((stage, i) => ({ label: stage.replace('_ms', ''), colour: STAGE_COLOURS[i]!, values: series(stage) }))] },
+      { title: 'Pair distance', id: 'bounds', lines: [
+        { label: 'lower', colour: selected, values: this.bounds[0] },
+        { label: 'upper', colour: second, values: this.bounds[1] }] },
+    ];
+  }
+
+  private make(): void {
+    if (!this.viewer.page) return;
+    for (const chart of this.charts) chart.destroy();
+    this.charts = [];
+    this.element.replaceChildren();
+    const frames = this.viewer.page.head.frame_numbers.map((_, f) => f);
+    for (const plot of this.plots()) {
+      const isUnasked = plot.id === 'bounds' && this.viewer.selectedPair() === null;
+      const box = h('div', { class: `plot${isUnasked ? ' unasked' : ''}`, 'data-testid': `plot-${plot.id}` });
+      if (plot.id === 'bounds') box.append(h('p', { class: 'hint' }, 'Select a pair or a contact'));
+      this.element.append(box);
+      this.charts.push(this.chart(plot, frames, box));
+    }
+    this.mark();
+  }
+
+  private chart(plot: Plot, frames: number[], box: HTMLElement): uPlot {
+    const style = getComputedStyle(document.documentElement);
+    const [ink, grid] = [style.getPropertyValue('--quiet'), style.getPropertyValue('--line')];
+    const font = `10px ${style.getPropertyValue('--font')}`;
+    const axis = { stroke: ink, font, grid: { stroke: grid, width: 1 }, ticks: { show: false } };
+    const options: uPlot.Options = {
+      ...this.size(box), padding: [4, 8, 0, 0],
+      cursor: { sync: { key: 'graze' }, y: false, points: { size: 5 }, drag: { x: false, y: false } },
+      legend: { live: true },
+      scales: { x: { time: false }, y: { range: (_, low, high) => range(low, high, plot.id === 'bounds') } },
+      axes: [{ ...axis, size: 18, gap: 2 }, { ...axis, size: 42, gap: 3, values: (_, ticks) => ticks.map((x) => String(Number(x.toPrecision(4)))) }],
+      series: [{ label: plot.title, value: (_, frame) => frame === null ? '' : String(frame) }, ...plot.lines.map((line) => ({
+        label: line.label, stroke: line.colour, width: 1.25, points: { show: false },
+        // Six values do not fit; those of the stages are in the inspector.
+        value: (_: uPlot, value: number | null) => value === null ? '' : plot.id !== 'ms' ? short(value) :
+          line.label === 'step' ? String(Number(value.toPrecision(3))) : '' }))],
+      hooks: { ready: [(chart) => this.listen(chart)] },
+    };
+    const data = [frames, ...plot.lines.map((line) => line.values.length ? line.values : frames.map(() => null))];
+    return new uPlot(options, data as uPlot.AlignedData, box);
+  }
+
+  /** A click or a drag in a plot goes to the frame there. */
+  private listen(chart: uPlot): void {
+    const go = (event: PointerEvent) => {
+      const box = chart.over.getBoundingClientRect();
+      void this.viewer.goTo(chart.posToVal(event.clientX - box.left, 'x'));
+    };
+    chart.over.addEventListener('pointerdown', go);
+    chart.over.addEventListener('pointermove', (event) => {
+      if (event.buttons & 1) go(event);
+    });
+    chart.over.addEventListener('pointerleave', () => requestAnimationFrame(() => this.mark()));
+  }
+
+  private size(box: HTMLElement): { width: number; height: number } {
+    return { width: Math.max(80, box.clientWidth), height: Math.max(40, box.clientHeight - 18) };
+  }
+
+  private resize(): void {
+    this.charts.forEach((chart, i) => chart.setSize(this.size(this.element.children[i] as HTMLElement)));
+    this.mark();
+  }
+
+  /** The cursor of all plots stands at the frame that is shown. */
+  private mark(): void {
+    const first = this.charts[0];
+    if (!first || this.isSetting) return;
+    this.isSetting = true;
+    for (const chart of this.charts)
+      chart.setCursor({ left: chart.valToPos(this.viewer.frame, 'x'), top: 4 }, false);
+    this.isSetting = false;
+  }
+
+  /** Reads the bounds of the selected pair from all blocks, a little at a time. */
+  private async readBounds(): Promise<void> {
+    const { viewer } = this;
+    const { page } = viewer;
+    const pair = viewer.selectedPair();
+    const key = pair ? `${pair.a}-${pair.b}` : '';
+    if (!page || key === this.boundsOf) return;
+    this.boundsOf = key;
+    const empty = (): null[] => Array(page.head.frames).fill(null) as null[];
+    this.bounds = [empty(), empty()];
+    this.showBounds();
+    if (!pair) return;
+    const here = page.blockOf(viewer.frame);
+    const blocks = Array.from({ length: page.blockCount }, (_, k) => k).sort((p, q) => Math.abs(p - here) - Math.abs(q - here));
+    let shown = performance.now();
+    for (const k of blocks) {
+      // Blocks that are not in memory are read past the cache, so that they throw nothing out of it.
+      const block = page.reports.peek(`report/${k}`) ?? await page.readReport(`report/${k}`);
+      if (this.boundsOf !== key || viewer.page !== page) return;
+      for (let i = 0; i < block.begin.length; ++i) {
+        const row = block.rowOf(i, pair.a, pair.b);
+        if (row < 0) continue;
+        this.bounds[0][k * page.head.block + i] = block.lower[row]!;
+        this.bounds[1][k * page.head.block + i] = block.upper[row]!;
+      }
+      if (performance.now() - shown < 150) continue;
+      this.showBounds();
+      await new Promise((resolve) => setTimeout(resolve));
+      shown = performance.now();
+    }
+    this.showBounds();
+  }
+
+  private showBounds(): void {
+    const chart = this.charts[3];
+    if (!chart) return;
+    chart.setData([chart.data[0]!, ...this.bounds] as uPlot.AlignedData);
+    this.element.children[3]!.classList.toggle('unasked', this.viewer.selectedPair() === null);
+    this.mark();
+  }
+}
+
+function range(low: number | null, high: number | null, isFree: boolean): [number, number] {
+  if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
+  const bottom = isFree ? Math.max(0, low - 0.1 * (high - low)) : Math.min(0, low);
+  const top = high + 0.08 * (high - bottom);
+  return top > bottom ? [bottom, top] : [bottom, bottom + 1];
+}
