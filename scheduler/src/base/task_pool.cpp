@@ -15,12 +15,14 @@ namespace {
 constexpr unsigned threads_each_processor = 8;
 
 using Work = std::function<void(unsigned worker, std::size_t item)>;
+using Finish = std::function<void(unsigned worker)>;
 
 /// The items of one call of TaskPool::run. Each worker picks the next item until none is left. Every item
 /// writes only its own results, so no result depends on which worker picked it.
 class Items {
  public:
-  Items(std::size_t count, const Work& work) : count_(count), work_(work) {}
+  Items(std::size_t count, const Work& work, const Finish& finish)
+      : count_(count), work_(work), finish_(finish) {}
 
   /// Takes items until none is left or one has thrown. The exception is kept, since a scheduler may have no
   /// memory to pass it on.
@@ -28,10 +30,14 @@ class Items {
     const FloatingPointScope scope;
     const AccessScope nothing({});
     try {
+      bool has_worked = false;
       for (std::size_t item = next_.fetch_add(1, std::memory_order_relaxed);
            item < count_ && !has_failed_.load(std::memory_order_relaxed);
-           item = next_.fetch_add(1, std::memory_order_relaxed))
+           item = next_.fetch_add(1, std::memory_order_relaxed)) {
         work_(worker, item);
+        has_worked = true;
+      }
+      if (has_worked && finish_) finish_(worker);
     } catch (...) {
       if (!has_failed_.exchange(true)) problem_ = std::current_exception();
     }
@@ -43,6 +49,7 @@ class Items {
  private:
   std::size_t count_;
   const Work& work_;
+  const Finish& finish_;
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> has_failed_{false};
   std::exception_ptr problem_;
@@ -65,15 +72,16 @@ TaskPool::TaskPool(unsigned threads, ArenaPolicy policy, std::shared_ptr<TaskSch
       scheduler_(scheduler != nullptr ? std::move(scheduler)
                                       : make_default_scheduler(worker_count_, policy)) {}
 
-void TaskPool::run(std::size_t count, const Work& work) {
+void TaskPool::run(std::size_t count, const Work& work, const Finish& finish) {
   const auto workers = static_cast<unsigned>(std::min<std::size_t>(worker_count_, count));
   if (workers <= 1) {
     const FloatingPointScope scope;
     const AccessScope nothing({});
     for (std::size_t item = 0; item < count; ++item) work(0, item);
+    if (count > 0 && finish) finish(0);
     return;
   }
-  Items items(count, work);
+  Items items(count, work, finish);
   try {
     // The function is small enough to need no memory.
     scheduler_->run(workers, [&items](unsigned worker) { items.take(worker); });

@@ -23,7 +23,12 @@ class TaskPool {
   /// calls of one worker never overlap. Every worker computes in a FloatingPointScope, without AccessRights
   /// other than those that `work` declares. If a call throws, `run` throws that exception and some items may
   /// not have begun. If the scheduler throws, as for lack of memory, the calling thread does what is left.
-  void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work);
+  ///
+  /// A worker that has taken an item ends with `finish(worker)`, unless an item has thrown. `finish` does not
+  /// throw. Where the calling thread does what is left, it may be called twice with one worker, one after the
+  /// other.
+  void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work,
+           const std::function<void(unsigned worker)>& finish = nullptr);
 
   /// Calls `work` once on another thread; `work` must not throw. Throws if the scheduler cannot begin it.
   void start(std::function<void()> work);

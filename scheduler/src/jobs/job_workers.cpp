@@ -13,6 +13,10 @@ constexpr std::size_t reserved_of_pair = 1024;
 
 }  // namespace
 
+void JobWorker::count_bytes() {
+  bytes = detector.byte_count() + carrying.byte_count() + bytes_of_lists(answer);
+}
+
 void JobWorker::reserve_as(const JobWorker& other) {
   detector.reserve_as(other.detector);
   carrying.reserve_as(other.carrying);
@@ -38,6 +42,9 @@ PairCounters JobWorkers::counters() const {
 
 /// The workers get jobs by chance, so all of them get the capacity that any of them needed.
 bool JobWorkers::equalize_capacity(const StepDeadline& deadline) {
+  // Lists never shrink. So where no number of bytes has changed, all capacities are still equal.
+  const auto has_grown = [](const JobWorker& worker) { return worker.bytes != worker.equal_bytes; };
+  if (std::none_of(workers_.begin(), workers_.end(), has_grown)) return true;
   JobWorker& first = workers_.front();
   for (const JobWorker& worker : std::span(workers_).subspan(1)) {
     if (deadline.is_over()) return false;
@@ -47,7 +54,15 @@ bool JobWorkers::equalize_capacity(const StepDeadline& deadline) {
     if (deadline.is_over()) return false;
     worker.reserve_as(first);
   }
+  note_equal();
   return true;
+}
+
+void JobWorkers::note_equal() {
+  for (JobWorker& worker : workers_) {
+    worker.count_bytes();
+    worker.equal_bytes = worker.bytes;
+  }
 }
 
 void JobWorkers::reserve(std::size_t contacts) {
@@ -72,6 +87,7 @@ void JobWorkers::make_room() {
       worker.detector.reserve_for_ways_out(room_);
     if (limit > 0) worker.detector.reserve_for_limit(limit, room_);
     if (contacts_.chooses_carrying()) worker.carrying.reserve(room_.contacts);
+    worker.count_bytes();
   }
 }
 
@@ -83,8 +99,7 @@ std::size_t JobWorkers::front_bytes() const {
 
 std::size_t JobWorkers::byte_count() const {
   std::size_t bytes = bytes_of(workers_);
-  for (const JobWorker& worker : workers_)
-    bytes += worker.detector.byte_count() + worker.carrying.byte_count() + bytes_of_lists(worker.answer);
+  for (const JobWorker& worker : workers_) bytes += worker.bytes;
   return bytes;
 }
 

@@ -33,7 +33,11 @@ struct JobWorker {
   /// The bytes by which fronts have grown since the scene began. Only the sum over all workers means
   /// something, since one worker may shrink a front that another has made grow.
   std::size_t front_bytes = 0;
+  std::size_t bytes = 0;        ///< that the lists of this worker hold, as of `count_bytes`
+  std::size_t equal_bytes = 0;  ///< the same, when the capacities of all workers were made equal
 
+  /// Counts the bytes of all lists. It takes some microseconds.
+  void count_bytes();
   void reserve_as(const JobWorker& other);
   void reserve(const PairRoom& room);
 };
@@ -50,11 +54,14 @@ class JobWorkers {
 
   /// Begins a step: the counters are 0.
   void begin();
+  /// Ends a worker's part of a round of jobs. The worker calls this itself.
+  void end_round(unsigned worker) { workers_[worker].count_bytes(); }
   /// The counters of all workers together.
   [[nodiscard]] PairCounters counters() const;
 
   /// Gives all workers the capacity that any of them needed, so that a step like the last one allocates
-  /// nothing, whichever worker gets which job. Returns false if the time budget ended before all was done.
+  /// nothing, whichever worker gets which job. It takes time only if the lists of a worker have grown since
+  /// the last time. Returns false if the time budget ended before all was done.
   [[nodiscard]] bool equalize_capacity(const StepDeadline& deadline);
   /// Reserves memory for the contacts of a pair, of steps with so many contacts.
   void reserve(std::size_t contacts);
@@ -62,10 +69,12 @@ class JobWorkers {
   void reserve_for(const IndexedMesh& mesh, bool is_solid);
   /// The growth of the fronts in the pairs' memories.
   [[nodiscard]] std::size_t front_bytes() const;
+  /// The bytes of all workers, each as of the end of its last round.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
   void make_room();
+  void note_equal();
 
   const SceneSettings& settings_;
   const ContactLimit& contacts_;

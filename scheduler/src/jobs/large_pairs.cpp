@@ -67,19 +67,20 @@ void LargePairs::advance(std::size_t index, unsigned worker) {
 }
 
 void LargePairs::run_slices() {
-  while (true) {
-    list_slices();
-    if (slices_.empty()) return;
-    tasks_.run(slices_.size(), [&](unsigned worker, std::size_t item) {
-      const Slice& slice = slices_[item];
-      const AccessScope access({AccessRight::read(), {}});
-      JobWorker& own = workers_[worker];
-      large_[slice.large].pair.run_slice(slice.slice, own.detector, own.counters);
-    });
-    tasks_.run(count_, [&](unsigned worker, std::size_t index) {
-      const AccessScope access({AccessRight::read(), AccessRight::write(large_[index].job)});
-      if (!large_[index].is_answered) advance(index, worker);
-    });
+  const auto run_slice = [this](unsigned worker, std::size_t item) {
+    const Slice& slice = slices_[item];
+    const AccessScope access({AccessRight::read(), {}});
+    JobWorker& own = workers_[worker];
+    large_[slice.large].pair.run_slice(slice.slice, own.detector, own.counters);
+  };
+  const auto advance_one = [this](unsigned worker, std::size_t index) {
+    const AccessScope access({AccessRight::read(), AccessRight::write(large_[index].job)});
+    if (!large_[index].is_answered) advance(index, worker);
+  };
+  const auto end_round = [this](unsigned worker) { workers_.end_round(worker); };
+  for (list_slices(); !slices_.empty(); list_slices()) {
+    tasks_.run(slices_.size(), run_slice, end_round);
+    tasks_.run(count_, advance_one, end_round);
   }
 }
 

@@ -98,6 +98,7 @@ void PairJobs::run_within_work(std::uint64_t budget) {
     detect(index, 0, budget);
     budget -= std::min(budget, counters.region_pairs_tested - before);
   }
+  workers_.end_round(0);
 }
 
 // ---- The jobs
@@ -118,12 +119,15 @@ void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
   const std::size_t each = jobs_of_task(small_jobs_.size());
   const std::size_t batches = (small_jobs_.size() + each - 1) / each;
   // Two captures are what std::function holds without an allocation.
-  tasks_.run(large_.count() + batches, [this, each](unsigned worker, std::size_t item) {
-    if (item < large_.count()) return large_.begin(item, worker);
-    const std::size_t begin = (item - large_.count()) * each;
-    const std::size_t end = std::min(begin + each, small_jobs_.size());
-    for (std::size_t i = begin; i < end; ++i) detect(small_jobs_[i], worker, unlimited);
-  });
+  tasks_.run(
+      large_.count() + batches,
+      [this, each](unsigned worker, std::size_t item) {
+        if (item < large_.count()) return large_.begin(item, worker);
+        const std::size_t begin = (item - large_.count()) * each;
+        const std::size_t end = std::min(begin + each, small_jobs_.size());
+        for (std::size_t i = begin; i < end; ++i) detect(small_jobs_[i], worker, unlimited);
+      },
+      [this](unsigned worker) { workers_.end_round(worker); });
   large_.run_slices();
 }
 
