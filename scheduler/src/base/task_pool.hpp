@@ -4,9 +4,21 @@
 #include <functional>
 #include <graze/settings.hpp>
 #include <graze/task_scheduler.hpp>
+#include <limits>
 #include <memory>
 
 namespace graze {
+
+/// What a stage says of its items, beside what they do.
+struct Round {
+  /// About how long all items take on one thread, in nanoseconds. It comes from counts of this step and the
+  /// last one. A worker more is used only for some ten thousand nanoseconds of it.
+  double nanoseconds = std::numeric_limits<double>::infinity();
+  /// A worker that has taken an item ends with `finish(worker)`, unless an item has thrown. It does not
+  /// throw. If the calling thread does what is left, it may be called twice with one worker, one after the
+  /// other.
+  std::function<void(unsigned worker)> finish = nullptr;
+};
 
 /// Runs the items of a stage on workers, which are tasks of a TaskScheduler. With one worker everything runs
 /// on the caller's thread, without a task.
@@ -23,12 +35,8 @@ class TaskPool {
   /// calls of one worker never overlap. Every worker computes in a FloatingPointScope, without AccessRights
   /// other than those that `work` declares. If a call throws, `run` throws that exception and some items may
   /// not have begun. If the scheduler throws, as for lack of memory, the calling thread does what is left.
-  ///
-  /// A worker that has taken an item ends with `finish(worker)`, unless an item has thrown. `finish` does not
-  /// throw. Where the calling thread does what is left, it may be called twice with one worker, one after the
-  /// other.
   void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work,
-           const std::function<void(unsigned worker)>& finish = nullptr);
+           const Round& round = {});
 
   /// Calls `work` once on another thread; `work` must not throw. Throws if the scheduler cannot begin it.
   void start(std::function<void()> work);

@@ -77,10 +77,10 @@ void LargePairs::run_slices() {
     const AccessScope access({AccessRight::read(), AccessRight::write(large_[index].job)});
     if (!large_[index].is_answered) advance(index, worker);
   };
-  const auto end_round = [this](unsigned worker) { workers_.end_round(worker); };
+  const Round round{.finish = [this](unsigned worker) { workers_.end_round(worker); }};
   for (list_slices(); !slices_.empty(); list_slices()) {
-    tasks_.run(slices_.size(), run_slice, end_round);
-    tasks_.run(count_, advance_one, end_round);
+    tasks_.run(slices_.size(), run_slice, round);
+    tasks_.run(count_, advance_one, round);
   }
 }
 

@@ -46,6 +46,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, StepDeadli
     run_within_work(*settings_.work_budget);
   else
     settings_.time_budget ? run_by_urgency() : run_group(order_);
+  work_.note(workers_.counters(), order_.size());
   answers_.share_contacts();
 }
 
@@ -119,15 +120,15 @@ void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
   const std::size_t each = jobs_of_task(small_jobs_.size());
   const std::size_t batches = (small_jobs_.size() + each - 1) / each;
   // Two captures are what std::function holds without an allocation.
-  tasks_.run(
-      large_.count() + batches,
-      [this, each](unsigned worker, std::size_t item) {
-        if (item < large_.count()) return large_.begin(item, worker);
-        const std::size_t begin = (item - large_.count()) * each;
-        const std::size_t end = std::min(begin + each, small_jobs_.size());
-        for (std::size_t i = begin; i < end; ++i) detect(small_jobs_[i], worker, unlimited);
-      },
-      [this](unsigned worker) { workers_.end_round(worker); });
+  tasks_.run(large_.count() + batches,
+             [this, each](unsigned worker, std::size_t item) {
+               if (item < large_.count()) return large_.begin(item, worker);
+               const std::size_t begin = (item - large_.count()) * each;
+               const std::size_t end = std::min(begin + each, small_jobs_.size());
+               for (std::size_t i = begin; i < end; ++i) detect(small_jobs_[i], worker, unlimited);
+             },
+             {.nanoseconds = work_.nanoseconds_of(jobs.size()),
+              .finish = [this](unsigned worker) { workers_.end_round(worker); }});
   large_.run_slices();
 }
 

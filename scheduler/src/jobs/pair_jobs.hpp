@@ -7,6 +7,7 @@
 #include "base/contact_limit.hpp"
 #include "base/task_pool.hpp"
 #include "core/pair/pair_counters.hpp"
+#include "jobs/job_work.hpp"
 #include "jobs/job_workers.hpp"
 #include "jobs/large_pairs.hpp"
 #include "jobs/last_contacts.hpp"
@@ -71,6 +72,7 @@ class PairJobs {
   StepDeadline deadline_;
   PairQueries queries_;
   JobWorkers workers_;
+  JobWork work_;
   PairAnswers answers_;
   LargePairs large_;
   std::span<const PairJob> jobs_;

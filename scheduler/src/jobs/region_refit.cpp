@@ -57,6 +57,17 @@ std::uint32_t work_of(const Region& region, RefitOf what) {
   return region.vertex_count + (what == RefitOf::faces ? region.border_count : 0);
 }
 
+/// About how long a vertex takes on one thread: its share of the boxes of faces, and of blocks.
+constexpr double nanoseconds_each_bound = 25;
+constexpr double nanoseconds_each_block = 5;
+
+/// About how long these objects take on one thread.
+double nanoseconds_of(std::span<Object* const> objects, double nanoseconds_each_vertex) {
+  std::size_t vertices = 0;
+  for (const Object* const object : objects) vertices += object->mesh->vertex_count();
+  return nanoseconds_each_vertex * static_cast<double>(vertices);
+}
+
 }  // namespace
 
 RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
@@ -77,11 +88,12 @@ void RegionRefit::run(std::span<const PairJob> jobs) {
 
 /// Makes blocks or stretches of all objects listed last.
 void RegionRefit::make_blocks() {
-  tasks_.run(objects_.size(), [&](unsigned, std::size_t item) {
+  const auto make = [this](unsigned, std::size_t item) {
     const AccessScope access({AccessRight::write(objects_[item]), {}});
     Surface& surface = objects_[item]->surface_to_write();
     is_seen_in_part(*objects_[item]) ? surface.make_stretches() : surface.make_blocks();
-  });
+  };
+  tasks_.run(objects_.size(), make, {.nanoseconds = nanoseconds_of(objects_, nanoseconds_each_block)});
 }
 
 /// Whether jobs make blocks of their own parts of an object. They do not if the object has blocks already.
@@ -101,12 +113,15 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
     list_parts(*object, what);
   }
   // A task writes the bounds of its own object, or of its own regions of an object.
-  tasks_.run(parts_.size() + small_.size(), [&](unsigned, std::size_t item) {
+  const auto refit_one = [this, what](unsigned, std::size_t item) {
     if (item >= parts_.size()) return refit_small(*small_[item - parts_.size()], what);
     const Part& part = parts_[item];
     const AccessScope access({AccessRight::write(part.object), {}});
     part.object->surface_to_write().refit_regions(what, part.begin, part.end);
-  });
+  };
+  tasks_.run(parts_.size() + small_.size(), refit_one,
+             {.nanoseconds = nanoseconds_of(small_, nanoseconds_each_bound) +
+                             nanoseconds_of(large_, nanoseconds_each_bound)});
   tasks_.run(large_.size(), [&](unsigned, std::size_t index) {
     const AccessScope access({AccessRight::write(large_[index]), {}});
     large_[index]->surface_to_write().finish_refit(what);

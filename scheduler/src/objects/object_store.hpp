@@ -144,6 +144,7 @@ class ObjectStore {
   std::vector<Object*> replaced_;                         ///< objects with another mesh since the last report
   std::vector<Object*> with_input_;                       ///< objects that may have input, in any order
   std::vector<Object*> to_read_;                          ///< small objects
+  std::size_t vertices_to_read_ = 0;                      ///< of small and large objects
   std::vector<LargeObject> large_;                        ///< large objects
   std::vector<Part> parts_;                               ///< the parts of all objects in `large_`
   std::vector<std::optional<Diagnostic>> read_problems_;  ///< one for each of `to_read_`, empty once reported

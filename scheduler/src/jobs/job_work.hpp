@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "core/pair/pair_counters.hpp"
+
+namespace graze {
+
+/// Estimates how long the jobs of a step take, from what the jobs of the last step tested.
+class JobWork {
+ public:
+  /// Notes the counters of a step in which so many jobs tested their pairs.
+  void note(const PairCounters& counters, std::size_t jobs) {
+    if (jobs > 0) each_ = nanoseconds_of(counters) / static_cast<double>(jobs);
+  }
+  /// The time of so many jobs on one thread, in nanoseconds. It is infinite before the first step with jobs.
+  [[nodiscard]] double nanoseconds_of(std::size_t jobs) const { return static_cast<double>(jobs) * each_; }
+
+ private:
+  static double nanoseconds_of(const PairCounters& counters);
+
+  double each_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace graze
