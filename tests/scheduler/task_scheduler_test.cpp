@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/task_pool.hpp"
 #include "examples/support/thread_pool.hpp"
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
@@ -60,6 +61,15 @@ class WilfulScheduler final : public TaskScheduler {
   Way way_;
 };
 
+/// While it lives rounds use as many workers as their work pays for, as in programs.
+class AsManyAsPaid {
+ public:
+  AsManyAsPaid() { TaskPool::use_all_workers(false); }
+  ~AsManyAsPaid() { TaskPool::use_all_workers(true); }
+  AsManyAsPaid(const AsManyAsPaid&) = delete;
+  AsManyAsPaid& operator=(const AsManyAsPaid&) = delete;
+};
+
 }  // namespace
 
 TEST_CASE("task scheduler: a pool of the caller's and no threads at all give the same reports") {
@@ -89,6 +99,35 @@ TEST_CASE("task scheduler: tasks in another order, and a scheduler that throws")
     CHECK(scheduler->runs > frames_of_scheduler);
     CHECK(scheduler->most_tasks == 3);
   }
+}
+
+TEST_CASE("task scheduler: a round uses as many threads as its work pays for, and the reports are the same") {
+  const AsManyAsPaid as_many_as_paid;
+  const MovingScene moving;
+  for (const ContactDetail detail : all_details) {
+    const auto expected = moving.play(settings_on(1, detail), frames_of_scheduler);
+    for (const unsigned threads : {2U, 16U})
+      check_same(moving.play(settings_on(threads, detail), frames_of_scheduler), expected);
+  }
+  const auto scheduler = std::make_shared<WilfulScheduler>(WilfulScheduler::Way::backwards);
+  TaskPool pool(8, ArenaPolicy::own, scheduler);
+  std::size_t items = 0;
+  std::vector<unsigned> finished;
+  const auto work = [&](unsigned, std::size_t) { ++items; };
+  const auto finish = [&](unsigned worker) { finished.push_back(worker); };
+  pool.run(100, work, {.nanoseconds = 100, .finish = finish});
+  CHECK(scheduler->runs == 0);
+  CHECK(finished == std::vector<unsigned>{0});
+  pool.run(100, work, {.nanoseconds = 50'000, .finish = finish});
+  CHECK((scheduler->runs == 1 && scheduler->most_tasks == 3));
+  pool.run(100, work, {.nanoseconds = 1e12, .finish = finish});
+  CHECK((scheduler->runs == 2 && scheduler->most_tasks == 8));
+  pool.run(100, work);
+  pool.run(4, work);
+  CHECK((scheduler->runs == 4 && scheduler->most_tasks == 8));
+  CHECK(items == 404);
+  // The last of the tasks takes all items.
+  CHECK(finished == std::vector<unsigned>{0, 2, 7});
 }
 
 TEST_CASE("task scheduler: a step that cannot be started throws, and the next one is as ever") {

@@ -15,6 +15,7 @@ namespace graze {
 /// may come at the same time.
 class TaskScheduler {
  public:
+  /// Schedulers are deleted through this class.
   virtual ~TaskScheduler() = default;
 
   /// Calls `task(0)`, `task(1)` and so on, `count` calls in all, each once. Returns when all of them have
@@ -33,6 +34,7 @@ class TaskScheduler {
   virtual void start(std::function<void()> work) = 0;
 
  protected:
+  /// For derived classes.
   TaskScheduler() = default;
   /// Only whole schedulers of one type are copied.
   TaskScheduler(const TaskScheduler&) = default;

@@ -18,8 +18,11 @@ constexpr unsigned threads_each_processor = 8;
 /// and a thread that sleeps takes 40 to 130 µs to come.
 constexpr double nanoseconds_each_worker = 20'000;
 
+std::atomic<bool> is_all_workers_used{false};
+
 /// How many workers of at most `most` a round pays for.
 unsigned workers_worth(const Round& round, unsigned most) {
+  if (is_all_workers_used.load(std::memory_order_relaxed)) return most;
   const double more = round.nanoseconds / nanoseconds_each_worker;
   return more < most ? std::min(most, 1 + static_cast<unsigned>(more)) : most;
 }
@@ -100,6 +103,10 @@ void TaskPool::run(std::size_t count, const Work& work, const Round& round) {
     items.take(0);
   }
   items.rethrow();
+}
+
+void TaskPool::use_all_workers(bool uses_all) {
+  is_all_workers_used = uses_all;
 }
 
 void TaskPool::start(std::function<void()> work) {

@@ -38,6 +38,10 @@ class TaskPool {
   void run(std::size_t count, const std::function<void(unsigned worker, std::size_t item)>& work,
            const Round& round = {});
 
+  /// For tests: whether each round uses all workers, however little there is to do. Then small scenes show
+  /// what threads do to each other.
+  static void use_all_workers(bool uses_all);
+
   /// Calls `work` once on another thread; `work` must not throw. Throws if the scheduler cannot begin it.
   void start(std::function<void()> work);
 
