@@ -71,8 +71,8 @@ if $runs_all; then
   run_sanitizers
 else
   run_lint text order
-  # Two tests build graze and install it once more, as static and as shared libraries. The count of instructions is
-  # that of sources which are compiled one by one.
+  # One test builds graze once more, as shared libraries, and two build many programs against what is installed. The
+  # count of instructions is that of sources which are compiled one by one.
   run_preset check --parallel "$(nproc)" --exclude-regex '^contract_(static|shared)$|^instructions$'
 fi
 

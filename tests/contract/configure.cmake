@@ -50,6 +50,10 @@ expect_not("${mesh_command}" "-Werror" "warnings are errors in a subproject")
 string(REGEX MATCH "\"command\": \"[^\n]*consumer\\.cpp" own_command "${commands}")
 expect("${own_command}" "consumer" "no command compiles the project's own program")
 expect_not("${own_command}" " -O3 " "the project's own program is compiled in another way than it asked for")
+# The program needs what the static libraries need, which were found in graze's own folder.
+file(READ ${WORK}/subproject/build.ninja rules)
+expect("${rules}" "LINK_LIBRARIES = [^\n]*libgraze_scheduler\\.a[^\n]*libgraze_core\\.a[^\n]*libtbb"
+  "a program in a project around graze is not linked with oneTBB")
 
 file(READ ${SOURCE}/CMakePresets.json presets)
 string(JSON stops GET "${presets}" configurePresets 0 cacheVariables GRAZE_WARNINGS_AS_ERRORS)

@@ -1,7 +1,8 @@
 # Installs graze into a prefix of its own. Builds and runs against it the contract's program, and one that hands graze
 # many types, by its CMake package for several instruction sets, and one that responds to contacts, and one whose boxes
-# stand on boxes; and the contract's program by pkg-config. `static` is the build under test, as users build it, and once
-# more graze as a subproject. `shared` is core and scheduler alone, of which it is asked only that they work.
+# stand on boxes; and the contract's program by pkg-config. `static` is the build under test, as users build it. `shared` is
+# core and scheduler alone, of which it is asked only that they work. They are built as a subproject, with a program in that
+# project, and installed from there. So both questions take one build; configure.cmake has a subproject with static ones.
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
@@ -14,11 +15,12 @@ file(REMOVE_RECURSE ${prefix})
 if(KIND STREQUAL "static")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 else()
-  run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${WORK}/graze -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
-    -DBUILD_SHARED_LIBS=ON -DGRAZE_IO=OFF -DGRAZE_BUILD_TOOLS=OFF -DGRAZE_BUILD_TESTS=OFF
-    -DCMAKE_INSTALL_PREFIX=${prefix} ${quick})
-  run(${CMAKE_COMMAND} --build ${WORK}/graze)
-  run(${CMAKE_COMMAND} --install ${WORK}/graze)
+  run(${CMAKE_COMMAND} -G Ninja -S ${SUBPROJECT} -B ${WORK}/subproject -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${CXX} -DGRAZE=${SOURCE} -DPROGRAM=${PROGRAM} -DBUILD_SHARED_LIBS=ON -DGRAZE_INSTALL=ON
+    -DGRAZE_IO=OFF -DCMAKE_INSTALL_PREFIX=${prefix} ${quick})
+  run(${CMAKE_COMMAND} --build ${WORK}/subproject)
+  run(${WORK}/subproject/embedded)
+  run(${CMAKE_COMMAND} --install ${WORK}/subproject)
 endif()
 file(GLOB_RECURSE pkg_config_file ${prefix}/*/graze.pc)
 cmake_path(GET pkg_config_file PARENT_PATH pkg_config_folder)
@@ -67,10 +69,3 @@ run(${CXX} -std=c++20 -O1 ${PROGRAM}/consumer.cpp -o ${WORK}/consumer_by_pkg_con
 set(ENV{LD_LIBRARY_PATH} ${library_folder})
 run(${WORK}/consumer_by_pkg_config)
 unset(ENV{LD_LIBRARY_PATH})
-
-if(KIND STREQUAL "static")
-  run(${CMAKE_COMMAND} -G Ninja -S ${SUBPROJECT} -B ${WORK}/subproject -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_CXX_COMPILER=${CXX} -DGRAZE=${SOURCE} -DPROGRAM=${PROGRAM} -DGRAZE_IO=OFF ${quick})
-  run(${CMAKE_COMMAND} --build ${WORK}/subproject)
-  run(${WORK}/subproject/embedded)
-endif()
