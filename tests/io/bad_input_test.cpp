@@ -1,7 +1,7 @@
 #include <clocale>
 #include <random>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <set>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

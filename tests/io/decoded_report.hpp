@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "page_decoder.hpp"
+#include "io/page/page_decoder.hpp"
 
 namespace graze::tests {
 

@@ -5,7 +5,7 @@
 #include <graze/io/player.hpp>
 #include <graze/io/scene_file.hpp>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 using graze::io::MeshFile;
 using graze::io::Player;

@@ -7,7 +7,7 @@
 #include <graze/io/scene_file.hpp>
 
 #include "assimp/assimp_scene.hpp"
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 #include "report/statistics_fields.hpp"
 
 using namespace graze::tests;

@@ -1,4 +1,4 @@
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 #include <cstdio>
 #include <graze/io/error.hpp>

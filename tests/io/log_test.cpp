@@ -3,7 +3,7 @@
 
 #include <graze/io/log.hpp>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using namespace graze::tests;
 namespace io = graze::io;

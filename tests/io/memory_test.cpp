@@ -3,7 +3,7 @@
 #include <graze/io/error.hpp>
 #include <graze/io/player.hpp>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 #include "scheduler/failing_allocator.hpp"
 
 using namespace graze::tests;

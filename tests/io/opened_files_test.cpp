@@ -5,7 +5,7 @@
 #include <graze/io/motion.hpp>
 #include <graze/io/player.hpp>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

@@ -4,7 +4,7 @@
 #include <graze/io/printable.hpp>
 #include <random>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 namespace {
 

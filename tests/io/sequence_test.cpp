@@ -2,7 +2,7 @@
 #include <graze/io/error.hpp>
 #include <graze/io/motion.hpp>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 using namespace graze::tests;
 namespace io = graze::io;

@@ -2,7 +2,7 @@
 #include <graze/io/error.hpp>
 #include <graze/io/motion.hpp>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using namespace graze::tests;
 namespace io = graze::io;

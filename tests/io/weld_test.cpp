@@ -1,4 +1,4 @@
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using graze::find_oddities;
 using graze::io::MeshFile;

@@ -57,6 +57,11 @@ class SourceRulesTest(unittest.TestCase):
                                               "f(random.below(1)); g(random.below(2), 3);\n"})
         self.assertEqual([problem.split(": ")[0] for problem in found], ["tests/a.cpp:1", "tools/b.cpp:2"])
 
+    def test_folders_of_many_files(self):
+        found = self.problems({f"tools/{folder}/{index}.cpp": "" for folder, count in {"a": 30, "a/b": 31}.items()
+                               for index in range(count)})
+        self.assertEqual([problem.split(": ")[0] for problem in found], ["tools/a/b"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/page_decoder.hpp"
+#include "io/page/page_decoder.hpp"
 #include "support/catch.hpp"
 #include "tools/program.hpp"
 #include "tools/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "fbx_builder.hpp"
-#include "import_support.hpp"
+#include "io/formats/fbx_builder.hpp"
+#include "io/import_support.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

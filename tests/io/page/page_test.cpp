@@ -2,11 +2,11 @@
 
 #include <graze/io/page.hpp>
 
-#include "decoded_report.hpp"
+#include "io/decoded_report.hpp"
 #include "io/marked_report.hpp"
-#include "page_comparison.hpp"
-#include "page_decoder.hpp"
-#include "page_play.hpp"
+#include "io/page/page_comparison.hpp"
+#include "io/page/page_decoder.hpp"
+#include "io/page/page_play.hpp"
 #include "tools/temporary_folder.hpp"
 
 using namespace graze::tests;

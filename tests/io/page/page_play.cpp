@@ -1,4 +1,4 @@
-#include "page_play.hpp"
+#include "io/page/page_play.hpp"
 
 #include <cmath>
 #include <functional>

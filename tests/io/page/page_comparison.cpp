@@ -1,10 +1,10 @@
-#include "page_comparison.hpp"
+#include "io/page/page_comparison.hpp"
 
 #include <cmath>
 #include <limits>
 #include <map>
 
-#include "decoded_report.hpp"
+#include "io/decoded_report.hpp"
 #include "support/catch.hpp"
 
 namespace graze::tests {

@@ -1,4 +1,4 @@
-#include "page_decoder.hpp"
+#include "io/page/page_decoder.hpp"
 
 #include <zlib.h>
 

@@ -1,7 +1,7 @@
 #include <graze/error.hpp>
 #include <numbers>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

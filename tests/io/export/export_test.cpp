@@ -16,7 +16,7 @@
 #include <map>
 #include <sstream>
 
-#include "io/export_support.hpp"
+#include "io/export/export_support.hpp"
 #include "io/marked_report.hpp"
 #include "support/catch.hpp"
 
@@ -143,7 +143,7 @@ struct CommaNumbers : std::numpunct<char> {
   [[nodiscard]] std::string do_grouping() const override { return "\1"; }
 };
 
-/// The arrays of a .vtp file by their names, as tests/io/read_vtp.py prints them.
+/// The arrays of a .vtp file by their names, as tests/io/export/read_vtp.py prints them.
 std::map<std::string, std::vector<std::string>> read_vtp(const std::filesystem::path& path) {
   const std::filesystem::path printed = path.string() + ".txt";
   const std::string command =

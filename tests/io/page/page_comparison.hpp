@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "page_play.hpp"
+#include "io/page/page_play.hpp"
 
 namespace graze::tests {
 

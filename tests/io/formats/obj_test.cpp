@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

@@ -2,7 +2,7 @@
 
 #include <assimp/Importer.hpp>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

@@ -1,4 +1,4 @@
-#include "io/export_support.hpp"
+#include "io/export/export_support.hpp"
 
 #include <Eigen/Geometry>
 #include <graze/recorder.hpp>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 namespace graze::tests {
 

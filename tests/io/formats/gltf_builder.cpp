@@ -1,4 +1,4 @@
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 namespace graze::tests {
 

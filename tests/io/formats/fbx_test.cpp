@@ -1,5 +1,5 @@
-#include "fbx_morph.hpp"
-#include "import_support.hpp"
+#include "io/formats/fbx_morph.hpp"
+#include "io/import_support.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

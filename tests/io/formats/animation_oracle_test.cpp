@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "import_support.hpp"
+#include "io/import_support.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;

@@ -1,4 +1,4 @@
-#include "fbx_builder.hpp"
+#include "io/formats/fbx_builder.hpp"
 
 #include <array>
 #include <numbers>

@@ -5,8 +5,8 @@
 #include <graze/io/error.hpp>
 #include <graze/io/page.hpp>
 
-#include "page_decoder.hpp"
-#include "page_play.hpp"
+#include "io/page/page_decoder.hpp"
+#include "io/page/page_play.hpp"
 #include "tools/temporary_folder.hpp"
 
 using namespace graze::tests;

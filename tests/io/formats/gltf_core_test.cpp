@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gltf_builder.hpp"
+#include "io/formats/gltf_builder.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;
