@@ -38,9 +38,9 @@ struct SoftMotion {
 
 /// Plays a motion and records `frames` of its steps, evenly chosen, the first and the last among them. Exact
 /// mode guides it: its contacts below the gap are where bodies push. Where two surfaces come nearer than a
-/// quarter of a unit or pierce each other, all stand still from there on. So the paper stops its simulation
-/// "to avoid penetrations". Positions are rounded to multiples of 2^-14. So float holds them, and double the
-/// squares of their distances, without a further error. They must stay within 512.
+/// quarter of a unit or pierce each other, all stand still from there on. The paper too stops its
+/// simulation "to avoid penetrations". Positions are rounded to multiples of 2^-14. So float holds them, and
+/// double the squares of their distances, without a further error. They must stay within 512.
 RecordedMotion record_soft_motion(const SoftMotion& motion, std::size_t frames);
 
 }  // namespace graze::tools
