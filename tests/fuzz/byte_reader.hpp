@@ -9,7 +9,7 @@
 
 namespace graze::fuzz {
 
-/// Takes values out of a fuzzer's bytes, front to back; zeros when they are used up.
+/// Takes values out of a fuzzer's bytes, front to back. Gives zeros when they are used up.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -19,7 +19,7 @@ class ByteReader {
 
   std::uint8_t byte() { return raw<std::uint8_t>(); }
   bool flag() { return (byte() & 1U) != 0; }
-  /// 0 to count - 1; count from 1 to 65536.
+  /// 0 to count - 1. The count is from 1 to 65536.
   std::uint32_t below(std::uint32_t count) {
     return (count <= 256 ? std::uint32_t{byte()} : std::uint32_t{raw<std::uint16_t>()}) % count;
   }

@@ -8,7 +8,7 @@
 
 namespace graze::fuzz {
 
-/// Says what does not hold and ends the process; libFuzzer keeps the input.
+/// Says what does not hold and ends the process. libFuzzer keeps the input.
 [[noreturn]] inline void finding(const std::string& what) {
   std::fprintf(stderr, "finding: %s\n", what.c_str());
   std::abort();
@@ -18,7 +18,7 @@ inline void expect(bool holds, std::string_view what) {
   if (!holds) finding(std::string(what));
 }
 
-/// Whether `read` took its input. What it may do instead is to throw an InputError of one line; anything else
+/// Whether `read` took its input. What it may do instead is to throw an InputError of one line. Anything else
 /// is a finding.
 template <typename Read>
 bool accepts(Read read) {

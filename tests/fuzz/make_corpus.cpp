@@ -1,5 +1,5 @@
 // Writes the inputs that fuzzers start from: make_corpus FOLDER [ASSIMP_MODELS]. FOLDER gets a folder for
-// each target; of assimp's test models the small ones of our formats are taken.
+// each target. Of assimp's test models the small ones of our formats are taken.
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-// Vertex caches and numbered sequences for a mesh of a few vertices: the first byte chooses the kind, the
-// second the number of vertices; the rest is the cache, or the sequence's files, each behind its length in
+// Vertex caches and numbered sequences for a mesh of a few vertices. The first byte chooses the kind, the
+// second the number of vertices. The rest is the cache, or the sequence's files, each behind its length in
 // two bytes.
 
 #include <bit>

@@ -33,7 +33,7 @@ PairCase read_pair_case(ByteReader reader);
 /// Bytes that mean these shapes, asked about with this detail in exact mode.
 std::string pair_case_bytes(const tests::TwoShapes& shapes, ContactDetail detail);
 
-/// Describes how the library's answer about these shapes differs from brute force in exact arithmetic; empty
+/// Describes how the library's answer about these shapes differs from brute force in exact arithmetic. Empty
 /// if it does not. Shapes that no mesh takes must be refused.
 std::string pair_difference(const tests::TwoShapes& shapes, const PairAsk& ask);
 

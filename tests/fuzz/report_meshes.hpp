@@ -6,7 +6,7 @@
 namespace graze::fuzz {
 
 /// Meshes by their counts alone, so that a report says enough to write it again: face i is the triangle of
-/// the vertices i, i + 1 and i + 2, round and round; vertex i lies at (i, i², i³) / 8.
+/// the vertices i, i + 1 and i + 2, round and round. Vertex i lies at (i, i², i³) / 8.
 inline bool has_report_mesh(std::uint32_t vertices, std::uint32_t faces) {
   return vertices >= 1 && vertices <= 64 && faces >= 1 && faces <= 64;
 }

@@ -5,7 +5,7 @@
 
 namespace graze::fuzz {
 
-/// Settings that a scene takes; every accuracy, detail, limit and budget.
+/// Settings that a scene takes, with every accuracy, detail, limit and budget.
 SceneSettings read_scene_settings(ByteReader& reader);
 
 /// Makes the one call that the next bytes mean. Steps are among them.

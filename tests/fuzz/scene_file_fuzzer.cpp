@@ -1,5 +1,5 @@
 // The input is a scene file. What is read is sane, and is loaded and stepped with the meshes and motions that
-// stand beside it; a path of the file is taken for the name of one of those.
+// stand beside it. A path of the file is taken for the name of one of those.
 
 #include <cmath>
 #include <graze/error.hpp>

@@ -34,7 +34,7 @@ struct ModelBody {
   BindPolicy policy = BindPolicy::every_step;
   bool is_told = false;
   bool is_promised = false;            ///< bound memory that is written now needs a new promise
-  std::unique_ptr<Positions> doubles;  ///< bound memory, one of the two; freed as soon as the contract allows
+  std::unique_ptr<Positions> doubles;  ///< bound memory, one of the two. Freed as soon as the contract allows
   std::unique_ptr<std::vector<Eigen::Vector3f>> floats;
 
   /// Returns the positions that a read of the bound memory would give.
@@ -55,7 +55,7 @@ struct BodyGroup {
 };
 
 /// Makes calls on a Scene, knows from the contract alone what each must come to, and compares every step with
-/// a scene built afresh. Bodies are named by the order in which they were added; those removed stay, as stale
+/// a scene built afresh. Bodies are named by the order in which they were added. Those removed stay, as stale
 /// ids.
 class SceneModel {
  public:
@@ -91,7 +91,7 @@ class SceneModel {
   };
 
   void expect_diagnostic(ObjectId id, DiagnosticKind kind) { expected_.emplace(id, kind); }
-  /// The body where the call is for a live deformable one; otherwise the diagnostic is noted.
+  /// The body where the call is for a live deformable one. Otherwise the diagnostic is noted.
   ModelBody* deformable(std::size_t body);
   double promise_of(const ModelBody& body, const Positions& positions, Promise promise);
   void read(ModelBody& body);

@@ -173,7 +173,7 @@ std::string text_of(const SceneSettings& settings) {
   return text;
 }
 
-/// Pairs nearer than this are listed; as in the paper its last number takes the place of the threshold.
+/// Pairs nearer than this are listed. As in the paper its last number takes the place of the threshold.
 double reach_of(const SceneSettings& settings) {
   const auto& epsilon = settings.accuracy.epsilon();
   return std::max(settings.range, epsilon.empty() ? settings.contact_distance : epsilon.back());

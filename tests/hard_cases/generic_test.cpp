@@ -53,7 +53,7 @@ std::vector<std::uint32_t> shuffled_numbers(std::size_t count, Random& random) {
   return numbers;
 }
 
-/// Vertices and faces in another order; a triangle may start at another corner, a quad keeps its first.
+/// Vertices and faces in another order. A triangle may start at another corner, and a quad keeps its first.
 Renumbered renumbered(const Shape& shape, Random& random) {
   Renumbered result{shape, shuffled_numbers(shape.positions.size(), random),
                     shuffled_numbers(shape.faces.size(), random)};

@@ -128,7 +128,7 @@ class Judge {
   std::size_t contacts_ = 0;
 };
 
-/// Four shapes on a grid of quarters or eighths, where distances tie and features are parallel; they rest, or
+/// Four shapes on a grid of quarters or eighths, where distances tie and features are parallel. They rest, or
 /// move by steps of the grid, by small exact steps, or by something small in between.
 class GridMotion {
  public:

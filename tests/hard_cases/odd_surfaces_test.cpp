@@ -1,4 +1,4 @@
-// Open, non-manifold, inconsistently wound, torn, mirrored and inverted surfaces; thin and pinched ones.
+// Open, non-manifold, inconsistently wound, torn, mirrored and inverted surfaces, and thin and pinched ones.
 
 #include <algorithm>
 #include <iostream>

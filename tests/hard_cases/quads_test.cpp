@@ -18,7 +18,7 @@ using oracle::Shape;
 enum class Form { flat, warped, concave, folded_over, triangle };
 constexpr std::array forms{Form::flat, Form::warped, Form::concave, Form::folded_over, Form::triangle};
 
-/// A quad about the origin; corners of small binary fractions, so that a flat one is exactly flat.
+/// A quad about the origin. Its corners are small binary fractions, so that a flat one is exactly flat.
 Shape quad_of(Form form, Random& random) {
   const auto up = [&] { return (1 + random.below(4)) * 0.125; };
   const double warp = form == Form::warped ? up() * (random.chance(0.5) ? 1 : -1) : 0.0;

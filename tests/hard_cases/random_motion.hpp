@@ -10,9 +10,9 @@
 
 namespace graze::tests {
 
-/// A scene in which everything moves at random: rests, trembles, drifts, shoots through others, jumps,
-/// collapses to a point and comes back, turns inside out; objects are added and removed, pairs ignored and
-/// watched, rules changed. Positions are given in every way there is, with promises and without; all promises
+/// A scene in which everything moves at random. Objects rest, tremble, drift, shoot through others, jump,
+/// collapse to a point and come back, or turn inside out. Objects are added and removed, pairs ignored and
+/// watched, rules changed. Positions are given in every way there is, with promises and without. All promises
 /// are kept.
 class RandomMotion {
  public:
@@ -20,7 +20,7 @@ class RandomMotion {
 
   /// Moves everything and steps.
   ReportHandle step();
-  /// The first report of a scene made afresh with everything where it is now; object i is `ids()[i]`.
+  /// The first report of a scene made afresh with everything where it is now. Object i is `ids()[i]`.
   [[nodiscard]] ReportHandle built_afresh() const;
   /// The objects of now in the order in which they were added.
   [[nodiscard]] std::vector<ObjectId> ids() const;

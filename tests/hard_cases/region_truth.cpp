@@ -6,8 +6,8 @@
 namespace graze::tests {
 namespace {
 
-/// The square of a distance of two points near each other's size: three differences, three squares, two sums,
-/// each off by at most 2^-53; then some.
+/// More than rounding adds to the square of a distance of two points. Three differences,
+/// three squares and two sums are each off by at most 2^-53.
 constexpr double slack = 0x1p-48;
 
 mpq_class exact_square(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {

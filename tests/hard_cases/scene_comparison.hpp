@@ -15,7 +15,7 @@ namespace graze::tests {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A scene of deformable bodies in which every pair is listed; object i is body i.
+/// A scene of deformable bodies in which every pair is listed. Object i is body i.
 class BodyScene {
  public:
   BodyScene(const std::vector<Body>& bodies, const SceneSettings& settings);

@@ -56,8 +56,8 @@ double median_step_ms(BodyScene& scene, const std::vector<Body>& bodies) {
   return times[7];
 }
 
-/// Compares a pebble over places of the planet with the part of the planet that is near; counts contacts, and
-/// the most region pairs that a step looked at.
+/// Compares a pebble over places of the planet with the part of the planet that is near. Counts contacts, and
+/// the most region pairs that a step tested.
 struct PebbleOverPlanet {
   const Shape& planet;
   const std::shared_ptr<const Mesh>& mesh;

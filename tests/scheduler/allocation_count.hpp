@@ -23,9 +23,9 @@ class AllocationCount {
   static std::uint64_t by_tbb();
   static std::uint64_t by_exceptions();
   static std::uint64_t by_others();
-  /// Bytes that the allocator has given out now, to all the program; it need not be counting.
+  /// Bytes that the allocator has given out now, to all the program. It need not be counting.
   static std::uint64_t held_bytes();
-  /// The calls that led to the first of the others; empty where there was none.
+  /// The calls that led to the first of the others. Empty where there was none.
   static std::string first_of_others();
 };
 

@@ -44,7 +44,7 @@ struct Played {
 
 enum class Stepping { step, step_async };
 
-/// Plays the frames from `begin` to `end`; three reports are held meanwhile.
+/// Plays the frames from `begin` to `end`. Three reports are held meanwhile.
 Played play(Bobbing& bobbing, std::size_t begin, std::size_t end, Stepping stepping = Stepping::step) {
   std::array<ReportHandle, 3> held;
   Played played;
@@ -190,7 +190,7 @@ class Falling {
   }
 
  private:
-  /// A third of the deformable ones is bound before room is reserved, a third after that; the others are
+  /// A third of the deformable ones is bound before room is reserved, a third after that. The others are
   /// told.
   void bind(std::size_t which) {
     for (std::size_t drop = which; drop < drops; drop += 6)

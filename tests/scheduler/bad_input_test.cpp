@@ -29,7 +29,8 @@ struct Stage : NeedleOverPlate {
     return settings;
   }
 
-  /// Steps: one diagnostic, of `kind` about `object`, and all distances as they were; then none.
+  /// Steps. There is one diagnostic, of `kind` about `object`, and all distances are as they were. Then there
+  /// is none.
   std::string expect(DiagnosticKind kind, ObjectId object) {
     const ReportHandle report = scene.step();
     REQUIRE(kinds_of(*report) == std::vector{kind});

@@ -1,5 +1,5 @@
-// Calls for many objects mean the same as single calls one after the other and are taken up whole; what they
-// cost.
+// Calls for many objects mean the same as single calls one after the other, and are taken up whole. Also what
+// they cost.
 
 #include <array>
 #include <atomic>

@@ -15,7 +15,7 @@ namespace graze::tests {
 /// batches, and every pair is filtered out now and then. All that is told was calculated before.
 class Bobbing {
  public:
-  /// In frames; as many drops.
+  /// In frames, as many as there are drops.
   static constexpr std::size_t period = 20;
 
   explicit Bobbing(const SceneSettings& settings);

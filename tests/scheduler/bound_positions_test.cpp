@@ -9,7 +9,7 @@
 namespace graze::tests {
 namespace {
 
-/// The needle's own memory; given back when it ends, so that a sanitizer sees a late read.
+/// The needle's own memory. It is given back when it ends, so that a sanitizer sees a late read.
 struct Memory {
   explicit Memory(double height) : points(lifted(*needle_mesh(), height)) {}
   void lift(double height) {

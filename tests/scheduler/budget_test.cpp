@@ -244,7 +244,7 @@ TEST_CASE("urgent pairs come first: those in contact, then the nearest") {
 TEST_CASE("an undone pair keeps the phase it had") {
   SceneSettings settings = settings_of(0.5, 4);
   settings.work_budget = 1;
-  // One pair of single regions costs one; the second pair finds nothing left.
+  // One pair of single regions costs one. The second pair finds nothing left.
   Scene scene(settings);
   const ObjectId plate = scene.add(plate_mesh());
   const ObjectId needle = scene.add(needle_mesh());

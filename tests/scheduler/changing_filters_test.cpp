@@ -130,7 +130,7 @@ class FilteredWorld {
       faces_ignored_.erase(numbers_of(bodies_[a], bodies_[b]));
     }
   }
-  /// Which filter takes a pair out, in the order of the counters; 4 for none.
+  /// Which filter takes a pair out, in the order of the counters, or 4 for none.
   [[nodiscard]] std::size_t filter_of(const Body& a, const Body& b) const {
     const ObjectSettings& one = a.settings;
     const ObjectSettings& other = b.settings;

@@ -146,7 +146,7 @@ TEST_CASE("a promise that is kept says nothing, one that is broken is a diagnost
 TEST_CASE("a promise is about where the last step saw the vertices") {
   NeedleOverPlate pair(settings_of(0.5, 100));
   pair.step_at(2);
-  // On the way to where it is read the needle is told to be elsewhere; that is not seen.
+  // On the way to where it is read the needle is told to be elsewhere. That is not seen.
   pair.lift(50);
   pair.scene.set_positions(pair.needle, lifted(*needle_mesh(), 2.5), 0.5);
   const ReportHandle report = pair.scene.step();

@@ -221,7 +221,7 @@ void FailurePlay::tell(std::size_t frame) {
   if (!batch_.empty()) scene_->set_poses(batch_, batch_poses_);
   if (story_.story() == FailureStory::reserved && frame == story_.event())
     scene_->reserve({.objects = 10, .calls_per_step = 100, .near_pairs = 10, .contacts = 100, .reports = 3});
-  // Last, since it may throw; it is made up for in the next frame.
+  // Last, since it may throw. It is made up for in the next frame.
   for (std::size_t body = 0; body < told_.size(); ++body)
     if (!told_[body].id && story_.is_there(body, frame)) {
       add(body);

@@ -15,12 +15,12 @@ namespace graze::tests {
 /// The stories of the scenes in which memory runs out.
 enum class FailureStory {
   copied,       ///< positions are copied, with and without promises
-  bound,        ///< memory is bound, in float and double; bindings end in every way, and then it is freed
+  bound,        ///< memory is bound, in float and double. Bindings end in every way, and then it is freed
   told,         ///< bound memory is read when told, with promises
   posed,        ///< rigid bodies over a fixed one, one by one and in a batch
-  come_and_go,  ///< in every way of moving; one goes, one comes
-  filters,      ///< pairs and rules change; bad calls
-  reserved,     ///< room is reserved; reports are held
+  come_and_go,  ///< in every way of moving. One goes, one comes
+  filters,      ///< pairs and rules change, and calls are bad
+  reserved,     ///< room is reserved, and reports are held
   large,        ///< two surfaces that are cut into slices, and distances of regions
   async,        ///< steps on another thread, calls meanwhile
   budgets,      ///< that do not run out
@@ -36,7 +36,7 @@ class FailureScene {
   enum class Given { copied, bound, told, posed, fixed };
   struct Body {
     std::shared_ptr<const Mesh> mesh;
-    std::shared_ptr<const Mesh> next_mesh;  ///< the one that replaces it; null if none does
+    std::shared_ptr<const Mesh> next_mesh;  ///< the one that replaces it, null if none does
     std::vector<std::uint32_t> same_vertices;
     Given given = Given::copied;
     bool is_float = false;
@@ -82,13 +82,13 @@ class FailurePlay {
  public:
   FailurePlay(const FailureScene& story, const SceneSettings& settings);
 
-  /// All calls of a frame; again and again they say all that is so. Throws what `add` and `reserve` throw.
+  /// All calls of a frame. Again and again they say all that is so. Throws what `add` and `reserve` throw.
   void tell(std::size_t frame);
   ReportHandle step(std::size_t frame);
 
   [[nodiscard]] Scene& scene() { return *scene_; }
   [[nodiscard]] bool scene_contains(ObjectId id) const { return scene_->contains(id); }
-  /// Which body an object is; none for one that is not there.
+  /// Which body an object is, or none if it is not there.
   [[nodiscard]] std::optional<std::size_t> body_of(ObjectId id) const;
   /// Ends the scene before its time.
   void end() { scene_.reset(); }
@@ -123,7 +123,7 @@ class FreshReport {
  public:
   FreshReport(const FailureScene& story, SceneSettings settings, std::size_t frame);
 
-  /// The first difference from a report of a play, of which `before` was the one published before; empty
+  /// The first difference from a report of a play, of which `before` was the one published before. Empty
   /// where there is none.
   [[nodiscard]] std::string difference_from(const FailurePlay& play, const FrameReport& report,
                                             const FrameReport& before) const;

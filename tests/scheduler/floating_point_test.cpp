@@ -208,7 +208,7 @@ void check_between_steps(double factor) {
   }
 }
 
-/// The distance of a contact whose positions are of the size of the smallest denormals; -1 for none.
+/// The distance of a contact whose positions are of the size of the smallest denormals, or -1 for none.
 double denormal_distance(const Positions& positions) {
   NeedleOverPlate pair(tests::settings_of(0x1p-1060, 1));
   pair.scene.set_positions(pair.needle, positions);

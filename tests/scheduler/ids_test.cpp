@@ -1,4 +1,4 @@
-// Ids are given once and for ever; pairs come in the order in which their objects were added.
+// Ids are given once and for ever. Pairs come in the order in which their objects were added.
 
 #include <Eigen/Core>
 #include <array>

@@ -14,7 +14,7 @@
 namespace graze::tests {
 namespace {
 
-/// Requires that two steps counted the same; their times may differ.
+/// Requires that two steps counted the same. Their times may differ.
 void require_same_counters(const StepStatistics& mine, const StepStatistics& theirs) {
   REQUIRE(mine.pairs_tested == theirs.pairs_tested);
   REQUIRE(mine.work.region_pairs_tested == theirs.work.region_pairs_tested);
@@ -26,8 +26,8 @@ void require_same_counters(const StepStatistics& mine, const StepStatistics& the
   REQUIRE(mine.work.regions_expanded == theirs.work.regions_expanded);
 }
 
-/// Runs `play`, which gives reports, once for each instruction set, and compares them with plain code's; how
-/// many pairs float discarded.
+/// Runs `play`, which gives reports, once for each instruction set, and compares them with plain code's.
+/// Returns how many pairs float discarded.
 template <typename Play>
 std::uint64_t compare_instruction_sets(const Play& play) {
   const InstructionSet before = instruction_set();

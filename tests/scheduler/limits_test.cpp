@@ -1,5 +1,5 @@
 // Limits of contacts: what is kept are the nearest of all, or with `nearest` the deepest, whoever finds them
-// in whichever order; all else is said of all contacts.
+// in whichever order. All else is said of all contacts.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -71,7 +71,7 @@ bool are_same(const Contact& left, const Contact& right) {
          left.side_a == right.side_a && left.side_b == right.side_b;
 }
 
-/// Compares a report with what it would be without limits; returns how many pairs are cut.
+/// Compares a report with what it would be without limits. Returns how many pairs are cut.
 std::size_t compare(const FrameReport& report, const FrameReport& whole, const Limits& limits) {
   const auto kept = kept_of(whole, limits);
   REQUIRE(report.pairs().size() == whole.pairs().size());
@@ -201,7 +201,7 @@ TEST_CASE("limits: pairs that do not move get what others leave") {
     for (int i = 0; i < 4; ++i) ids.push_back(scene.add(sheet));
     std::vector<ReportHandle> reports;
     for (int frame = 0; frame < 9; ++frame) {
-      // Two far from the other two; the second pair is nearer in some frames and away in others.
+      // Two far from the other two. The second pair is nearer in some frames and away in others.
       if (frame == 0) {
         scene.set_positions(ids[1], moved(sheet->rest(), {0, 0, 0.25}));
         scene.set_positions(ids[2], moved(sheet->rest(), {9, 0, 0}));

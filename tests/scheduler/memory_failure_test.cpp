@@ -3,7 +3,7 @@
 // of a frame fails in turn, in eleven small scenes.
 //
 // By default each configuration takes every so many places only (GRAZE_FAILURE_STRIDE), from another one on
-// than the others; with 1 in the environment variable of that name each takes all.
+// than the others. With 1 in the environment variable of that name each takes all.
 
 #include <algorithm>
 #include <cstdlib>
@@ -187,8 +187,8 @@ bool jump_and_promise(std::uint64_t place, std::size_t reports_held, Telling tel
   return has_thrown;
 }
 
-/// In the first frame of all, when everything is made, and in a later one; one allocation, or all from it on
-/// until the frame ends.
+/// In the first frame of all, when everything is made, and in a later one. What fails is one allocation, or
+/// all from it on until the frame ends.
 void fail_in(FailureStory story) {
   Tally tally;
   for (const std::size_t event : {0U, 2U}) {

@@ -18,7 +18,7 @@ class MovingScene {
   [[nodiscard]] std::size_t object_count() const { return bodies_.size(); }
   [[nodiscard]] Order given_order() const;
 
-  /// Steps through frames 0 to count - 1; calls `look` with each report and the ids in the bodies' order.
+  /// Steps through frames 0 to count - 1. Calls `look` with each report and the ids in the bodies' order.
   using Look = std::function<void(std::size_t frame, const ReportHandle&, const std::vector<ObjectId>&)>;
   void play(const SceneSettings& settings, std::size_t count, const Look& look,
             const std::shared_ptr<TaskScheduler>& scheduler = nullptr) const;

@@ -23,7 +23,7 @@ NaivePaper::Tree::Tree(const oracle::Shape& rest, const std::vector<Eigen::Vecto
   }
 }
 
-/// A region's children; a leaf stays itself.
+/// A region's children. A leaf stays itself.
 std::vector<std::size_t> NaivePaper::Tree::expanded(std::size_t region) const {
   return regions[region].leaf ? std::vector{region} : children[region];
 }

@@ -15,7 +15,7 @@ struct PaperContact {
 };
 
 /// The paper's method written down as plainly as can be: DMV by recursion over the oracle's regions, DV from
-/// the closest vertices of two leaves. In double, so for shapes without ties. `epsilon` is e1 to ek; without
+/// the closest vertices of two leaves. In double, so for shapes without ties. `epsilon` is e1 to ek. Without
 /// numbers the levels' are eq. 3 summed as in eq. 6.
 class NaivePaper {
  public:

@@ -1,4 +1,4 @@
-// Which pairs the broad phase keeps, against a look at all n(n-1)/2 of them; what each filter takes out.
+// Which pairs the broad phase keeps, against a test of all n(n-1)/2 of them. Also what each filter takes out.
 
 #include <array>
 #include <cmath>
@@ -452,7 +452,7 @@ TEST_CASE("a vertex found beyond its promise is where it is from the next step o
   scene.set_positions(near, lifted(*plate_mesh(), 0.75));
   scene.set_positions(far, lifted(*plate_mesh(), 50));
   CHECK(scene.step()->pairs().empty());
-  // It is said to move by a quarter, so it is read; it is over the far one.
+  // It is said to move by a quarter, so it is read. It is over the far one.
   scene.set_positions(near, lifted(*plate_mesh(), 50.25), 0.5);
   CHECK(kinds_of(*scene.step()) == std::vector{DiagnosticKind::broken_promise});
   const ReportHandle report = scene.step();

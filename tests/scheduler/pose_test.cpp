@@ -12,7 +12,7 @@
 namespace graze::tests {
 namespace {
 
-/// Returns the positions of an object's vertices in a scene. Every pair of vertices has to be a contact; the
+/// Returns the positions of an object's vertices in a scene. Every pair of vertices has to be a contact. The
 /// positions are the points of these contacts.
 Positions positions_in(Scene& scene, ObjectId observer, ObjectId object) {
   const ReportHandle report = scene.step();

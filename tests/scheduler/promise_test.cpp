@@ -70,7 +70,7 @@ TEST_CASE("what promises say is far is not read") {
     for (const ObjectId id : row.ids) row.scene.positions_changed(id, 0.125);
     row.memory[7][0].x() = nan;
     const ReportHandle report = row.scene.step();
-    // With validators on everything is read, and the NaN is found; otherwise nothing is.
+    // With validators on everything is read, and the NaN is found. Otherwise nothing is.
     const bool reads_all = report->statistics().objects_unread == 0;
     CHECK(report->statistics().objects_unread == (reads_all ? 0U : 20U));
     CHECK(report->diagnostics().size() == (reads_all ? 1U : 0U));

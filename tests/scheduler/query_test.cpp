@@ -67,7 +67,7 @@ struct SceneOfTwo {
   ObjectId a, b;
 };
 
-/// How an answer about two shapes at rest differs from that of a scene; empty if it does not.
+/// How an answer about two shapes at rest differs from that of a scene. Empty if it does not.
 std::string difference_of(const oracle::Shape& a, const oracle::Shape& b, const QuerySettings& settings) {
   const auto mesh_a = mesh_of(a);
   const auto mesh_b = mesh_of(b);

@@ -112,7 +112,7 @@ TEST_CASE("region distances: those of a plain walk, in every frame of a passage"
     const ObjectId b = scene.add(mesh_b);
     std::set<std::size_t> counts;
     for (int frame = 0; frame < 24; ++frame) {
-      // Towards each other and back, so that lines come and go; at rest now and then.
+      // Towards each other and back, so that lines come and go. At rest now and then.
       const double way = 1.8 - 0.08 * std::min(frame / 2 * 2, 24 - frame);
       const Positions at_a(mesh_a->rest().begin(), mesh_a->rest().end());
       const Positions at_b = moved(mesh_b->rest(), {way, 0.01, 0.02});

@@ -24,7 +24,7 @@ std::vector<std::string> timeless_rows_of(const FrameReport& report, double rang
 /// Empty where frame, rows, contacts, diagnostics and completeness are the same, bit for bit.
 std::string difference_of(const FrameReport& left, const FrameReport& right);
 
-/// Describes an inconsistency within a report; empty where there is none. Pairs or contacts may be in wrong
+/// Describes an inconsistency within a report. Empty where there is none. Pairs or contacts may be in wrong
 /// order, or contacts stand in rows that have none. Spans may not follow one another. Bounds may be the wrong
 /// way round, or numbers not finite.
 std::string inconsistency_of(const FrameReport& report);

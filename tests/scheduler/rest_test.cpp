@@ -34,7 +34,7 @@ class RestingAndNot {
     tell(resting_);
     tell(disturbed_);
   }
-  /// Steps both; the report of the one that may rest.
+  /// Steps both. Returns the report of the one that may rest.
   ReportHandle step() {
     far_height_ = far_height_ == 1000 ? 1001 : 1000;
     disturbed_.scene.set_positions(far_, lifted(*needle_mesh(), far_height_));
@@ -57,7 +57,7 @@ class RestingAndNot {
   double far_height_ = 1000;
 };
 
-/// Small bodies in a heap, in two scenes that are told the same; but one is also given a rule about kinds
+/// Small bodies in a heap, in two scenes that are told the same. But one is also given a rule about kinds
 /// that no object has before every step, so that no pair of it rests.
 class Heap {
  public:

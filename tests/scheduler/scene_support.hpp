@@ -17,7 +17,7 @@ std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data);
 
 /// One square face of side 2 about the origin in z = 0, normal +z.
 std::shared_ptr<const Mesh> plate_mesh();
-/// One long thin triangle whose tip, vertex 0, is at (0.25, 0.5, 0); the rest lies above.
+/// One long thin triangle whose tip, vertex 0, is at (0.25, 0.5, 0). The rest lies above.
 std::shared_ptr<const Mesh> needle_mesh();
 
 Positions moved(std::span<const Eigen::Vector3d> positions, const Eigen::Vector3d& by);

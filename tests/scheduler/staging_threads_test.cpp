@@ -240,7 +240,7 @@ TEST_CASE("threads add, remove, look at and speak to each other's objects") {
   const auto step = [&] {
     const ReportHandle report = scene.step();
     if (!inconsistency_of(*report).empty()) ++problems;
-    // Others' objects may have gone or be of the other motion; an object may be shown to its own thread.
+    // Others' objects may have gone or be of the other motion. An object may be shown to its own thread.
     for (const Diagnostic& diagnostic : report->diagnostics())
       if (diagnostic.kind != DiagnosticKind::stale_id && diagnostic.kind != DiagnosticKind::wrong_motion &&
           diagnostic.kind != DiagnosticKind::bad_pair)
@@ -337,7 +337,7 @@ TEST_CASE("memory that a thread binds no more is free, also while others unbind 
               pair.scene.unbind_positions(pair.needle);
             }
           }
-          // The last binding ends before its memory does; so would a copy end it, or other memory.
+          // The last binding ends before its memory does. A copy would end it too, or other memory.
           if (thread == 0) pair.scene.bind_positions(pair.needle, *last);
         },
         [] { std::this_thread::yield(); });

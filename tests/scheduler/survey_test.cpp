@@ -219,7 +219,7 @@ TEST_CASE("survey: large surfaces are surveyed and read in parts") {
 TEST_CASE("survey: promises are held against what was seen") {
   Field field;
   field.surveyed();
-  // A survey saw where its box is, so that a promise about it is enough; with validators on all is read.
+  // A survey saw where its box is, so that a promise about it is enough. With validators on all is read.
   field.put(4, {0, 0, 2});
   field.scene.positions_changed(field.ids[4], 3);
   ReportHandle report = field.scene.step();

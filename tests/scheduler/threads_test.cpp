@@ -173,7 +173,7 @@ std::uint64_t hash_of_bending_tori(unsigned threads, std::size_t frames,
   return hash.value();
 }
 
-/// Two balls of which each is read and refitted in parts, and whose search is cut into slices; they wobble
+/// Two balls of which each is read and refitted in parts, and whose search is cut into slices. They wobble
 /// and come to touch.
 std::uint64_t hash_of_large_pair(ContactDetail detail, unsigned threads, std::size_t frames,
                                  const std::shared_ptr<const Mesh>& ball) {

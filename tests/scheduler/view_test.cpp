@@ -64,7 +64,7 @@ class Player {
   }
 
   void put(std::size_t object, const Positions& positions) { now_[object] = positions; }
-  /// In other memory; that of before is gone as soon as the call returns.
+  /// In other memory. That of before is gone as soon as the call returns.
   void bind(std::size_t object, BindPolicy policy = BindPolicy::every_step) {
     auto other = fresh();
     other->put(now_[object]);
@@ -131,7 +131,7 @@ struct Event {
   } told = Told::nothing;
 };
 
-/// Mostly they go on, or rest; some jump, and some memory is bad for a while.
+/// Mostly they go on, or rest. Some jump, and some memory is bad for a while.
 class Story {
  public:
   Story(std::uint64_t seed, std::span<const Eigen::Vector3d> rest, std::size_t count)
@@ -291,7 +291,7 @@ TEST_CASE("view: of large surfaces that meet in a corner blocks are made of that
     bytes_each.push_back(static_cast<double>(report->statistics().bytes.objects) /
                          (2 * static_cast<double>(mesh->vertex_count())));
   }
-  // A box of 64 vertices takes 24 bytes, and one of eight as much; at rest all blocks are kept, and
+  // A box of 64 vertices takes 24 bytes, and one of eight as much. At rest all blocks are kept, and
   // positions.
   CHECK(*std::max_element(bytes_each.begin(), bytes_each.begin() + 5) < 2.5);
   CHECK(bytes_each.back() > 24);

@@ -171,7 +171,7 @@ TEST_CASE("Groups that are ignored have no part in a way out", "[way_out]") {
 
 // ---- The same for any number of threads, and so on
 
-/// Balls, large ones and small ones, that fall into each other; the ways out of all their rows.
+/// Balls, large ones and small ones, that fall into each other. Returns the ways out of all their rows.
 std::vector<WayOut> ways_of_balls(unsigned threads, bool steps_from_the_start) {
   SceneSettings settings = way_out_settings();
   settings.threads = threads;

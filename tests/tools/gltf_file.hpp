@@ -6,15 +6,15 @@
 
 namespace graze::tests {
 
-/// Builds a small glTF with its binary beside it. Numbers go in as a list; every list is one accessor.
+/// Builds a small glTF with its binary beside it. Numbers go in as a list. Every list is one accessor.
 class GltfFile {
  public:
-  /// `component` is 5126 for float, 5123 for uint16, 5121 for uint8; `type` is SCALAR, VEC3, VEC4, MAT4.
+  /// `component` is 5126 for float, 5123 for uint16, 5121 for uint8. `type` is SCALAR, VEC3, VEC4, MAT4.
   template <typename Number>
   int add(const std::vector<Number>& numbers, int component, const std::string& type,
           const std::string& extra = "");
 
-  /// Writes `name`.gltf and `name`.bin into `folder`; `rest` is the document but for buffers, views and
+  /// Writes `name`.gltf and `name`.bin into `folder`. `rest` is the document but for buffers, views and
   /// accessors.
   std::string write(const std::string& folder, const std::string& name, const std::string& rest) const;
 

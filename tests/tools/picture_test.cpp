@@ -59,7 +59,7 @@ PictureScene::Object square(const Vector3d& centre, double half) {
   return {std::make_shared<const graze::Mesh>(graze::Mesh::from_quads(points, faces)), points};
 }
 
-// The first object is blue, the second orange; floor, sky and shadows are grey to light blue.
+// The first object is blue, the second orange. Floor, sky and shadows are grey to light blue.
 bool is_blue(const std::array<int, 3>& c) {
   return c[2] > c[0] + 50;
 }

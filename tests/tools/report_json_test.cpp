@@ -169,7 +169,7 @@ void check_statistics(const graze::StepStatistics& read, const graze::StepStatis
   CHECK(same_bits(read.times.publish_ms, with_times ? written.times.publish_ms : 0));
 }
 
-/// Writes `frames` steps, reads them back, compares everything; returns how many contacts that were.
+/// Writes `frames` steps, reads them back and compares everything. Returns how many contacts that were.
 std::size_t check_round_trip(CrumpledSheets& sheets, int frames, bool with_times) {
   const TemporaryFolder folder;
   std::vector<ReportHandle> reports;

@@ -33,7 +33,7 @@ Shape below_sheet() {
   return spike({0.4375, 0.5625, 0.015625}, 0.5);
 }
 
-/// Runs a scene of the moving sheet, from `positions`, and the spike; returns how many contacts were right.
+/// Runs a scene of the moving sheet, from `positions`, and the spike. Returns how many contacts were right.
 std::size_t check_dipping_sheet(const TemporaryFolder& folder, const std::string& positions) {
   folder.write("spike.obj", obj_text(below_sheet()));
   const auto scene =
@@ -82,7 +82,7 @@ struct Strip {
   }
 };
 
-/// The strip on two joints; the upper one turns about z by 90 degrees in one second.
+/// The strip on two joints. The upper one turns about z by 90 degrees in one second.
 void write_skinned_strip(const TemporaryFolder& folder) {
   const Strip strip;
   std::vector<std::uint8_t> joints;
@@ -126,7 +126,7 @@ Shape bent_strip(double degrees) {
   });
 }
 
-/// The strip with one morph target that lifts row r by r²/64; its weight goes from 0 to 1 in one second.
+/// The strip with one morph target that lifts row r by r²/64. Its weight goes from 0 to 1 in one second.
 void write_morphing_strip(const TemporaryFolder& folder) {
   const Strip strip;
   std::vector<float> offsets;

@@ -91,7 +91,7 @@ void append_bytes(std::string& bytes, Number value) {
   bytes.append(first, first + sizeof value);
 }
 
-/// A PC2 cache of positions, one list a frame; coordinates become floats.
+/// A PC2 cache of positions, one list a frame. Coordinates become floats.
 inline std::string pc2_bytes(const std::vector<std::vector<Eigen::Vector3d>>& frames) {
   std::string bytes("POINTCACHE2\0", 12);
   append_bytes(bytes, std::int32_t{1});

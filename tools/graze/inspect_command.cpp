@@ -18,7 +18,7 @@
 namespace graze::tools {
 namespace {
 
-/// A line about the axes and the unit that the file states. A mesh file is never converted; a scene file may
+/// A line about the axes and the unit that the file states. A mesh file is never converted. A scene file may
 /// ask for it.
 std::string frame_line(const io::FileFrame& frame) {
   std::string said = frame.up ? *frame.up + " up" : "";

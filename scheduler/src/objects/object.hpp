@@ -46,7 +46,7 @@ enum class ReadPlan : std::uint8_t {
 enum class ReadState : std::uint8_t {
   read,            ///< nothing is left to read
   viewed,          ///< the surface views the bound memory, which may go after a step
-  due,             ///< the last step that saw it surveyed it; newer input is to be read or was bad
+  due,             ///< the last step that saw it surveyed it. Newer input is to be read or was bad
   unread,          ///< promises show that the object is far from everything
   surveyed,        ///< the box is that of the new positions, and the surface has those of the last read
   still_surveyed,  ///< an earlier step surveyed it, and no call came since
@@ -187,7 +187,7 @@ struct Object {
     std::uint64_t refit = 0;
     std::size_t jobs = 0;  ///< jobs that test it
     bool walked = false;   ///< one of these jobs walked its regions in the last step
-    double shares = 0;     ///< the shares of its box near the jobs' other objects; of large objects only
+    double shares = 0;     ///< the shares of its box near the jobs' other objects, for large objects only
   } asked;
 
   std::vector<IgnoredPartner> ignored_partners;  ///< the notes of IgnoredObjects

@@ -26,7 +26,7 @@ struct PairMemory {
   }
 };
 
-/// The number of leaf pairs that a front has reserved room for; SceneCapacity states it.
+/// The number of leaf pairs that a front has reserved room for. SceneCapacity states it.
 inline constexpr std::size_t leaf_pairs_of_front = 64;
 
 /// The capacity that a pair's memory gets ahead of time.

@@ -33,7 +33,7 @@ struct SelectedPair {
   SlotPair pair = 0;
   std::uint32_t close_index = none;  ///< among the pairs of the broad phase
   std::uint32_t memory = none;
-  std::uint32_t listed = none;  ///< among those that the last report lists; of several the first
+  std::uint32_t listed = none;  ///< index among those that the last report lists, the first of several
   std::uint16_t count = 1;
   Kind kind = Kind::tested;
 };
@@ -104,7 +104,7 @@ class PairSelection {
   std::vector<Known> known_;  ///< of the broad phase's pairs
   std::vector<Known> last_;   ///< of those of the call before
   std::vector<PairMemories::Index>
-      temporary_;  ///< of pairs whose loose boxes do not meet; until the next call
+      temporary_;  ///< of pairs whose loose boxes do not meet, until the next call
   std::uint64_t filter_version_ = 0;
   std::vector<SelectedPair> selected_;
   std::vector<Slice> slices_;

@@ -72,7 +72,7 @@ class PairTable {
 
   ObjectStore& store_;
   PairFilter& filter_;
-  const bool may_rest_;  ///< a pair may stand as it was without being tested; not where all share contacts
+  const bool may_rest_;  ///< a pair may stand as it was without being tested, unless all share contacts
   std::uint64_t filter_version_ = ~std::uint64_t{0};  ///< of the last look for what is near and unread
   ObjectSummaries summaries_;
   BroadPhase broad_phase_;

@@ -106,7 +106,7 @@ class RecordingCut {
 
   const RecordingReader& reader_;
   const RecordingPart& part_;
-  std::set<std::uint64_t> serials_;  ///< those to keep; none means all
+  std::set<std::uint64_t> serials_;  ///< those to keep. An empty set means all
   FileOutput output_;
   FrameEncoder encoder_;
   RecordCheck check_;

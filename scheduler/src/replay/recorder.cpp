@@ -89,7 +89,7 @@ class Recorder::State {
   bool must_write_on_diagnostic_ = false;  ///< a diagnostic has come, and that file is not written yet
   FrameEncoder encoder_;
   bool is_broken_ = false;      ///< the file takes no more frames
-  std::exception_ptr problem_;  ///< of the writing thread; read after it has ended
+  std::exception_ptr problem_;  ///< of the writing thread, read after it has ended
   std::atomic<std::uint64_t> frames_{0};
   std::atomic<std::uint64_t> skipped_{0};  ///< frames that were captured, and not written
   std::atomic<std::uint64_t> told_{0};     ///< dropped frames of which the written ones tell

@@ -175,7 +175,7 @@ void ReportPool::retire(std::uint64_t taken) noexcept {
 }
 
 void ReportPool::release(std::uint32_t index) noexcept {
-  // Release: this handle's reads are over; acquire, should it be the last: so are all others'.
+  // Release, since this handle's reads are over. Acquire too: should it be the last, so are all others'.
   if (slot(index).references.fetch_sub(1, std::memory_order_acq_rel) == 1) was_freed();
 }
 

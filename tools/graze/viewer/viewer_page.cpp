@@ -10,7 +10,7 @@ namespace {
 
 constexpr int window_of_gzip = 15 + 16;
 
-/// Unpacks all that there is; stops where the bytes are no gzip.
+/// Unpacks all that there is. Stops where the bytes are no gzip.
 std::string unpacked(z_stream& stream) {
   std::string text;
   std::array<char, 65536> part;

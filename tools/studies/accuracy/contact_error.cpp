@@ -30,7 +30,7 @@ double difference_of_roots(const Rational& p, const Rational& q) {
   return sum == 0 ? 0 : std::abs(as_double(p - q)) / sum;
 }
 
-/// How many units an error is; none where there is none, whatever the unit.
+/// How many units an error is. An error of 0 is 0 units, whatever the unit.
 double in_units(double error, double unit) {
   return error == 0 ? 0 : error / unit;
 }
@@ -42,9 +42,9 @@ double angle(const Point& u, const Point& v) {
   return std::atan2(sine, as_double(dot(u, v)) / oracle::round_sqrt(lengths));
 }
 
-/// The directions that the normal may have, exactly, where they follow from the positions by one formula:
-/// along the gap; at distance 0 a's face normal, else minus b's, else across both edges. Empty where normals
-/// are averaged.
+/// The directions that the normal may have, exactly, where they follow from the positions by one formula.
+/// That is along the gap. At distance 0 it is a's face normal, else minus b's, else across both edges. Empty
+/// where normals are averaged.
 std::vector<Point> directions(const Contact& contact, const ExactContact& truth, const ExactShape& a,
                               const ExactShape& b) {
   if (truth.distance_squared != 0) return {truth.point_b - truth.point_a};

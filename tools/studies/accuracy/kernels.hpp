@@ -11,7 +11,7 @@
 namespace graze::tools {
 
 /// The code that finds and measures a contact. The last three are those of `closest`, whose closest points
-/// fill a stretch or an area. `vertex_set` is the detail `vertices`; all others are found by `features`.
+/// fill a stretch or an area. `vertex_set` is the detail `vertices`. All others are found by `features`.
 enum class Kernel : std::uint8_t {
   vertex_vertex,
   vertex_edge,
@@ -34,7 +34,7 @@ std::string_view name_of(Kernel kernel);
 inline constexpr double distance_bound = 32;
 
 /// The errors of one kernel on one kind of input. A unit is 2^-53 of the size of the two features plus their
-/// gap; a point's unit counts its largest coordinate too.
+/// gap. A point's unit counts its largest coordinate too.
 struct KernelErrors {
   std::uint64_t contacts = 0;
   std::uint64_t wrong_names = 0;  ///< reported and not true, or true and not reported

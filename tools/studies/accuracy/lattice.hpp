@@ -11,7 +11,7 @@ namespace graze::tools {
 /// collinear or touching is so exactly.
 class Lattice {
  public:
-  /// `longest` is how long a needle along u is in steps of `shortest` along v; both 64 for none.
+  /// `longest` is how long a needle along u is in steps of `shortest` along v. Both are 64 for none.
   Lattice(oracle::Random& random, double longest, double shortest);
 
   [[nodiscard]] Eigen::Vector3d at(double i, double j, double k) const {
@@ -32,8 +32,8 @@ class Lattice {
   Eigen::Vector3d u_, v_, w_;
 };
 
-/// Two faces with parallel edges, an edge parallel to a face, or parallel faces; `apart` false: at distance
-/// 0.
+/// Two faces with parallel edges, an edge parallel to a face, or parallel faces. They are at distance 0 if
+/// `apart` is false.
 std::array<oracle::Shape, 2> parallel_shapes(oracle::Random& random, bool needles, bool apart);
 
 /// A face whose corners are collinear, share a place, or are one vertex.

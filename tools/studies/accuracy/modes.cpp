@@ -28,7 +28,7 @@ bool is_in_contact(const PairReport& pair) {
   return pair.complete && (pair.phase == PairPhase::began || pair.phase == PairPhase::touching);
 }
 
-/// The row of the same two objects; none where they are not within the setting's range.
+/// The row of the same two objects, or none where they are not within the setting's range.
 const PairReport* same_pair(const FrameReport& report, const PairReport& pair) {
   const auto found = std::ranges::find_if(
       report.pairs(), [&](const PairReport& row) { return row.a == pair.a && row.b == pair.b; });

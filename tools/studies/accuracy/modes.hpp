@@ -31,7 +31,8 @@ struct ModeResult {
   double step_ms = 0;                   ///< mean over the frames of the fastest of some runs
   double longest_step_ms = 0;           ///< the largest of those
 
-  /// The share of true contacts found, and of reported ones that are below the contact distance; 1 of none.
+  /// The share of true contacts found, and of reported ones that are below the contact distance. Of none it
+  /// is 1.
   [[nodiscard]] double recall() const;
   [[nodiscard]] double precision() const;
 };
@@ -45,9 +46,9 @@ class ModeStudy {
   ModeStudy(const MovingSurfaces& bodies, double contact_distance);
 
   [[nodiscard]] double contact_distance() const { return contact_distance_; }
-  /// The reports of exact mode, one a frame; every pair of bodies is listed.
+  /// The reports of exact mode, one a frame. Every pair of bodies is listed.
   [[nodiscard]] const Reports& truth(ContactDetail detail) const;
-  /// Runs a setting `runs` times; answers are those of the last run. A pair that is not within its range has
+  /// Runs a setting `runs` times. Answers are those of the last run. A pair that is not within its range has
   /// no contacts there, and counts for no distance.
   [[nodiscard]] ModeResult measure(const ModeSetting& setting, std::uint32_t runs) const;
 

@@ -60,18 +60,28 @@ The first table is about names and distances:
 | :-- | :-- |
 | contacts | how many were compared |
 | wrong names | contacts reported that are not there, and contacts that are there and not reported |
-| largest, mean | error of the distance in units of 2^-53 times (the size of both features plus their gap). The contract allows 32. Writing a distance down costs up to 1 of these units where the gap is all of the size, as between vertices |
+| largest, mean | error of the distance in units of 2^-53 times (the size of both features plus their gap) |
 | largest, absolute | in units of length; everything is about 1 in size, the gaps between 0 and 2 |
-| largest, relative | the largest error in parts of the distance itself. Distances far below the rounding of the coordinates have few correct digits, or none, as doubles: their error is small by size, not by distance |
+| largest, relative | the largest error in parts of the distance itself |
+
+The contract allows 32 units of the distance's error. Writing a distance down costs up to 1 of these units where the gap is
+all of the size, as between vertices. Distances far below the rounding of the coordinates have few correct digits, or none,
+as doubles. Their error is small by size, not by distance.
 
 The second table is about points and normals:
 
 | column | meaning |
 | :-- | :-- |
-| points | how far `point_a` and `point_b` are from the true closest points, in units of 2^-53 times (the size of both features, their gap and the point's largest coordinate). Writing a point down costs up to 1.7 of these units. For the last three kernels the true point is the middle of the closest stretch or area |
-| apart | how far the distance between the two points is from the true distance, in the same units |
-| normal, angle | the angle in radians between `normal` and the true direction, where one formula of the positions gives that direction: along the gap; at distance 0 the face's normal, or across both edges |
+| points | how far `point_a` and `point_b` are from the true closest points, in units |
+| apart | how far the distance between the two points is from the true distance, in units |
+| normal, angle | the angle in radians between `normal` and the true direction |
 | normal, length − 1 | how far `normal` is from length 1 |
+
+A unit is 2^-53 times (the size of both features, their gap and the point's largest coordinate). Writing a point down costs
+up to 1.7 of these units. For the last three kernels the true point is the middle of the closest stretch or area.
+
+The angle is taken where one formula of the positions gives the true direction. That is the direction along the gap. At
+distance 0 it is the face's normal, or the direction across both edges.
 
 )";
 
@@ -104,15 +114,19 @@ turn while they come together until they interpenetrate, and part again. All ten
 | broken bounds | pairs whose true distance is not between lower and upper |
 | region pairs | how many pairs of regions a step tests, the measure of work that is the same on every machine |
 
-| setting or detail | what to know |
-| :-- | :-- |
-| `within` | the distances of pairs in contact stay exact |
-| budgets | a budget is for each step, and is a part of what exact mode takes on average. Frames where the models interpenetrate take more. A pair that is cut short has looser bounds, at worst those of the two models' boxes |
-| `none` | no contacts are asked for, so none can be missing |
-| `regions`, `vertices` | distances are between vertices |
-| `regions` in paper settings | *found* compares names. The paper's DV walks on from the closest vertices of two leaves to nearer neighbours. So several pairs of leaves end at one contact, and that may be another leaf's. *Touching found* and *right* are not affected |
-| `vertices` in paper settings | what is missing the paper's test of middle vertices (eq. 4) has cut off |
-| numbers of the paper's test | parts of the most that eq. 6 gives for these models at rest. The last number, DV's, is the contact distance or a multiple of it |
+What to know of a setting or a detail:
+
+- **`within`**: the distances of pairs in contact stay exact.
+- **Budgets**: a budget is for each step, and is a part of what exact mode takes on average. Frames where the models
+  interpenetrate take more. A pair that is cut short has looser bounds, at worst those of the two models' boxes.
+- **`none`**: no contacts are asked for, so none can be missing.
+- **`regions` and `vertices`**: distances are between vertices.
+- **`regions` in paper settings**: *found* compares names. The paper's DV walks on from the closest vertices of two leaves
+  to nearer neighbours. So several pairs of leaves end at one contact, and that may be another leaf's. *Touching found* and
+  *right* are not affected.
+- **`vertices` in paper settings**: what is missing the paper's test of middle vertices (eq. 4) has cut off.
+- **Numbers of the paper's test**: they are parts of the most that eq. 6 gives for these models at rest. The last number,
+  DV's, is the contact distance or a multiple of it.
 
 | condition | value |
 | :-- | :-- |

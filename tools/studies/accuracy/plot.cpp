@@ -10,7 +10,7 @@
 namespace graze::tools {
 namespace {
 
-/// The families that are drawn; not `paper_loose`, whose error is of another kind.
+/// The families that are drawn, without `paper_loose`, whose error is of another kind.
 constexpr std::array<ModeFamily, 6> drawn_families = {ModeFamily::exact,         ModeFamily::within,
                                                       ModeFamily::work_budget,   ModeFamily::time_budget,
                                                       ModeFamily::paper_formula, ModeFamily::paper_numbers};
@@ -18,7 +18,7 @@ constexpr std::array<ModeFamily, 6> drawn_families = {ModeFamily::exact,        
 /// Gives the value of one result on the y axis.
 using ErrorOf = double (*)(const ModeResult&);
 
-/// A family has one colour in both figures; settings of vertices have other dashes.
+/// A family has one colour in both figures. Settings of vertices have other dashes.
 void add_series(Figure& figure, const ModeTable& table, ErrorOf error) {
   for (std::size_t i = 0; i < drawn_families.size(); ++i) {
     Series series{title_of(drawn_families[i]) + ": " + std::string(to_string(table.detail))};

@@ -32,7 +32,7 @@ struct ModeSetting {
 SceneSettings exact_settings(ContactDetail detail, double contact_distance);
 
 /// Exact, within and work budgets for a detail of surfaces. `exact_work` is how many region pairs a step of
-/// exact mode tests; budgets are parts of it.
+/// exact mode tests. Budgets are parts of it.
 std::vector<ModeSetting> surface_settings(const MovingSurfaces& models, ContactDetail detail,
                                           double contact_distance, std::uint64_t exact_work);
 

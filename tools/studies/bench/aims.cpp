@@ -23,7 +23,7 @@ bool is_one_of(const std::string& scene, std::initializer_list<std::string_view>
   });
 }
 
-/// The fastest that is neither graze nor a limit; null where none answered right.
+/// The fastest that is neither graze nor a limit. Null where none answered right.
 const Timing* fastest_peer(const Run& run) {
   const Timing* fastest = nullptr;
   for (const Timing& timing : run.timings) {

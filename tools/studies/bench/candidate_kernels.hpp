@@ -14,8 +14,8 @@ namespace graze::bench {
 /// and what the kernels. One thread.
 ///
 /// `candidates` lists pairs of triangles, those of one pair of objects and of one triangle of a one after the
-/// other. Every vertex and edge belongs to the first triangle that has it; what belongs to a triangle is
-/// looked at with what belongs to those near it, as graze looks at two leaves.
+/// other. Every vertex and edge belongs to the first triangle that has it. What belongs to a triangle is
+/// tested with what belongs to those near it, as graze tests two leaves.
 std::unique_ptr<Contender> make_candidate_kernels(const BenchScene& scene, const World& world,
                                                   std::unique_ptr<Contender> candidates, InstructionSet set);
 

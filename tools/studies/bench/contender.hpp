@@ -86,7 +86,7 @@ struct PeerEntry {
 /// The limits that no answer can beat: they find nothing.
 inline constexpr std::string_view read_limit = "read";
 inline constexpr std::string_view box_limit = "box";
-/// Reads what moves and what is near it; only in scenes where most rests.
+/// Reads what moves and what is near it. Only in scenes where most rests.
 inline constexpr std::string_view movers_limit = "read movers";
 
 /// Names the contender that gives the pairs of triangles with near boxes, found by `clipping` in task B,

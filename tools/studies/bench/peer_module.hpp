@@ -18,7 +18,7 @@ class PeerModule {
   PeerModule();
 
   [[nodiscard]] PeerList entries() const { return entries_; }
-  /// The entry of a name; throws io::InputError where there is none.
+  /// The entry of a name. Throws io::InputError where there is none.
   [[nodiscard]] const PeerEntry& entry(std::string_view name) const;
   /// Whether the module was built with a library that finds contacts of soft bodies.
   [[nodiscard]] bool has_soft_contact_finder() const { return make_soft_contact_finder_ != nullptr; }

@@ -179,7 +179,7 @@ std::size_t count_all_near_pairs(const BenchScene& scene, const World& world,
   return count;
 }
 
-/// Every instruction set gives the same bits; those of the others come right after the first.
+/// Every instruction set gives the same bits. Those of the others come right after the first.
 void compare_reports(std::span<Entrant> of_sets) {
   const std::uint64_t hash = of_sets.front().figures().hash;
   for (Entrant& entrant : of_sets.subspan(1))

@@ -21,12 +21,12 @@ inline constexpr std::string_view kernels_name = "graze's kernels, clipping's ca
 struct RunOptions {
   Task task = Task::A;
   unsigned threads = 1;
-  std::size_t frames = 0;               ///< that are timed; 0: as many as the scene says
+  std::size_t frames = 0;               ///< that are timed, 0 for as many as the scene says
   bool evict = false;                   ///< 64 MB of other memory are touched before each contender's turn
   std::size_t slow = 1;                 ///< how many times slower than its own motion the scene is
   bool is_recorded = false;             ///< graze takes part once more, with a recorder
   std::vector<std::string_view> peers;  ///< those that cannot do the task are left out
-  /// Graze takes part with each; the name alone stands for the first, which is what the aims are about.
+  /// Graze takes part with each. The name alone stands for the first, which is what the aims are about.
   std::vector<InstructionSet> instruction_sets;  ///< at least one
 };
 
@@ -35,7 +35,7 @@ struct Timing {
   std::string name;
   double first = 0;  ///< it is made and answers for the first time
   double median = 0, p99 = 0, worst = 0;
-  std::string complaint;  ///< why its times mean nothing; empty where all its answers were right
+  std::string complaint;  ///< why its times mean nothing, empty where all its answers were right
   std::size_t found = 0;  ///< in the last frame that was verified
 };
 
@@ -59,7 +59,7 @@ struct Run {
   std::vector<Timing> timings;
   GrazeFigures graze;
 
-  /// The timing of a name; null where it took no part.
+  /// The timing of a name, null where it took no part.
   [[nodiscard]] const Timing* timing(std::string_view name) const;
   /// Its median, NaN where it took no part or was wrong.
   [[nodiscard]] double median(std::string_view name) const;

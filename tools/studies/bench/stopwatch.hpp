@@ -8,7 +8,7 @@
 namespace graze::bench {
 
 /// Time since it was made. With one thread that is the lesser of wall clock and the thread's processor time,
-/// so that what other processes take does not count; the wall clock is the finer one for short times.
+/// so that what other processes take does not count. The wall clock is the finer one for short times.
 class Stopwatch {
  public:
   explicit Stopwatch(unsigned threads)

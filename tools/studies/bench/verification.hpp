@@ -17,7 +17,7 @@ class Verification {
 
   /// Makes the truth of the world's present frame.
   void update();
-  /// Describes an error of an answer for this frame in one sentence; empty if there is none. `precision` is
+  /// Describes an error of an answer for this frame in one sentence. Empty if there is none. `precision` is
   /// how closely distances must agree, beyond the rounding error of double itself.
   [[nodiscard]] std::string complaint(Found& found, double precision) const;
   /// The near pairs of triangles of the frame, for tasks B and D. The pairs of two objects stand side by

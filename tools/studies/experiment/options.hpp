@@ -11,8 +11,8 @@ struct ExperimentOptions {
   std::uint32_t frames = 0;  ///< 0: as many as the paper, or as the study says
   std::uint32_t runs = 3;    ///< each time is the fastest of so many
   bool times = true;  ///< false: nothing that hangs on times may be in texts, claims or tables not `timed`
-  std::filesystem::path out;   ///< an existing folder; studies may write files of their own into it
-  std::filesystem::path data;  ///< real meshes; what needs them is skipped with one line where it is missing
+  std::filesystem::path out;   ///< an existing folder. Studies may write files of their own into it
+  std::filesystem::path data;  ///< real meshes. What needs them is skipped with one line where it is missing
 
   /// How many frames a study plays that has `usual` of them.
   [[nodiscard]] std::uint32_t frames_of(std::uint32_t usual) const { return frames == 0 ? usual : frames; }

@@ -16,7 +16,7 @@ struct Series {
   bool joined = true;                    ///< a line through the points, otherwise points alone
   std::vector<std::string> labels = {};  ///< none, or one a point, written beside it where there is room
   bool marked = true;                    ///< a mark at each point, where they are few
-  std::optional<std::size_t> look = {};  ///< which of the looks it has; by default that of its index
+  std::optional<std::size_t> look = {};  ///< which of the looks it has, by default that of its index
 
   void add(double at_x, double at_y) {
     x.push_back(at_x);
@@ -24,7 +24,7 @@ struct Series {
   }
 };
 
-/// Times or counts against each other; see figure_plot.hpp.
+/// Times or counts against each other, see figure_plot.hpp.
 struct Figure {
   std::string name;  ///< as in a file's name
   std::string title;

@@ -167,7 +167,7 @@ std::string terminal_of(const Drawing& drawing) {
 }
 
 /// The names of the series in two columns below the plot, however long they are. `left` is where the panel
-/// begins, and `width` how wide it is; the whole image is 1 wide.
+/// begins, and `width` how wide it is. The whole image is 1 wide.
 std::string layout_of(const Figure& figure, double left, double width) {
   const std::size_t rows = (figure.series.size() + 1) / 2;
   return "set grid linecolor rgb '#dddddd'\nset lmargin 10\nset rmargin 3\n" +

@@ -36,7 +36,7 @@ std::shared_ptr<const Mesh> sphere_of(std::uint32_t segments, std::uint32_t ring
 }
 
 /// Spheres about one place, each in all others. The first two are copies in one place, where all that is near
-/// is at distance 0 and tied; the others are turned. All wobble.
+/// is at distance 0 and tied. The others are turned. All wobble.
 class Cluster {
  public:
   Cluster(std::shared_ptr<const Mesh> mesh, const SceneSettings& settings)

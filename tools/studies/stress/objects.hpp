@@ -12,9 +12,9 @@ struct ObjectsOptions {
   std::size_t frames = 0;  ///< 0: more of smaller scenes
 };
 
-/// Steps scenes of so many objects at the same density: time and memory of a step and how they grow, what a
-/// second thread brings for many small pairs and for one large pair, and what is left serial; against the
-/// aims. Checks that one and two threads report the same bits.
+/// Steps scenes of so many objects at the same density. Shows time and memory of a step and how they grow,
+/// and what is left serial. Shows what a second thread brings for many small pairs and for one large pair.
+/// Compares all of it with the aims. Checks that one and two threads report the same bits.
 StressResult run_objects_study(const ObjectsOptions& options);
 
 }  // namespace graze::tools

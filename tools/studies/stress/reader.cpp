@@ -43,8 +43,8 @@ ReadTimes read_periodically(Clock::time_point start, Clock::time_point end, std:
   return times;
 }
 
-/// Takes the last report as a haptics loop does: all pairs, the first contacts of each; and sees whether it
-/// is whole.
+/// Takes the last report as a haptics loop does: all pairs, the first contacts of each. Sees whether it is
+/// whole.
 class ReportReader {
  public:
   explicit ReportReader(const Scene& scene) : scene_(scene) {}

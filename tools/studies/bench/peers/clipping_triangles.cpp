@@ -72,7 +72,7 @@ class ClippingTriangles final : public Contender {
     return b.count > 0;
   }
 
-  /// Sorts a list along an axis; returns the longest side of its boxes there.
+  /// Sorts a list along an axis. Returns the longest side of its boxes there.
   static float sort(int axis, Clipper& clipper) {
     BoxList& list = clipper.b;
     const float* values = list.low(axis).data();

@@ -108,8 +108,8 @@ double segment_distance_squared(const Vector& from, const Vector& edge, double l
   return dot(gap, gap);
 }
 
-/// Returns the least squared height of those corners of `other` that lie over the triangle; infinity if none
-/// does.
+/// Returns the least squared height of those corners of `other` that lie over the triangle, or infinity if
+/// none does.
 double over_distance_squared(const Prepared& triangle, const Prepared& other, const Heights& heights) {
   double least = std::numeric_limits<double>::infinity();
   if (!(triangle.area_squared > 0)) return least;

@@ -5,7 +5,7 @@
 namespace graze::bench {
 
 /// Whether two points of three floats are strictly nearer than `distance`. Differences of floats are exact in
-/// double but for coordinates whose sizes differ by more than 2^29; where rounding of the sum could decide, a
+/// double but for coordinates whose sizes differ by more than 2^29. Where rounding of the sum could decide, a
 /// wider type does.
 inline bool is_nearer(const float* p, const float* q, double distance) {
   const double x = static_cast<double>(p[0]) - static_cast<double>(q[0]);
@@ -24,8 +24,8 @@ struct TrianglePoints {
   double corners[3][3];
 };
 
-/// The distance of two triangles, 0 where they meet; infinite where it is certainly not below `limit`. As
-/// good as double allows.
+/// The distance of two triangles, 0 where they meet. It is infinite where it is certainly not below `limit`.
+/// As good as double allows.
 double triangle_distance(const TrianglePoints& a, const TrianglePoints& b, double limit);
 
 }  // namespace graze::bench

@@ -13,7 +13,7 @@ std::unique_ptr<Contender> make_read_limit(const World& world, Task task, unsign
 /// Makes one box of each object, from all positions.
 std::unique_ptr<Contender> make_box_limit(const World& world, Task task, unsigned threads);
 
-/// Reads the positions of what moves and of what is near that; what these are is found once.
+/// Reads the positions of what moves and of what is near that. What these are is found once.
 std::unique_ptr<Contender> make_movers_limit(const World& world, Task task, unsigned threads);
 
 std::unique_ptr<Contender> make_clipping(const World& world, Task task, unsigned threads);

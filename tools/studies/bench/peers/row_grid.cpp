@@ -15,8 +15,8 @@ struct Point {
   std::uint32_t number;  ///< among all vertices of all objects
 };
 
-/// All vertices of all objects in rows along x as wide as the distance, sorted within each row; every row is
-/// swept against itself and the four that come after it. Rows are kept in a table by hash: strangers that
+/// All vertices of all objects in rows along x as wide as the distance, sorted within each row. Every row is
+/// swept against itself and the four that come after it. Rows are kept in a table by hash. Strangers that
 /// share a place cost time and are told apart by their coordinates.
 class RowGrid final : public Contender {
  public:

@@ -8,7 +8,7 @@
 
 namespace graze::bench {
 
-/// An axis-aligned box in float; empty at first.
+/// An axis-aligned box in float, empty at first.
 struct FloatBox {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
   float min[3] = {infinity, infinity, infinity};
@@ -79,8 +79,8 @@ void add_inside(const float* points, std::uint32_t first, std::size_t count, con
 /// Keeps those that are inside the box.
 void keep_inside(const FloatBox& box, PointList& list);
 
-/// The places among `begin` to `end` of a list whose squared distance from the point is at most `limit`;
-/// returns behind the last one written. `out` has room for all and a vector.
+/// The places among `begin` to `end` of a list whose squared distance from the point is at most `limit`.
+/// Returns behind the last one written. `out` has room for all and a vector.
 std::uint32_t* add_near(const PointList& list, std::size_t begin, std::size_t end, float x, float y, float z,
                         float limit, std::uint32_t* out);
 

@@ -33,7 +33,7 @@ void add_meeting(const BoxList& all, const FloatBox& box, BoxList& list);
 void keep_meeting(const FloatBox& box, BoxList& list);
 
 /// The places among `begin` to `end` of a list whose boxes have a squared distance from `box` of at most
-/// `limit`; returns behind the last one written. `out` has room for all and a vector.
+/// `limit`. Returns behind the last one written. `out` has room for all and a vector.
 std::uint32_t* add_near(const BoxList& list, std::size_t begin, std::size_t end, const FloatBox& box,
                         float limit, std::uint32_t* out);
 

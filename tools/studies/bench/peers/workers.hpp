@@ -8,7 +8,7 @@
 
 namespace graze::bench {
 
-/// Runs independent pieces of work on so many threads; on the calling one alone where there is one.
+/// Runs independent pieces of work on so many threads, on the calling one alone where there is one.
 class Workers {
  public:
   explicit Workers(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads)) {}
@@ -16,7 +16,7 @@ class Workers {
   /// How many places for results there are, one for each thread.
   [[nodiscard]] std::size_t slots() const { return threads_; }
 
-  /// Calls work(index, slot) for every index below `count`; no two calls of one slot at once.
+  /// Calls work(index, slot) for every index below `count`. No two calls of one slot run at once.
   template <typename Work>
   void each(std::size_t count, const Work& work) {
     if (threads_ == 1) {

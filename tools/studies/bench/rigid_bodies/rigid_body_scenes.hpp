@@ -14,7 +14,7 @@ struct RigidBodyScene {
   std::string name;
   std::vector<rigid::Body> bodies;  ///< as they start
   std::vector<RigidBodyShapePtr> shapes;
-  std::vector<double> heights;  ///< m, of each body's centre where it stands, but the floor's; empty where
+  std::vector<double> heights;  ///< m, of each body's centre where it stands, but the floor's. Empty where
                                 ///< bodies fall about
   std::size_t steps = 0;        ///< of 1/60 s
 

@@ -17,7 +17,7 @@ namespace graze::bench {
 struct RigidShape {
   std::vector<double> points;  ///< of a closed surface
   std::vector<Triangle> triangles;
-  double half[3] = {};                     ///< of a box about the origin; 0 for any other shape
+  double half[3] = {};                     ///< of a box about the origin, 0 for any other shape
   std::vector<std::vector<double>> parts;  ///< the points of convex parts that make up the body
 };
 

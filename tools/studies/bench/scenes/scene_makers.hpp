@@ -15,7 +15,7 @@ BenchScene draped_cloth();
 /// S7: a mesh of the data folder in its connected parts, each with a smooth wobble of half an edge.
 BenchScene real_mesh(std::string name, std::string what, const std::string& file);
 
-/// S8: a heap whose bodies touch, at rest or with noise; S9: most bodies sleep; S10: props on a landscape,
+/// In S8 a heap's bodies touch, at rest or with noise. In S9 most bodies sleep. S10 has props on a landscape,
 /// the whole of it or what lies under them.
 BenchScene heap(bool is_noisy);
 BenchScene sleepers();

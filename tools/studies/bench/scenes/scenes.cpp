@@ -81,7 +81,7 @@ BenchScene lattice() {
   return scene;
 }
 
-/// Two spheres of about `segments * rings` vertices; distance and motion are of the size of their edges.
+/// Two spheres of about `segments * rings` vertices. Distance and motion are of the size of their edges.
 BenchScene spheres(std::string name, std::uint32_t segments, std::uint32_t rings) {
   const double edge = 400.0 / segments;  // in those of the spheres of 100,000
   BenchScene scene{

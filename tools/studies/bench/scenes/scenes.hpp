@@ -40,11 +40,11 @@ struct BenchScene {
   std::string missing = {};  ///< why there is none, where it needs data that is not there
 };
 
-/// All scenes' names. S1 to S10 are those of the specification, some in parts; G… are more and more objects
+/// All scenes' names. S1 to S10 are those of the specification, some in parts. G… are more and more objects
 /// at the density of S5, V… the two spheres of S4 with more and more vertices.
 std::vector<std::string_view> scene_names();
 
-/// The scene of one of these names; `data` is the folder of real meshes.
+/// The scene of one of these names. `data` is the folder of real meshes.
 BenchScene make_scene(std::string_view name, const std::string& data);
 
 /// A scene's bodies in motion.

@@ -25,8 +25,8 @@ struct World {
   double distance = 0;  ///< threshold and range of every task
   std::vector<WorldObject> objects;
   std::vector<float> positions;  ///< x, y, z of all vertices, object after object
-  /// How far, at most, any vertex of each object is from where it was in the frame before; 0: nothing
-  /// changed.
+  /// How far, at most, any vertex of each object is from where it was in the frame before. 0 means that
+  /// nothing changed.
   std::vector<double> displacements;
   /// For each object, how often it has changed.
   std::vector<std::uint64_t> versions;

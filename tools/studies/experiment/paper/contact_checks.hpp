@@ -17,12 +17,12 @@ namespace graze::tools {
 /// `vertices`, and the distances of pairs of objects.
 class ContactChecks {
  public:
-  /// `regions` is checked at each of `distances`, the others at the largest; `motion` must outlive it.
+  /// `regions` is checked at each of `distances`, the others at the largest. `motion` must outlive it.
   ContactChecks(const RecordedMotion& motion, const std::set<double>& distances);
 
   /// Plays a frame to all settings.
   void step(std::size_t frame);
-  /// Compares objects a and b in that frame; `walk` is theirs.
+  /// Compares objects a and b in that frame. `walk` is theirs.
   void check(PaperWalk& walk, std::size_t a, std::size_t b);
 
   [[nodiscard]] std::vector<ContactCheck> results() const;
@@ -43,7 +43,7 @@ class ContactChecks {
 /// Adds what a step did.
 void count_work(const StepStatistics& statistics, ContactCheck& check);
 
-/// Tallies one pair's contacts against the true ones; both sorted, each once.
+/// Tallies one pair's contacts against the true ones. Both are sorted, each once.
 template <typename Name>
 void tally_contacts(const std::vector<Name>& truth, const std::vector<Name>& reported, ContactCheck& check) {
   std::vector<Name> found;

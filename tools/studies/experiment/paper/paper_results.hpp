@@ -18,7 +18,7 @@ inline double percent(std::uint64_t part, std::uint64_t whole) {
 
 /// How the paper's numbers are read.
 enum class Reading : std::uint8_t {
-  pair,           ///< a row's numbers are eq. 4's, for the two objects of a pair; leaves go to DV untested
+  pair,           ///< a row's numbers are eq. 4's, for the two objects of a pair. Leaves go to DV untested
   tested_leaves,  ///< so, but two leaves, too, have to pass eq. 4 before DV
   summed,         ///< a row's numbers are each object's, and eq. 4's are their sums (eq. 6)
 };

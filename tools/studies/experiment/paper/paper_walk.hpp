@@ -62,7 +62,7 @@ struct LeafPair {
 /// The numbers of one row of the paper's tables for a kind of pair, and how they are read.
 struct PaperNumbers {
   std::vector<double>
-      epsilon;      ///< by level from 1, the last for deeper ones too; empty: eq. 3 summed as in eq. 6
+      epsilon;      ///< by level from 1, the last for deeper ones too. Empty for eq. 3 summed as in eq. 6
   double last = 0;  ///< DV's
   bool test_leaves = false;  ///< whether pairs of leaves, too, have to pass eq. 4 before DV
 };
@@ -72,7 +72,7 @@ struct PaperFound {
   static constexpr std::size_t most_levels = 8;
   std::array<std::uint64_t, most_levels> passed{};  ///< pairs of regions that pass eq. 4, by level
   std::array<std::uint64_t, most_levels>
-      expanded{};                      ///< those of them that are not both leaves; level 0: the roots
+      expanded{};                      ///< those of them that are not both leaves. Level 0 has the roots
   std::vector<std::uint32_t> reached;  ///< pairs of leaves given to DV: numbers of PaperWalk::leaves
 };
 

@@ -35,7 +35,7 @@ class PlayedMotion {
 
   /// Brings every object to where it is in `frame`, and steps.
   ReportHandle step(std::size_t frame);
-  /// The row of two objects, the one that was recorded first before the other; null where none is listed.
+  /// The row of two objects, the one that was recorded first before the other. Null where none is listed.
   [[nodiscard]] const PairReport* row(const FrameReport& report, std::size_t a, std::size_t b) const;
   /// How long the last call's Scene::step took.
   [[nodiscard]] double step_ms() const { return step_ms_; }

@@ -18,8 +18,8 @@ struct PlacedRegions {
   std::span<const Eigen::Vector3d> positions;  ///< of the mesh's vertices
 };
 
-/// The bounds of all regions from their points; of inner regions from their children's where that is the
-/// same.
+/// The bounds of all regions from their points. Those of inner regions are made from their children's where
+/// that is the same.
 template <typename Volume>
 void refit(const PlacedRegions& placed, std::vector<Volume>& volumes) {
   const auto nodes = placed.hierarchy.nodes();
@@ -56,8 +56,8 @@ struct BoundedPair {
   std::span<const Volume> a, b;
 };
 
-/// DMV with bounds (breadth first from the roots; both regions of a pair make way for their children, a leaf
-/// stays): calls `leaves(pair)` for each pair of leaves whose bound is below `distance`.
+/// DMV with bounds, breadth first from the roots. Both regions of a pair make way for their children, and a
+/// leaf stays. Calls `leaves(pair)` for each pair of leaves whose bound is below `distance`.
 template <typename Volume, typename Leaves>
 void walk(const BoundedPair<Volume>& pair, double distance, WalkCounts& counts, const Leaves& leaves) {
   std::vector<NodePair> front{{}};

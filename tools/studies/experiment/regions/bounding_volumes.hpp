@@ -18,7 +18,7 @@ namespace graze::tools {
 /// The present positions of the points of one region.
 struct RegionPoints {
   std::span<const Eigen::Vector3d> points;
-  const Eigen::Vector3d& middle;  ///< of the middle vertex (eq. 1); lives as long as the bound
+  const Eigen::Vector3d& middle;  ///< of the middle vertex (eq. 1). Lives as long as the bound
 };
 
 /// At most the distance of any point within `radius_a` of `a` and any within `radius_b` of `b`.

@@ -39,10 +39,10 @@ auto measure_each(const ComparisonScenes& scenes, const Measure& measure) {
   return results;
 }
 
-/// The `n`th root of the product of n positive numbers; 1 of none.
+/// The `n`th root of the product of n positive numbers, or 1 of none.
 double geometric_mean(const std::vector<double>& values);
 
-/// One figure beside another: its part of it; of counts at least 1 each.
+/// One figure as a part of another. A count of 0 is taken as 1.
 double beside(double mine, double other);
 double beside(std::uint64_t mine, std::uint64_t other);
 

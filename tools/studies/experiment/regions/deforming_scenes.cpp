@@ -32,8 +32,8 @@ constexpr std::uint32_t cells_along = 120, cells_across = 60, cells_a_panel = 12
 constexpr double cell = 1.0 / cells_a_panel;
 constexpr double steep = 1.5, level = 0.1;
 
-/// An accordion of panels that stand at `slope` to the ground, up and down in turns, each a unit long; the
-/// whole of it turned, so that neither panels nor folds lie along an axis.
+/// An accordion of panels that stand at `slope` to the ground, up and down in turns, each a unit long. The
+/// whole of it is turned, so that neither panels nor folds lie along an axis.
 std::vector<Vector> accordion(double slope, double height) {
   const Eigen::AngleAxisd turn(0.6, Vector(1, 2, 3).normalized());
   std::vector<Vector> points;
@@ -140,7 +140,8 @@ BenchScene rigid_tori() {
     const double upright = i % 2 == 0 ? 0 : std::numbers::pi / 2;
     const auto place = [mesh, i, upright](std::size_t frame, std::span<float> out) {
       const double time = 0.13 * static_cast<double>(frame) + static_cast<double>(i);
-      // About the chain's own direction all turn alike and stay linked; about their own axes each by itself.
+      // About the chain's own direction all turn alike and stay linked. About their own axes each turns by
+      // itself.
       const Eigen::Matrix3d turn =
           (Eigen::AngleAxisd(upright + 0.13 * static_cast<double>(frame), Vector::UnitX()) *
            Eigen::AngleAxisd(time, Vector::UnitZ()))

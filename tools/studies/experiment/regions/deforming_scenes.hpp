@@ -10,15 +10,15 @@
 // Motions that partitions are compared on, each the same in every run.
 namespace graze::tools {
 
-/// A recorded motion; thresholds are `edges` mean edge lengths.
+/// A recorded motion. Thresholds are `edges` mean edge lengths.
 bench::BenchScene scene_of(const RecordedMotion& motion, std::string what, double edges);
 
 /// The paper's five models, which meet in the middle (`graze_studies accuracy` plays them), within a mean
 /// edge length.
 bench::BenchScene meeting_models(std::uint64_t seed);
 
-/// Two sheets of 121 x 61 vertices, one on the other, that rest as an accordion, its layers nearer than
-/// regions are wide, and unfold; or that rest flat and fold up the same way.
+/// Two sheets of 121 x 61 vertices, one on the other. They rest as an accordion, its layers nearer than
+/// regions are wide, and unfold. Or they rest flat and fold up the same way.
 bench::BenchScene unfolding_sheets();
 bench::BenchScene folding_sheets();
 

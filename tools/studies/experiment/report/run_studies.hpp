@@ -21,8 +21,8 @@ struct StudyMaker {
 /// with PNGs in experiments/. Without gnuplot figures are left out, but for their CSV. Without
 /// `options.times` everything timed is left out.
 ///
-/// Throws CheckFailed, once all is written, where something that has to hold does not; io::InputError for
-/// what cannot be read or written.
+/// Throws CheckFailed, once all is written, where something that has to hold does not. Throws io::InputError
+/// for what cannot be read or written.
 void run_studies(std::span<const StudyMaker> makers, const ExperimentOptions& options,
                  const std::filesystem::path& docs);
 

@@ -20,7 +20,7 @@ ModeSetting within(std::string name, double tolerance, const SceneSettings& sett
   return setting;
 }
 
-/// Each level's number is `part` of the most that eq. 6 gives at rest; the last, which decides what is
+/// Each level's number is `part` of the most that eq. 6 gives at rest. The last, which decides what is
 /// reported, is `last_part` of the contact distance.
 ModeSetting paper(const MovingSurfaces& scene, double part, double last_part, const SceneSettings& settings) {
   std::vector<double> epsilon;

@@ -8,8 +8,8 @@
 
 namespace graze::tools {
 
-/// The scenes; what each setting answered; and timed: how long it took, the means over the scenes, and the
-/// fronts.
+/// The scenes, and what each setting answered. If it is timed, also how long it took, the means over the
+/// scenes, and the fronts.
 std::vector<ResultTable> speed_tables(std::span<const SpeedResults> scenes);
 
 }  // namespace graze::tools

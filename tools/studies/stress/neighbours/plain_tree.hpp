@@ -24,7 +24,7 @@ class PlainTree {
   struct Box {
     Eigen::Array3d low, high;
   };
-  /// A leaf has no children; those of another node follow each other.
+  /// A leaf has no children. Those of another node follow each other.
   struct Node {
     std::uint32_t first_child = 0;
     std::uint32_t first = 0, count = 0;

@@ -55,7 +55,7 @@ std::uint64_t hash_of(const FrameReport& report) {
   return hash.value();
 }
 
-/// Takes reports and keeps some for long, also beyond their scene; each must be what it was when it is let
+/// Takes reports and keeps some for long, also beyond their scene. Each must be what it was when it is let
 /// go.
 class Holder {
  public:
@@ -111,7 +111,7 @@ struct Interval {
     contacts += s.contacts;
     diagnostics += report.diagnostics().size();
     objects = std::max(objects, s.objects);
-    // Reports are as many as the two who hold them happen to have held; resident memory shows those.
+    // Reports are as many as the two who hold them happen to have held. Resident memory shows those.
     statistics = std::max(statistics, static_cast<double>(s.bytes.objects + s.bytes.pairs + s.bytes.threads));
     if (frames % 20 == 1) resident = std::max(resident, resident_bytes());
   }

@@ -19,10 +19,10 @@ struct SoakOptions {
   std::function<void()> begin_thread = nullptr;
 };
 
-/// Treats a scene badly: bodies come and go, jump, hold NaN; calls are wrong; pairs and rules
-/// change; two threads stage while a third steps and two more hold old reports; the scene is made anew with
-/// other settings. Checks that every 100th frame equals a scene built afresh, that held reports do not
-/// change, and that memory does not grow after a warm-up.
+/// Treats a scene badly. Bodies come and go, jump, hold NaN. Calls are wrong. Pairs and rules change. Two
+/// threads stage while a third steps and two more hold old reports. The scene is made anew with other
+/// settings. Checks that every 100th frame equals a scene built afresh, that held reports do not change, and
+/// that memory does not grow after a warm-up.
 StressResult run_soak_study(const SoakOptions& options);
 
 }  // namespace graze::tools

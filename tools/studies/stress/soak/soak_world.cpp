@@ -19,7 +19,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 struct Mode {
   const char* name;
   ContactDetail detail;
-  double tolerance;  ///< of Accuracy::within; 0: exact
+  double tolerance;  ///< of Accuracy::within, 0 for exact
 };
 constexpr std::array<Mode, 8> modes = {{{"features", ContactDetail::features, 0},
                                         {"closest", ContactDetail::closest, 0},
@@ -125,7 +125,7 @@ void SoakWorld::come_and_go(Owner& owner, bool is_bound) {
   if (owner.random.chance(0.1) && owner.bodies.size() > least_bodies) remove_any(owner);
 }
 
-/// Somewhere in the room, now and then far from it; its own size, a point, or inside out.
+/// Somewhere in the room, now and then far from it. It has its own size, is a point, or is inside out.
 void SoakWorld::teleport(scenes::Random& random, Body& body) {
   body.pose.linear() = random.turn();
   const double far = random.chance(0.05) ? 1e4 : 1.6;

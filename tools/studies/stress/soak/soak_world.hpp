@@ -35,8 +35,8 @@ class SoakWorld {
   /// Moves bound memory, changes pairs and rules: the stepping thread, between steps, while nobody writes.
   /// Without mistakes every position is good afterwards.
   void change_between_steps(bool with_mistakes);
-  /// Describes how the report of a step differs from that of a scene built afresh; empty if it does not.
-  /// No writer may have made calls during that step.
+  /// Describes how the report of a step differs from that of a scene built afresh. Empty if it does not. No
+  /// writer may have made calls during that step.
   [[nodiscard]] std::string difference_from_fresh(const FrameReport& report) const;
 
  private:

@@ -11,7 +11,7 @@ btVector3 vector_of(const float (&point)[3]) {
   return {point[0], point[1], point[2]};
 }
 
-/// Bullet's dynamic tree, a leaf for each vertex; volumes are refitted from the leaves up.
+/// Bullet's dynamic tree, a leaf for each vertex. Volumes are refitted from the leaves up.
 class DynamicTree {
  public:
   DynamicTree(const World& world, Task task, std::uint32_t object) : parts_(world, task, object) {

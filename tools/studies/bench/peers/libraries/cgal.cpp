@@ -22,7 +22,7 @@ CGAL::Bbox_3 bbox_of(const FloatBox& box) {
           static_cast<double>(box.max[0]), static_cast<double>(box.max[1]), static_cast<double>(box.max[2])};
 }
 
-/// CGAL: a tree of triangles, rebuilt; the other object's triangles near its box look for those whose boxes
+/// CGAL: a tree of triangles, rebuilt. The other object's triangles near its box look for those whose boxes
 /// theirs meet.
 class CgalTree {
  public:

@@ -32,8 +32,8 @@ class Device {
   RTCDevice device_;
 };
 
-/// Embree: a scene for each object with one user geometry, a primitive for each vertex or triangle, refitted;
-/// pairs of scenes by rtcCollide.
+/// Embree: a scene for each object with one user geometry, a primitive for each vertex or triangle, refitted.
+/// Pairs of scenes go by rtcCollide.
 class EmbreeTree {
  public:
   EmbreeTree(const World& world, Task task, std::uint32_t object)

@@ -11,7 +11,7 @@ namespace {
 using Model = fcl::BVHModel<fcl::AABBd>;
 
 /// FCL: a tree of boxes, refitted from the leaves up. Distances of objects by FCL's own search, which is told
-/// the range; pairs of triangles by a walk over pairs of its nodes.
+/// the range. Pairs of triangles by a walk over pairs of its nodes.
 class FclTree {
  public:
   FclTree(const World& world, Task task, std::uint32_t object) : parts_(world, task, object) {

@@ -24,8 +24,9 @@ struct Cloud {
   }
 };
 
-/// nanoflann: a tree of the vertices, rebuilt when it is first asked for in a frame; those of the later
-/// object that are in this one's box look for their neighbours. In float, a little wider than the distance.
+/// nanoflann: a tree of the vertices, rebuilt when it is first asked for in a frame. The vertices of the
+/// later object that are in this one's box look for their neighbours. In float, a little wider than the
+/// distance.
 class PointTree {
  public:
   PointTree(const World& world, Task task, std::uint32_t object)

@@ -13,7 +13,7 @@ struct PlacedHull {
   const ConvexHull* hull = nullptr;
   std::uint32_t body = 0;
   std::uint32_t part = 0;                          ///< of the body, from 0
-  Eigen::Vector3d half = Eigen::Vector3d::Zero();  ///< of a box about the origin; 0 for any other body
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();  ///< of a box about the origin, 0 for any other body
 
   Eigen::Matrix3d axes;  ///< of its own coordinates
   Eigen::Vector3d middle;

@@ -48,7 +48,7 @@ std::vector<float> recorded(const Points& points) {
   return frame;
 }
 
-/// A feature's vertices, and how much of each makes up a point on it; faces are triangles.
+/// A feature's vertices, and how much of each makes up a point on it. Faces are triangles.
 struct Blend {
   std::array<std::uint32_t, 3> vertices{};
   std::array<double, 3> weights{};

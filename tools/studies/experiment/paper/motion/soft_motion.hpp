@@ -30,17 +30,17 @@ struct SoftMotion {
   std::string name;
   std::vector<SoftBody> bodies;
   Eigen::Vector3d meeting_point = Eigen::Vector3d::Zero();
-  double stiffness = 1;  ///< of structural springs; those of bends have half of it
+  double stiffness = 1;  ///< of structural springs. Those of bends have half of it
   double gap = 0;        ///< surfaces nearer than this push each other off
   double push = 0;       ///< force by what is missing to the gap, of each contact
   std::size_t steps = 0;
 };
 
 /// Plays a motion and records `frames` of its steps, evenly chosen, the first and the last among them. Exact
-/// mode guides it: its contacts below the gap are where bodies push, and where two surfaces come nearer than
-/// a quarter of a unit or pierce each other all stand still from there on, as the paper stops its simulation
-/// "to avoid penetrations". Positions are rounded to multiples of 2^-14, so that float holds them, and double
-/// the squares of their distances, without a further error; they must stay within 512.
+/// mode guides it: its contacts below the gap are where bodies push. Where two surfaces come nearer than a
+/// quarter of a unit or pierce each other, all stand still from there on. The paper too stops its
+/// simulation "to avoid penetrations". Positions are rounded to multiples of 2^-14. So float holds them, and
+/// double the squares of their distances, without a further error. They must stay within 512.
 RecordedMotion record_soft_motion(const SoftMotion& motion, std::size_t frames);
 
 }  // namespace graze::tools

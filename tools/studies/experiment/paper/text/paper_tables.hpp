@@ -9,7 +9,7 @@
 
 namespace graze::tools {
 
-/// The tables of an experiment; the names of all begin with `prefix`, the titles end with `of`.
+/// The tables of an experiment. The names of all begin with `prefix`, the titles end with `of`.
 std::vector<ResultTable> tables_of(const RecordedMotion& motion, const PaperResults& results,
                                    const std::string& prefix, const std::string& of);
 

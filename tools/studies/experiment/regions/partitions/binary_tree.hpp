@@ -9,7 +9,7 @@
 
 namespace graze::tools {
 
-/// A binary tree over vertices. Each node's two halves have lower numbers than itself; the root is the last.
+/// A binary tree over vertices. Each node's two halves have lower numbers than itself. The root is the last.
 class BinaryTree {
  public:
   /// Returns the new node's number.

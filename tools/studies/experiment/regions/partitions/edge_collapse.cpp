@@ -9,7 +9,7 @@
 namespace graze::tools {
 namespace {
 
-/// A region that edges still lead from; numbered as its node in the tree.
+/// A region that edges still lead from. It is numbered as its node in the tree.
 struct Cluster {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double vertex_count = 0;

@@ -6,10 +6,10 @@
 
 namespace graze::tools {
 
-/// The tree of a mesh's edge collapses: every vertex is a region at first; again and again the edge collapses
-/// whose two regions together spread least more about their mean than they do apart (Ward's measure: the
-/// product of their vertex counts over its sum, times the squared distance of their means). Components that
-/// no edge joins are joined at last, the first with the next.
+/// The tree of a mesh's edge collapses. Every vertex is a region at first. Again and again the edge collapses
+/// whose two regions together spread least more about their mean than they do apart. This is Ward's measure:
+/// the product of their vertex counts over its sum, times the squared distance of their means. Components
+/// that no edge joins are joined at last, the first with the next.
 BinaryTree collapsed(const Mesh& mesh);
 
 }  // namespace graze::tools

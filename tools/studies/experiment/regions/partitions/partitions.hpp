@@ -23,8 +23,8 @@ inline constexpr Partition all_partitions[] = {Partition::octree, Partition::med
 const char* name_of(Partition partition);
 
 /// The mesh's used vertices, divided. The three that are no octree make a binary tree, of which each region
-/// takes the largest descendants as its children until they are eight.
-/// Leaves have at most `capacity` vertices; of the octree always RegionTree::leaf_capacity.
+/// takes the largest descendants as its children until they are eight. Leaves have at most `capacity`
+/// vertices. Those of the octree always have RegionTree::leaf_capacity.
 ClusterTree divide(const Mesh& mesh, Partition partition, std::uint32_t capacity = RegionTree::leaf_capacity);
 
 }  // namespace graze::tools

@@ -11,13 +11,13 @@ namespace graze::tools {
 /// the root.
 struct ClusterTree {
   struct Cluster {
-    std::vector<std::uint32_t> children;  ///< clusters; none for a leaf
+    std::vector<std::uint32_t> children;  ///< clusters, none for a leaf
     std::vector<std::uint32_t> vertices;  ///< of a leaf
   };
   std::vector<Cluster> clusters;
 };
 
-/// A region of any partition; the fields mean what they do in graze's Region.
+/// A region of any partition. The fields mean what they do in graze's Region.
 struct RegionNode {
   std::uint32_t level = 0;
   std::uint32_t first_child = 0;
@@ -29,7 +29,7 @@ struct RegionNode {
   [[nodiscard]] bool is_leaf() const { return child_count == 0; }
 };
 
-/// Regions by any partition, alike for all: numbered level by level, children of one together; a region's
+/// Regions by any partition, alike for all: numbered level by level, children of one together. A region's
 /// vertices are one range.
 class RegionHierarchy {
  public:
@@ -38,7 +38,7 @@ class RegionHierarchy {
   [[nodiscard]] std::span<const RegionNode> nodes() const { return nodes_; }
   [[nodiscard]] std::uint32_t level_count() const { return nodes_.back().level + 1; }
   [[nodiscard]] std::size_t leaf_count() const;
-  /// The leaf of each vertex of the mesh; of an unused one it means nothing.
+  /// The leaf of each vertex of the mesh. Of an unused one it means nothing.
   [[nodiscard]] std::span<const std::uint32_t> leaf_of_vertex() const { return leaf_of_vertex_; }
   /// The mesh's used vertices, region after region.
   [[nodiscard]] std::span<const std::uint32_t> vertices() const { return vertices_; }
@@ -47,7 +47,7 @@ class RegionHierarchy {
   static std::span<const Value> part(std::span<const Value> of_all, const RegionNode& node) {
     return of_all.subspan(node.first_vertex, node.vertex_count);
   }
-  /// The bytes of nodes and vertex numbers; those of bounds come on top.
+  /// The bytes of nodes and vertex numbers. Those of bounds come on top.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:

@@ -15,8 +15,8 @@ class SurfaceHalves {
   explicit SurfaceHalves(const Mesh& mesh);
 
   /// Sorts a region's vertices so that the first so many, as returned, are one half. A connected region is
-  /// divided in the middle between two of its ends that are far from each other; of one that is not, whole
-  /// components go to either half.
+  /// divided in the middle between two of its ends that are far from each other. Of one that is not
+  /// connected, whole components go to either half.
   std::size_t sort(std::span<std::uint32_t> region);
 
  private:
