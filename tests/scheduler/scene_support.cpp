@@ -1,15 +1,8 @@
 #include "scheduler/scene_support.hpp"
 
-#include "base/task_pool.hpp"
 #include "support/catch.hpp"
 
 namespace graze::tests {
-namespace {
-
-// The scenes of these tests are small, so that their rounds would not pay for a second thread.
-[[maybe_unused]] const bool uses_all_workers = (TaskPool::use_all_workers(true), true);
-
-}  // namespace
 
 std::shared_ptr<const Mesh> mesh_of(const models::MeshData& data) {
   return std::make_shared<const Mesh>(Mesh::from_polygons(data.positions, data.corners, data.corner_counts));
