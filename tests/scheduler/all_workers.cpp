@@ -1,5 +1,5 @@
-// A program with this file uses all workers in each round. The scenes of tests are small, so that their rounds
-// would not pay for a second thread.
+// A program with this file uses all workers in each round. The scenes of tests are small, so that their
+// rounds would not pay for a second thread.
 
 #include "base/task_pool.hpp"
 
