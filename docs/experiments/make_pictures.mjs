@@ -18,14 +18,16 @@ if (!program) {
 const browserModule = join(dirname(resolve(program)), 'viewer/work/source/node_modules/playwright-core/index.mjs');
 const { chromium } = await import(pathToFileURL(browserModule));
 const work = mkdtempSync(join(tmpdir(), 'graze-pictures-'));
-const graze = (...words) => execFileSync(program, words, { stdio: ['ignore', 'ignore', 'inherit'] });
+const run = (path, words) => execFileSync(path, words, { stdio: ['ignore', 'ignore', 'inherit'] });
+const graze = (...words) => run(program, words);
+const experiment = (...words) => run(join(dirname(resolve(program)), '../studies/graze_studies'), ['experiment', ...words]);
 
 /** Row 3 of the paper's table 2: ε of level 1, of level 2, and the last ε, below which two vertices are reported. */
 const ROW_3 = [24, 14, 8];
 
 /** Two pawns of experiment 1: one stands, the other comes from the side and leans over. */
 function pawns() {
-  graze('experiment', '1', '--frames', '1', '--runs', '1', '--out', work);
+  experiment('1', '--frames', '1', '--runs', '1', '--out', work);
   const mesh = 'experiment_1/pawn_0.ply';
   const scene = join(work, 'pawns.json');
   writeFileSync(scene, JSON.stringify({
@@ -40,7 +42,7 @@ function pawns() {
 
 /** The scene file that experiment 2 writes for row 3 of the paper's table 3. */
 function humans() {
-  graze('experiment', '2', '--frames', '40', '--runs', '1', '--out', work);
+  experiment('2', '--frames', '40', '--runs', '1', '--out', work);
   return join(work, 'experiment_2/row_3.json');
 }
 
