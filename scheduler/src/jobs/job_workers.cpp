@@ -42,6 +42,10 @@ PairCounters JobWorkers::counters() const {
 
 /// The workers get jobs by chance, so all of them get the capacity that any of them needed.
 bool JobWorkers::equalize_capacity(const StepDeadline& deadline) {
+  if (workers_.size() == 1) {
+    workers_[0].count_bytes();
+    return true;
+  }
   // Lists never shrink. So where no number of bytes has changed, all capacities are still equal.
   const auto has_grown = [](const JobWorker& worker) { return worker.bytes != worker.equal_bytes; };
   if (std::none_of(workers_.begin(), workers_.end(), has_grown)) return true;

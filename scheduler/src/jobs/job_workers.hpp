@@ -54,8 +54,11 @@ class JobWorkers {
 
   /// Begins a step: the counters are 0.
   void begin();
-  /// Ends a worker's part of a round of jobs. The worker calls this itself.
-  void end_round(unsigned worker) { workers_[worker].count_bytes(); }
+  /// Ends a worker's part of a round of jobs. The worker calls this itself. One that is alone counts once a
+  /// step, in `equalize_capacity`.
+  void end_round(unsigned worker) {
+    if (workers_.size() > 1) workers_[worker].count_bytes();
+  }
   /// The counters of all workers together.
   [[nodiscard]] PairCounters counters() const;
 
