@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <graze/error.hpp>
 #include <optional>
@@ -111,6 +112,23 @@ TEST_CASE("arena: scenes that step inside the caller's tasks, in its arena or th
       for (std::size_t frame = 0; frame < expected.size(); ++frame)
         CHECK(difference_of(*reports[frame], *expected[frame]) == "");
   }
+}
+
+TEST_CASE("arena: a step in a group of tasks that was cancelled has all of its answers") {
+  const SceneSettings alone = settings_of(0.05, 0.3);
+  const auto expected = stepped(alone);
+  SceneSettings settings = alone;
+  settings.threads = 3;
+  settings.arena = ArenaPolicy::callers;
+  std::vector<ReportHandle> found;
+  oneapi::tbb::task_group group;
+  group.run_and_wait([&] {
+    group.cancel();
+    found = stepped(settings);
+  });
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t frame = 0; frame < expected.size(); ++frame)
+    CHECK(difference_of(*found[frame], *expected[frame]) == "");
 }
 
 }  // namespace graze::tests

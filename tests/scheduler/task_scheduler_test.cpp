@@ -33,16 +33,18 @@ void check_same(const std::vector<ReportHandle>& found, const std::vector<Report
   }
 }
 
-/// Has no threads. Calls the tasks from the last to the first, or throws before, amid or after them.
+/// Has no threads. Calls the tasks from the last to the first, throws before, amid or after them, or calls
+/// none.
 class WilfulScheduler final : public TaskScheduler {
  public:
-  enum class Way { backwards, throws_before, throws_amid, throws_after };
+  enum class Way { backwards, throws_before, throws_amid, throws_after, forgets };
   explicit WilfulScheduler(Way way) : way_(way) {}
 
   void run(unsigned count, const std::function<void(unsigned task)>& task) override {
     ++runs;
     most_tasks = std::max(most_tasks, count);
     if (way_ == Way::throws_before) throw std::bad_alloc();
+    if (way_ == Way::forgets) return;
     for (unsigned left = count; left > 0; --left) {
       if (way_ == Way::throws_amid && left == 1) throw std::bad_alloc();
       task(left - 1);
@@ -87,11 +89,12 @@ TEST_CASE("task scheduler: a pool of the caller's and no threads at all give the
   }
 }
 
-TEST_CASE("task scheduler: tasks in another order, and a scheduler that throws") {
+TEST_CASE("task scheduler: tasks in another order, and a scheduler that throws or forgets them") {
   using Way = WilfulScheduler::Way;
   const MovingScene moving;
   const auto expected = moving.play(settings_on(1, ContactDetail::features), frames_of_scheduler);
-  for (const Way way : {Way::backwards, Way::throws_before, Way::throws_amid, Way::throws_after}) {
+  for (const Way way :
+       {Way::backwards, Way::throws_before, Way::throws_amid, Way::throws_after, Way::forgets}) {
     INFO("way " << static_cast<int>(way));
     const auto scheduler = std::make_shared<WilfulScheduler>(way);
     check_same(moving.play(settings_on(3, ContactDetail::features), frames_of_scheduler, scheduler),

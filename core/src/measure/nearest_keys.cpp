@@ -109,7 +109,7 @@ void NearestKeys::reserve_as(const NearestKeys& other) {
 }
 
 std::size_t NearestKeys::byte_count() const {
-  return bytes_of(found_);
+  return bytes_of(found_) + bytes_of(nearest_);
 }
 
 }  // namespace graze

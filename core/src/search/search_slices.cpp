@@ -125,7 +125,8 @@ std::size_t SearchSlices::byte_count() const {
   for (const SearchSlice& slice : slices_)
     bytes += bytes_of(slice.found.leaves) + bytes_of(slice.contacts.near) + bytes_of(slice.contacts.keys) +
              bytes_of(slice.contacts.of_vertices) + bytes_of(slice.contacts.touching) +
-             bytes_of(slice.contacts.runs) + bytes_of(slice.closest.closest);
+             bytes_of(slice.contacts.runs) + bytes_of(slice.contacts.piercing) +
+             bytes_of(slice.contacts.edges_if_sunk) + bytes_of(slice.closest.closest);
   return bytes;
 }
 

@@ -68,8 +68,8 @@ class GRAZE_API Scene {
   /// @name Making a scene
   /// @{
 
-  /// Makes a scene without objects. Its steps run their tasks with `scheduler`, which has to be whole until
-  /// the scene is gone. If it is null, they run with oneTBB, or on one thread if graze was built without.
+  /// Makes a scene without objects. Its steps run their tasks with `scheduler`, which the scene keeps. If
+  /// that is null, they run with oneTBB, or on one thread if graze was built without.
   ///
   /// Throws Error if a distance is negative or NaN, if `contact_distance` is infinite, if a value is no
   /// enumerator, if the time budget is negative, or if a limit of contacts is 0. Also throws Error for paper
@@ -305,7 +305,8 @@ class GRAZE_API Scene {
   /// Begins a step on another thread and returns. The step takes up the calls made until now. Calls made
   /// while it runs are for the step after it. Bound memory must not change until wait() has returned.
   ///
-  /// Throws Error if a step is running, and `std::bad_alloc` if the step cannot begin.
+  /// Throws Error if a step is running, and `std::bad_alloc` if the step cannot begin. Also throws what
+  /// TaskScheduler::start() throws. A scheduler without threads runs the step before this returns.
   void step_async(std::uint64_t tag = 0);
   /// Returns whether a step is running.
   [[nodiscard]] bool is_stepping() const;

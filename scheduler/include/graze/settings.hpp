@@ -28,7 +28,7 @@ enum class BindPolicy : std::uint8_t {
   when_told,   ///< Only steps after Scene::positions_changed() read the memory.
 };
 
-/// Says in which arena of oneTBB a step runs its tasks.
+/// Says in which arena of oneTBB a step runs its tasks. It has no effect if the scene has a TaskScheduler.
 enum class ArenaPolicy : std::uint8_t {
   own,      ///< The scene has an arena of its own, with SceneSettings::threads threads.
   callers,  ///< Tasks run in the arena of the thread that calls Scene::step(), at most as many at once as it
@@ -101,7 +101,8 @@ struct SceneSettings {
   /// How exact the answers are.
   Accuracy accuracy = Accuracy::exact();
   /// How many threads a step uses. 0 means one for each processor. 1 means that the thread that calls
-  /// Scene::step() does all the work. Numbers above max_threads() count as max_threads(). Answers do not
+  /// Scene::step() does all the work. Numbers above max_threads() count as max_threads(). A scene with a
+  /// TaskScheduler should have as many as that uses. Without oneTBB and without one it is 1. Answers do not
   /// depend on it.
   unsigned threads = 0;
   /// In which arena of oneTBB a step runs its tasks.

@@ -12,18 +12,20 @@ namespace graze {
 ///
 /// @par Threads
 /// Each call may come from any thread, also from one that runs work of start(). Calls of run() for two scenes
-/// may come at the same time.
+/// may come at the same time. A scheduler that waits for its threads when it goes must not go on one of them:
+/// keep it until all its scenes are gone.
 class TaskScheduler {
  public:
-  /// Schedulers are deleted through this class.
+  /// Frees the scheduler.
   virtual ~TaskScheduler() = default;
 
   /// Calls `task(0)`, `task(1)` and so on, `count` calls in all, each once. Returns when all of them have
   /// returned. The calls may run at the same time or one after the other, in any order and on any thread.
   ///
   /// Tasks do not throw, and do not wait for each other. The calling thread should take a part of them, so
-  /// that a step goes on while all other threads are busy. `count` is at most SceneSettings::threads. If this
-  /// throws, no task may be running any more. Then the calling thread does what is left.
+  /// that a step goes on while all other threads are busy. `count` is at most the number of threads that
+  /// SceneSettings::threads means. If this throws, no task may be running any more, and none may be called
+  /// later. The calling thread does what is left.
   virtual void run(unsigned count, const std::function<void(unsigned task)>& task) = 0;
 
   /// Calls `work` once, on another thread, without waiting for it. Scene::step_async() runs its step so.
@@ -36,9 +38,9 @@ class TaskScheduler {
  protected:
   /// For derived classes.
   TaskScheduler() = default;
-  /// Only whole schedulers of one type are copied.
+  /// For derived classes.
   TaskScheduler(const TaskScheduler&) = default;
-  /// Only whole schedulers of one type are copied.
+  /// For derived classes.
   TaskScheduler& operator=(const TaskScheduler&) = default;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -22,11 +23,15 @@ class SerialScheduler final : public TaskScheduler {
   }
 
   void start(std::function<void()> work) override {
+    // Another thread may still be in here, since its step has ended before it returns. The work never waits
+    // for the mutex.
+    const std::lock_guard lock(mutex_);
     if (beside_.joinable()) beside_.join();  // its step has ended: a scene has one at a time
     beside_ = std::thread(std::move(work));
   }
 
  private:
+  std::mutex mutex_;  ///< guards the thread
   std::thread beside_;
 };
 

@@ -98,10 +98,10 @@ void TaskPool::run(std::size_t count, const Work& work, const Round& round) {
   try {
     // The function is small enough to need no memory.
     scheduler_->run(workers, [&items](unsigned worker) { items.take(worker); });
-  } catch (...) {
-    // The tasks that began have ended, and this thread does the rest.
-    items.take(0);
+  } catch (...) {  // all tasks that began have ended
   }
+  // What a scheduler has left out, because it threw or was cancelled, this thread does. Else nothing is left.
+  items.take(0);
   items.rethrow();
 }
 

@@ -26,8 +26,10 @@ class TbbScheduler final : public TaskScheduler {
   }
 
   void run(unsigned count, const std::function<void(unsigned task)>& task) override {
+    // A context of its own: a caller that steps in a group of tasks may have cancelled that group.
+    oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
     const auto run_all = [&] {
-      oneapi::tbb::parallel_for(0U, count, task, oneapi::tbb::simple_partitioner());
+      oneapi::tbb::parallel_for(0U, count, task, oneapi::tbb::simple_partitioner(), context);
     };
     // In the caller's arena, `isolate` keeps a waiting thread from running the caller's own tasks in the
     // middle of a step.

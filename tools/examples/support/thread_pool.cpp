@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -74,9 +75,10 @@ ThreadPool::~ThreadPool() {
 void ThreadPool::run(unsigned count, const std::function<void(unsigned task)>& task) {
   const auto batch = std::make_shared<Batch>(task, count);
   const auto helpers = std::min<std::size_t>(count - 1, state_->threads.size());
-  {
+  try {
     const std::lock_guard lock(state_->mutex);
     for (std::size_t i = 0; i < helpers; ++i) state_->queue.emplace_back([batch] { batch->help(); });
+  } catch (const std::bad_alloc&) {  // then fewer threads help
   }
   state_->changed.notify_all();
   batch->help();
@@ -84,6 +86,7 @@ void ThreadPool::run(unsigned count, const std::function<void(unsigned task)>& t
 }
 
 void ThreadPool::start(std::function<void()> work) {
+  if (state_->threads.empty()) return work();
   {
     const std::lock_guard lock(state_->mutex);
     state_->queue.push_back(std::move(work));

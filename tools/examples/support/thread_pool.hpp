@@ -10,9 +10,10 @@ namespace examples {
 /// queue. Any number of scenes may share it.
 class ThreadPool final : public graze::TaskScheduler {
  public:
-  /// Starts `threads` threads. With the thread that steps, so many threads and one more run tasks.
+  /// Starts `threads` threads. With the thread that steps, so many threads and one more run tasks. Without
+  /// threads, steps that are started run before start() returns.
   explicit ThreadPool(unsigned threads);
-  /// Waits for the work that was begun.
+  /// Runs the work that is queued, and waits for it. Not to be called by a thread of the pool.
   ~ThreadPool() override;
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <graze/contact.hpp>
@@ -28,7 +29,9 @@ class GRAZE_API CarryingChoice {
   bool choose(std::vector<Contact>& contacts, std::span<const Contact> last, const CarryingRule& rule);
   /// Makes room for pairs of so many contacts.
   void reserve(std::size_t contacts);
-  void reserve_as(const CarryingChoice& other) { reserve(other.candidates_.capacity()); }
+  void reserve_as(const CarryingChoice& other) {
+    reserve(std::max(other.candidates_.capacity(), other.lost_.capacity()));
+  }
   [[nodiscard]] std::size_t byte_count() const {
     return bytes_of(candidates_) + bytes_of(lost_) + bytes_of(places_) + bytes_of(outline_);
   }
