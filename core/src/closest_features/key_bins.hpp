@@ -14,6 +14,16 @@ namespace graze {
 /// Some hundred bins that ascend as keys do, by the kinds of the features and the highest bits of the index
 /// of feature a. Several threads find keys in any order, and each puts its own into bins. Then each thread
 /// sorts some of the bins, with what all threads have in them.
+///
+/// Two slices of a stage, whose keys are letters here, and two slices of the next stage:
+///
+///     slice 1 puts into bins    [0: k a]  [3: p]    [7: z y]
+///     slice 2 puts into bins    [0: c]    [3: n o]
+///
+///     next slice 1 sorts bin 0             a c k
+///     next slice 2 sorts bins 3 and 7      n o p  y z
+///
+/// All keys of a bin come before all of the next. So what the slices sort, one after the other, is in order.
 class KeyBins {
  public:
   explicit KeyBins(const IndexedMesh& mesh_a);

@@ -20,6 +20,17 @@ namespace graze {
 /// from there to double, several at once. So keys may come later than the features. All have come after
 /// `finish`. Features that the pair's groups leave out are not tested against each other.
 ///
+///     selected features of two leaves, laid out in float
+///       | boxes            too far: no key
+///       v
+///     batches for the kernels, sixteen pairs at once, in float
+///       | uncertain        too far: no key; certain: the key goes to the sink
+///       v
+///     batches in double, with certified bounds
+///       | uncertain        too far: no key; certain: the key goes to the sink
+///       v
+///     exact arithmetic     decides each pair that is left
+///
 /// From the distance `range.limit()` on a pair is of no interest. It may shrink meanwhile. Below the distance
 /// `range.keys_only_below()` only the keys of pairs are wanted. Edges are tested for piercing faces where
 /// `range.may_pierce()`, if they are not further than `range.touching()`. The search calls

@@ -13,6 +13,16 @@ namespace graze {
 /// A queue of calls from any number of threads to one thread, without a lock. It is a stack, newest first, of
 /// elements of a pool. A push is one exchange of the stack's head, and that exchange decides the order of
 /// calls. `collect` empties the stack at once and reverses it.
+///
+/// A thread pushes the calls 1 and 2, and another thread pushes 3 between them. Each links to the one before:
+///
+///     newest_ -> 2 -> 3 -> 1
+///
+/// `collect` takes all of them by one exchange of `newest_`, and turns the links round:
+///
+///     oldest_collected_ -> 1 -> 3 -> 2 <- newest_collected_
+///
+/// What is pushed after the exchange begins a new stack, which is for the next step.
 class CallQueue {
  public:
   CallQueue() = default;
