@@ -155,9 +155,12 @@ class Written {
       add(is_named ? std::to_string(*diagnostic.object) : std::string("none"));
       add(diagnostic.kind, diagnostic.message);
     }
-    for (const auto& [name, member] : io::counter_fields) add(frame.statistics.*member);
-    for (const std::uint64_t count : frame.statistics.regions_expanded) add(count);
-    for (const auto& [name, member] : io::time_fields) add(frame.statistics.*member);
+    const StepStatistics& statistics = frame.statistics;
+    for (const auto& [name, member] : io::count_fields) add(statistics.*member);
+    for (const auto& [name, member] : io::work_fields) add(statistics.work.*member);
+    for (const auto& [name, member] : io::bytes_fields) add(statistics.bytes.*member);
+    for (const std::uint64_t count : statistics.work.regions_expanded) add(count);
+    for (const auto& [name, member] : io::time_fields) add(statistics.times.*member);
   }
 
   std::string text_;

@@ -1,6 +1,7 @@
 // The model's side of each step of a scene: the report that the step must give.
 
 #include <algorithm>
+#include <graze/scene_enumerators.hpp>
 #include <limits>
 
 #include "finding.hpp"
