@@ -233,4 +233,15 @@ TEST_CASE("threads ask about the same meshes at once") {
   for (const QueryResult& result : results) CHECK(is_same(result, alone));
 }
 
+TEST_CASE("query: a reach that is less than what underflow loses ends") {
+  const auto point_at = [](const Eigen::Vector3d& place) {
+    return Mesh::from_triangles(std::vector<Eigen::Vector3d>{place}, std::vector<std::uint32_t>{0, 0, 0});
+  };
+  const Mesh a = point_at({8.8e-280, 9.6e-304, 5.2e-270});
+  const Mesh b = point_at({0, 0, 0});
+  const QueryResult result = query(a, a.rest(), b, b.rest(), {.range = 2e-289});
+  CHECK((!result.in_contact && !result.is_in_range && result.contacts.empty()));
+  CHECK((result.distance.lower <= 5.2e-270 && result.distance.upper >= 5.2e-270));
+}
+
 }  // namespace graze::tests

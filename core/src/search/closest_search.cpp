@@ -243,7 +243,12 @@ bool ClosestSearch::is_one_pair_of_leaves() const {
 SearchProgress ClosestSearch::finish(SearchWorker& worker) {
   merge_slices(worker);
   slices_.clear();
-  if (closest_.closest.keys.empty()) return begin_surfaces(worker);
+  if (closest_.closest.keys.empty()) {
+    if (source_ != LeafSource::walk || is_bounded_) return begin_surfaces(worker);
+    // The whole of both surfaces was walked without a bound, and the reach is less than what underflow loses.
+    // To begin anew would find nothing again.
+    ClosestRange(worker.pair, pair_.query, ties(), closest_).offer_any();
+  }
   if (source_ == LeafSource::walk) {
     slices_.keep_front(std::max(pair_.query.threshold, std::min(closest_.closest.upper, pair_.query.reach)),
                        worker);

@@ -93,6 +93,18 @@ class ClosestRange {
     const auto& [a, b] = pair_.groups->some_faces();
     offer_apart(pair_.a.mesh().face(a)[0], pair_.b.mesh().face(b)[0]);
   }
+  /// Offers two vertices, wherever they are, where nothing is below the reach.
+  void offer_any() {
+    const auto offer = [this](std::uint32_t a, std::uint32_t b) {
+      set_.offer(FeaturePairKey::of(vertex_piece(a), vertex_piece(b)));
+    };
+    if (pair_.groups != nullptr) {
+      const auto& [a, b] = pair_.groups->some_faces();
+      return offer(pair_.a.mesh().face(a)[0], pair_.b.mesh().face(b)[0]);
+    }
+    offer(pair_.a.mesh().regions().region(whole_surfaces.a).middle,
+          pair_.b.mesh().regions().region(whole_surfaces.b).middle);
+  }
   /// Offers two vertices that are apart.
   void offer_apart(std::uint32_t a, std::uint32_t b) {
     // Not at 0: whether a walk came by must not show in the witness.
