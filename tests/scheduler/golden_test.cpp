@@ -33,8 +33,8 @@ struct Golden {
 ///
 /// `graze_studies stress --determinism --frames 20 --repeats 1` prints them all, for a change that is meant
 /// to answer otherwise. `nearest` has the pairs of that detail alone. `solids` also has sides by winding
-/// numbers, and what is inside. `limits` also has the order by which contacts are kept, and `carrying` those
-/// that are chosen to carry a pair, which depend on the frame before.
+/// numbers, and what is inside. `limits` also has the order by which contacts are kept. `carrying` has those
+/// that are chosen to carry a pair. They depend on the frame before.
 constexpr std::array<Golden, 10> golden = {{
     {"paths", 0x2a460bba2118de22U},
     {"pile", 0xe8d81a16d3e3979fU},

@@ -135,14 +135,14 @@ struct StepWork {
 /// Counts the bytes that a scene holds. Meshes are not counted, see Mesh::byte_count(). Memory that oneTBB
 /// holds is not counted either.
 struct StepBytes {
-  /// Of objects, from step to step: positions, copies of them, bounds, and calls that wait.
+  /// Bytes held for objects from step to step: positions, copies of them, bounds, and calls that wait.
   std::uint64_t objects = 0;
-  /// Of pairs, from step to step: answers, and what speeds up the next search.
+  /// Bytes held for pairs from step to step: answers, and what speeds up the next search.
   std::uint64_t pairs = 0;
-  /// Of all reports: those that handles keep, and those that the scene keeps to fill again.
+  /// Bytes of all reports: those that handles keep, and those that the scene keeps to fill again.
   std::uint64_t reports = 0;
-  /// Of the working memory of the threads. It differs from run to run, because chance decides which thread
-  /// does which work.
+  /// Bytes of the working memory of the threads. They differ from run to run, because chance decides which
+  /// thread does which work.
   std::uint64_t threads = 0;
 
   /// Returns the sum of all.
@@ -151,17 +151,17 @@ struct StepBytes {
 
 /// The times of the stages of one step, in milliseconds.
 struct StepTimes {
-  /// To take up calls, read positions, and compute the bounding boxes of objects.
+  /// Time to take up calls, read positions, and compute the bounding boxes of objects.
   double read_ms = 0;
-  /// Of the broad phase and the filters.
+  /// Time of the broad phase and the filters.
   double pairs_ms = 0;
-  /// To refit the boxes and radii of regions.
+  /// Time to refit the boxes and radii of regions.
   double refit_ms = 0;
-  /// To search pairs for distances and contacts.
+  /// Time to search pairs for distances and contacts.
   double jobs_ms = 0;
-  /// To put the report together.
+  /// Time to put the report together.
   double publish_ms = 0;
-  /// Of the whole step.
+  /// Time of the whole step.
   double step_ms = 0;
 };
 

@@ -26,10 +26,9 @@ struct KeptAnswer : PairFinding {
 
 /// The answers of a step's jobs: which contacts they have, and where these are until the report is written.
 ///
-/// - Short lists are copied into one buffer, which grows with the number of contacts of all pairs together.
-/// - A long list stays where it was found: in an answer of the job's own, or in the report's memory, which is
-///   lent to one job.
-/// - If the pairs share a limit of contacts, the nearest of all are copied and nothing else.
+/// Short lists are copied into one buffer, which grows with the number of contacts of all pairs together. A
+/// long list stays where it was found: in an answer of the job's own, or in the report's memory, which is
+/// lent to one job. If the pairs share a limit of contacts, the nearest of all are copied and nothing else.
 ///
 /// The stepping thread uses it. While jobs run, any thread may call the functions that say so, for different
 /// jobs: a call writes what belongs to its job or to its worker. Beyond that there are three things that all

@@ -21,14 +21,10 @@ namespace graze {
 
 /// Runs a step's jobs on the task pool: DMV, DV and contact determination. Stepping thread only.
 ///
-/// It decides in which order jobs run and which of them make a task. The rest it has in parts, one for each
-/// question:
-///
-/// - PairQueries: what is asked of a pair?
-/// - StepDeadline: how long may jobs run?
-/// - LargePairs: how do several workers search one pair?
-/// - PairAnswers: what becomes of an answer?
-/// - JobWorkers: which memory does a worker have?
+/// It decides in which order jobs run and which of them make a task. Each part of it answers one other
+/// question. PairQueries says what is asked of a pair. StepDeadline says how long jobs may run. LargePairs
+/// lets several workers search one pair. PairAnswers says what becomes of an answer. JobWorkers owns the
+/// memory of each worker. JobWork estimates how long the jobs take.
 class PairJobs {
  public:
   PairJobs(const SceneSettings& settings, TaskPool& tasks);

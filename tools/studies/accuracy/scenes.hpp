@@ -21,11 +21,11 @@ struct KernelScene {
 };
 
 /// Scene `index` of a kind, the same for the same arguments. Nearly degenerate scenes take turns. They are
-/// far from the origin (2^20 to 2^40), needles (aspect 10^3 to 10^9), almost parallel copies, copies a few
-/// ulps off, corners almost over a border, small beside large, exactly parallel needles, or parallel faces a
-/// few ulps off. Degenerate scenes take turns at coarse grids, collinear and repeated corners, exact touch
-/// and coplanar overlap. One scene in four has its threshold at, or an ulp beside, the distance of one of its
-/// contacts.
+/// far from the origin (2^20 to 2^40), needles (aspect 10^3 to 10^9), or almost parallel copies. Or they are
+/// copies a few ulps off, corners almost over a border, or small beside large. The last are exactly parallel
+/// needles, and parallel faces a few ulps off. Degenerate scenes take turns at coarse grids, collinear and
+/// repeated corners, exact touch and coplanar overlap. One scene in four has its threshold at, or an ulp
+/// beside, the distance of one of its contacts.
 KernelScene kernel_scene(InputKind input, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace graze::tools
