@@ -8,6 +8,7 @@
 #include <functional>
 #include <graze/contact.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 /// Brute force over every pair of features, decided in exact rational arithmetic. Shares nothing with the
@@ -24,8 +25,14 @@ struct Shape {
 /// Each edge's two vertices, lower first, numbered in the order of first appearance along the faces' corners.
 std::vector<std::array<std::uint32_t, 2>> edges_of(const Shape& shape);
 
+/// Which features of a shape are looked at against other features of it.
+struct SelfRule {
+  std::function<bool(const Feature&, const Feature&)> may;
+  std::function<bool(const Feature&, const Feature&)> may_pierce;  ///< an edge or fold and a face
+};
+
 /// Which faces of two shapes are looked at against each other. Other features are looked at if some face of
-/// the one and some face of the other are.
+/// the one and some face of the other are. For a shape and itself a rule says it of each two features.
 class FacePairs {
  public:
   /// All faces are looked at.
@@ -33,7 +40,16 @@ class FacePairs {
   FacePairs(const Shape& a, const Shape& b,
             const std::function<bool(std::uint32_t, std::uint32_t)>& are_looked_at);
 
+  explicit FacePairs(SelfRule rule) : self_(std::move(rule)) {}
+
+  [[nodiscard]] bool is_of_self() const { return self_.may != nullptr; }
   [[nodiscard]] bool may(const Feature& a, const Feature& b) const;
+  /// Whether it counts that an edge or fold pierces a face.
+  [[nodiscard]] bool may_pierce(const Feature& a, const Feature& b) const {
+    return is_of_self() ? self_.may_pierce(a, b) : may(a, b);
+  }
+  /// Whether a face beside an edge counts where two edges may be locally closest.
+  [[nodiscard]] bool may_lead(const Feature& a, const Feature& b) const { return is_of_self() || may(a, b); }
   [[nodiscard]] bool may_vertices(std::uint32_t a, std::uint32_t b) const {
     return may({FeatureKind::vertex, a}, {FeatureKind::vertex, b});
   }
@@ -44,6 +60,7 @@ class FacePairs {
   std::array<std::vector<std::vector<std::uint32_t>>, 3> a_;  ///< by kind and index: the faces of a feature
   std::array<std::vector<std::vector<std::uint32_t>>, 3> b_;
   std::vector<std::vector<bool>> looked_at_;  ///< by face and face, empty if all are
+  SelfRule self_;                             ///< empty for two shapes
 };
 
 /// One contact. Distance and points are the exact ones rounded to nearest.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace graze::oracle {
@@ -68,22 +69,31 @@ bool passes_through(const ExactShape& shape, std::span<const Segment> segments, 
 bool do_pass(const ExactShape& a, std::span<const Segment> segments_a, const ExactShape& b,
              std::span<const Segment> segments_b, const FacePairs& pairs) {
   return passes_through(a, segments_a, b,
-                        [&](Feature segment, Feature face) { return pairs.may(segment, face); }) ||
+                        [&](Feature segment, Feature face) { return pairs.may_pierce(segment, face); }) ||
          passes_through(b, segments_b, a,
-                        [&](Feature segment, Feature face) { return pairs.may(face, segment); });
+                        [&](Feature segment, Feature face) { return pairs.may_pierce(face, segment); });
 }
 
-/// The nearest two vertices by long double, which suffices for a first upper bound.
-std::pair<std::uint32_t, std::uint32_t> roughly_nearest_vertices(const ExactShape& a, const ExactShape& b,
-                                                                 const FacePairs& pairs) {
-  std::pair<std::uint32_t, std::uint32_t> nearest{a.used.at(0), b.used.at(0)};
+/// The square of a distance beyond all others, for a shape whose features are not looked at against each
+/// other.
+Rational beyond_all() {
+  return Rational(mpz_class(1) << 4096);
+}
+
+/// The nearest two vertices by long double, which suffices for a first upper bound. There are none only for a
+/// shape and itself.
+std::optional<std::pair<std::uint32_t, std::uint32_t>> roughly_nearest_vertices(const ExactShape& a,
+                                                                                const ExactShape& b,
+                                                                                const FacePairs& pairs) {
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> nearest;
+  if (!pairs.is_of_self()) nearest = {a.used.at(0), b.used.at(0)};
   long double best = std::numeric_limits<long double>::infinity();
   for (const std::uint32_t i : a.used) {
     for (const std::uint32_t j : b.used) {
       const long double gap = gap_squared(a.point_extents[i], b.point_extents[j]);
       if (gap >= best || !pairs.may_vertices(i, j)) continue;
       best = gap;
-      nearest = {i, j};
+      nearest = std::pair(i, j);
     }
   }
   return nearest;
@@ -102,8 +112,9 @@ Pair pair_of(Rational distance_squared, bool pierced) {
 }
 
 Rational vertex_distance_squared(const ExactShape& a, const ExactShape& b, const FacePairs& pairs) {
-  const auto [first_a, first_b] = roughly_nearest_vertices(a, b, pairs);
-  Rational best = squared_length(a.points[first_a] - b.points[first_b]);
+  const auto first = roughly_nearest_vertices(a, b, pairs);
+  if (!first) return beyond_all();
+  Rational best = squared_length(a.points[first->first] - b.points[first->second]);
   const Limit limit = Limit::up_to(best);
   for (const std::uint32_t i : a.used) {
     for (const std::uint32_t j : b.used) {
@@ -123,7 +134,8 @@ bool is_pierced(const ExactShape& a, const ExactShape& b, const FacePairs& pairs
 
 Rational smallest_distance_squared(const ExactShape& a, const ExactShape& b, const FacePairs& pairs) {
   if (do_pass(a, a.segments, b, b.segments, pairs)) return 0;
-  Rational best = vertex_distance_squared(a, b, pairs);
+  // Two vertices of one shape may be looked at while no faces that have them are.
+  Rational best = pairs.is_of_self() ? beyond_all() : vertex_distance_squared(a, b, pairs);
   long double reach = reach_squared(best);
   for (const Item& item : items_within(a, b, reach, pairs)) {
     if (item.gap_squared > reach) break;

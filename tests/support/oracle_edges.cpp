@@ -139,9 +139,9 @@ std::vector<bool> creases_of(const Shape& rest) {
 EdgeOracle::EdgeOracle(const ExactShape& a, const ExactShape& b, const FacePairs& pairs)
     : a_(a), b_(b), pairs_(pairs) {
   a_.pierces =
-      piercing_edges(a, b, [&](const Feature& edge, const Feature& face) { return pairs.may(edge, face); });
+      piercing_edges(a, b, [&](const Feature& edge, const Feature& face) { return pairs.may_pierce(edge, face); });
   b_.pierces =
-      piercing_edges(b, a, [&](const Feature& edge, const Feature& face) { return pairs.may(face, edge); });
+      piercing_edges(b, a, [&](const Feature& edge, const Feature& face) { return pairs.may_pierce(face, edge); });
 }
 
 std::vector<EdgePair> EdgeOracle::pairs_within(const Limit& limit, const Creases& creases) const {
@@ -177,10 +177,10 @@ EdgePair EdgeOracle::judged(const Segment& edge_a, const Segment& edge_b, Segmen
   pair.is_sunk = are_sunk(pair.a, pair.b);
 
   const auto is_seen_beside_a = [&](const Beside& beside) {
-    return pairs_.may({FeatureKind::face, beside.face}, pair.b);
+    return pairs_.may_lead({FeatureKind::face, beside.face}, pair.b);
   };
   const auto is_seen_beside_b = [&](const Beside& beside) {
-    return pairs_.may(pair.a, {FeatureKind::face, beside.face});
+    return pairs_.may_lead(pair.a, {FeatureKind::face, beside.face});
   };
   // Whether a rule holds for all triangles that are looked at, with the direction away from each edge.
   const auto holds = [&](const auto& rule, const Point& from_a, const Point& from_b) {

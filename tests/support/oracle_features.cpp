@@ -38,7 +38,7 @@ class Collector {
   void pierce() {
     for (const Segment& segment : a_.segments) {
       for (std::uint32_t face = 0; face < b_.faces.size(); ++face) {
-        if (!pairs_.may(segment.owner, face_feature(face))) continue;
+        if (!pairs_.may_pierce(segment.owner, face_feature(face))) continue;
         if (const auto t = passes(a_, segment, b_, face)) {
           const Point point = point_at(a_, segment, *t);
           add(segment.owner, {FeatureKind::face, face}, {0, point, point, segment.is_edge()});
@@ -47,7 +47,7 @@ class Collector {
     }
     for (const Segment& segment : b_.segments) {
       for (std::uint32_t face = 0; face < a_.faces.size(); ++face) {
-        if (!pairs_.may(face_feature(face), segment.owner)) continue;
+        if (!pairs_.may_pierce(face_feature(face), segment.owner)) continue;
         if (const auto t = passes(b_, segment, a_, face)) {
           const Point point = point_at(b_, segment, *t);
           add({FeatureKind::face, face}, segment.owner, {0, point, point, segment.is_edge()});

@@ -247,7 +247,7 @@ SearchProgress ClosestSearch::finish(SearchWorker& worker) {
     if (source_ != LeafSource::walk || is_bounded_) return begin_surfaces(worker);
     // The whole of both surfaces was walked without a bound, and the reach is less than what underflow loses.
     // To begin anew would find nothing again.
-    ClosestRange(worker.pair, pair_.query, ties(), closest_).offer_any();
+    if (!ClosestRange(worker.pair, pair_.query, ties(), closest_).offer_any()) return find_nothing(worker);
   }
   if (source_ == LeafSource::walk) {
     slices_.keep_front(std::max(pair_.query.threshold, std::min(closest_.closest.upper, pair_.query.reach)),
@@ -262,6 +262,15 @@ SearchProgress ClosestSearch::finish(SearchWorker& worker) {
   }
   set_apart();
   return report(worker);
+}
+
+/// Answers where no features are known that may be tested against each other, within the reach.
+SearchProgress ClosestSearch::find_nothing(SearchWorker& worker) {
+  slices_.keep_front(pair_.query.reach, worker);
+  set_apart();
+  pair_.front->touched = false;
+  pair_.answer->in_contact = pair_.answer->listed = false;
+  return SearchProgress::answered;
 }
 
 /// Takes up in the front what the tests of its leaves have found.

@@ -60,6 +60,7 @@ class ClosestSearch {
   bool test_leaves(LeafPair& leaves, ClosestRange& range, SearchWorker& worker);
   void seed(SearchSlice& slice) const;
   void merge_slices(SearchWorker& worker);
+  SearchProgress find_nothing(SearchWorker& worker);
   void raise_bounds_of_front();
   void set_apart();
   SearchProgress report(SearchWorker& worker);

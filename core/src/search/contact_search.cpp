@@ -172,7 +172,7 @@ SearchProgress ContactSearch::end_collecting(SearchWorker& worker) {
   std::visit([&](auto& source) { source.end(worker); }, source_);
   recorder_.finish(slices_, worker);
   for (const SearchSlice& slice : slices_.all()) touching_.add(slice.contacts.touching);
-  sunk_edges_.gather(slices_.all());
+  sunk_edges_.gather(slices_.all(), worker.pair.is_of_self());
   fold_ = nearest_fold(slices_, worker.pair);
   if (has_choice()) {
     choice_.begin();

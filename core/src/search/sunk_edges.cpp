@@ -14,11 +14,13 @@ bool are_behind_each_other(const Contact& contact) {
 
 }  // namespace
 
-void SunkEdges::gather(std::span<const SearchSlice> slices) {
+void SunkEdges::gather(std::span<const SearchSlice> slices, bool are_of_self) {
   piercing_.clear();
   for (const SearchSlice& slice : slices)
     if (!slice.contacts.piercing.empty()) piercing_.add(slice.contacts.piercing);
-  if (!piercing_.empty()) piercing_.sort();
+  if (piercing_.empty()) return;
+  piercing_.sort();
+  if (are_of_self) piercing_.of_b = piercing_.of_a;
 }
 
 void SunkEdges::settle(FoundContacts& found, SearchWorker& worker) const {

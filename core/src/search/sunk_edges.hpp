@@ -18,8 +18,8 @@ namespace graze {
 class SunkEdges {
  public:
   void clear() { piercing_.clear(); }
-  /// Takes the edges that pierce from all slices.
-  void gather(std::span<const SearchSlice> slices);
+  /// Takes the edges that pierce from all slices. Those of one surface with itself count on both sides.
+  void gather(std::span<const SearchSlice> slices, bool are_of_self);
   /// Appends those of a slice's pairs to its keys that turn out to be contacts. Any number of threads, one
   /// for each slice.
   void settle(FoundContacts& found, SearchWorker& worker) const;
