@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "leaves/feature_block.hpp"
-#include "leaves/filter_frame.hpp"
-#include "leaves/leaf_vertices.hpp"
+#include "leaves/layout/feature_block.hpp"
+#include "leaves/layout/filter_frame.hpp"
+#include "leaves/layout/leaf_vertices.hpp"
 #include "support/random_scenes.hpp"
 #include "surface/leaf_slab.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "core/filter_families.hpp"
 #include "core/nearest_voronoi.hpp"
-#include "leaves/float_filter.hpp"
+#include "leaves/layout/float_filter.hpp"
 #include "support/catch.hpp"
 
 namespace graze::tests {

@@ -1,7 +1,7 @@
 // A leaf's features are laid out from its vertices, each brought into the frame once. Here every corner is
 // brought there by itself.
 
-#include "leaves/leaf_features.hpp"
+#include "leaves/layout/leaf_features.hpp"
 
 #include <algorithm>
 #include <cmath>

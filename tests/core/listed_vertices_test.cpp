@@ -1,7 +1,7 @@
 // Listed vertices are brought into a frame as one by one: bit for bit, for every instruction set, from floats
 // and from doubles.
 
-#include "leaves/listed_vertices.hpp"
+#include "leaves/layout/listed_vertices.hpp"
 
 #include <algorithm>
 #include <bit>
