@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::oracle {
 

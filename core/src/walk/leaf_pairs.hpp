@@ -10,7 +10,7 @@
 #include "core/mesh/pair_room.hpp"
 #include "core/pair/leaf_front.hpp"
 #include "core/pair/pair_query.hpp"
-#include "leaves/leaf_features.hpp"
+#include "leaves/layout/leaf_features.hpp"
 #include "pair/bounds.hpp"
 #include "surface/leaf_boxes.hpp"
 #include "surface/long_leaf_boxes.hpp"

@@ -11,7 +11,7 @@
 #include "core/mesh/face_groups.hpp"
 #include "core/pair/leaf_front.hpp"
 #include "core/pair/near_list.hpp"
-#include "core/self/self_exclusion.hpp"
+#include "core/pair/self_exclusion.hpp"
 
 namespace graze {
 
@@ -56,7 +56,8 @@ class GRAZE_API FeatureFilter {
   [[nodiscard]] bool may_vertices(std::uint32_t a, std::uint32_t b) const {
     return may_sets(a_->of_vertex(a), b_->of_vertex(b)) && (!is_of_self() || may_vertices_of_self(a, b));
   }
-  /// Whether a vertex of a surface may be tested with a face of the same surface that has a feature, or is it.
+  /// Whether a vertex of a surface may be tested with a face of the same surface that has a feature, or is
+  /// it.
   [[nodiscard]] bool may_vertex(std::uint32_t vertex, const Feature& feature) const;
   /// Two vertices that may be tested, or whose distance bounds one that is: corners of a pair of faces. There
   /// may be none only for a surface and itself.
