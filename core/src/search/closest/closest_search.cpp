@@ -270,6 +270,8 @@ SearchProgress ClosestSearch::find_nothing(SearchWorker& worker) {
   set_apart();
   pair_.front->touched = false;
   pair_.answer->in_contact = pair_.answer->listed = false;
+  pair_.answer->distance = {pair_.query.reach, std::numeric_limits<double>::infinity()};
+  pair_.answer->witness = {};
   return SearchProgress::answered;
 }
 
