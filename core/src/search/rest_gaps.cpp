@@ -35,9 +35,11 @@ std::vector<float> gaps_of(const Surface& rest, const SelfExclusion& exclusion) 
   for (const LeafPair& leaves : near.leaves) {
     ClosestFound found;
     ClosestRange range(worker.pair, searched.query, Ties::lowest, found);
-    const float gap = rounded_down(range.offer_features(worker.leaf_pairs.leaf_a(leaves.pair),
-                                                        worker.leaf_pairs.leaf_b(leaves.pair),
-                                                        scratch.features));
+    range.offer_features(worker.leaf_pairs.leaf_a(leaves.pair), worker.leaf_pairs.leaf_b(leaves.pair),
+                         scratch.features);
+    // The upper bound is good to 2^-40.
+    const double nearest = std::min({found.closest.upper * (1 - 0x1p-38), found.lower, reach});
+    const float gap = rounded_down(nearest);
     for (const std::uint32_t leaf : {leaves.pair.a, leaves.pair.b}) gaps[leaf] = std::min(gaps[leaf], gap);
   }
   return gaps;

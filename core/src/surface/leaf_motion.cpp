@@ -60,9 +60,10 @@ LeafMotion motion_of_leaf(const Surface& surface, const Region& leaf) {
   return motion;
 }
 
-// Let p be a point of a, and q one of b at rest. At rest they are |p − q| apart, and so are their images under
-// the motion of a. The image of q under the motion of b is elsewhere by (turn_b − turn_a) q + shift_b − shift_a.
-// That is what it is at b's middle, and not more than the difference of the turns times b's radius beside it.
+// Let p be a point of a, and q one of b at rest. At rest they are |p − q| apart, and so are their images
+// under the motion of a. The image of q under the motion of b is elsewhere by (turn_b − turn_a) q + shift_b −
+// shift_a. That is what it is at b's middle, and not more than the difference of the turns times b's radius
+// beside it.
 double approach_since_rest(const LeafMotion& a, const LeafMotion& b) {
   const double off = a.off + b.off;
   if (!(off < std::numeric_limits<double>::infinity())) return off;

@@ -234,17 +234,17 @@ void play(std::uint64_t seed, ContactDetail detail, Met& met, std::size_t& by_li
 TEST_CASE("self: two random shapes as one surface are those of brute force") {
   const FloatingPointScope scope;
   Met met;
-  for (std::uint64_t seed = 1; seed <= repeats(400); ++seed) check_scene(seed, scene_of_two(seed), met);
-  CHECK(met.contacts > 10 * repeats(400));
-  CHECK(met.pierced > repeats(400));
+  for (std::uint64_t seed = 1; seed <= repeats(160); ++seed) check_scene(seed, scene_of_two(seed), met);
+  CHECK(met.contacts > 10 * repeats(160));
+  CHECK(met.pierced > repeats(160));
 }
 
 TEST_CASE("self: crumpled sheets are those of brute force") {
   const FloatingPointScope scope;
   Met met;
-  for (std::uint64_t seed = 1; seed <= repeats(400); ++seed) check_scene(seed, crumpled_sheet(seed), met);
-  CHECK(met.contacts > 10 * repeats(400));
-  CHECK(met.pierced > repeats(400));
+  for (std::uint64_t seed = 1; seed <= repeats(160); ++seed) check_scene(seed, crumpled_sheet(seed), met);
+  CHECK(met.contacts > 10 * repeats(160));
+  CHECK(met.pierced > repeats(160));
 }
 
 TEST_CASE("self: sheets of several leaves that hardly bend are those of brute force") {
