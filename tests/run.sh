@@ -56,7 +56,8 @@ run_lint() {
 #   all tests' time.
 # - The libraries' sources are compiled in batches, as those of the demonstration are.
 # - The fuzzers are built here, with counters of what they reach. A build of their own took a fifth of all the time. The
-#   preset `fuzz` is for long runs: there comparisons guide them too (docs/fuzzing.md).
+#   preset `fuzz` is for long runs: there comparisons guide them too (docs/fuzzing.md). Tests and programs count nothing:
+#   with counters their compilation takes a third longer.
 run_sanitizers() {
   run_preset asan-ubsan --parallel "$(nproc)" \
     --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_|^example_(pile|rigid)$'
