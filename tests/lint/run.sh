@@ -42,7 +42,7 @@ check_text() {
 
   format=$(tool clang-format)
   if [ -n "$format" ]; then
-    files 'cpp|hpp|inc' | xargs "$format" --dry-run --Werror || complain "run $format -i on the files named above"
+    files 'cpp|hpp|inc' | xargs -n 50 -P "$(nproc)" "$format" --dry-run --Werror || complain "run $format -i on the files named above"
   else
     complain "clang-format 14 is missing; tools/install_packages.sh peers installs it on Debian 12"
   fi

@@ -18,17 +18,11 @@ else()
   target_link_libraries(graze_catch_main PUBLIC Catch2::Catch2)
 endif()
 
-# What a batch of files needs after graze_options; see there.
-add_library(graze_batch_options INTERFACE)
-target_compile_options(graze_batch_options INTERFACE -Wno-shadow)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(graze_batch_options INTERFACE -Wno-subobject-linkage)
-endif()
-
 # The headers and compiler options of all test programs, in one place since headers are precompiled once for all.
 add_library(graze_test_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
 target_compile_options(graze_test_headers PRIVATE ${GRAZE_TEST_OPTIONS})
-target_link_libraries(graze_test_headers PRIVATE graze_options graze_batch_options Catch2::Catch2)
+target_link_libraries(graze_test_headers PRIVATE graze_options Catch2::Catch2)
+set_target_properties(graze_test_headers PROPERTIES UNITY_BUILD ON)  # the options of a batch, as those of the programs
 graze_precompile_headers(graze_test_headers ${CMAKE_CURRENT_LIST_DIR}/catch.hpp)
 
 # The files between one BATCH and the next are compiled as one: to read Catch2, Eigen and graze's headers takes longer
@@ -51,6 +45,6 @@ function(graze_add_test_program name)
     GRAZE_SHARED_DATA="${GRAZE_SHARED_DATA}" GRAZE_TEST_EFFORT=${GRAZE_TEST_EFFORT})
   target_compile_options(${name} PRIVATE $<TARGET_PROPERTY:graze_test_headers,COMPILE_OPTIONS>)
   target_precompile_headers(${name} REUSE_FROM graze_test_headers)
-  target_link_libraries(${name} PRIVATE graze_options graze_batch_options ${GRAZE_CATCH_MAIN} Eigen3::Eigen)
+  target_link_libraries(${name} PRIVATE graze_options ${GRAZE_CATCH_MAIN} Eigen3::Eigen)
   catch_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
 endfunction()

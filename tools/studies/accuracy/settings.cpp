@@ -9,13 +9,13 @@
 namespace graze::tools {
 namespace {
 
-ModeSetting exact_setting(ContactDetail detail, double contact_distance) {
+ModeSetting exact_mode(ContactDetail detail, double contact_distance) {
   return {"exact", ModeFamily::exact, exact_settings(detail, contact_distance)};
 }
 
 /// Each level's number is `part` of the most that eq. 6 gives for the models at rest.
-ModeSetting paper_setting(const MovingSurfaces& models, ContactDetail detail, double contact_distance,
-                          double part, double last_part) {
+ModeSetting paper_mode(const MovingSurfaces& models, ContactDetail detail, double contact_distance,
+                       double part, double last_part) {
   std::vector<double> epsilon;
   for (std::size_t level = 1; level < models.level_epsilon().size(); ++level)
     epsilon.push_back(part * models.level_epsilon()[level]);
@@ -62,7 +62,7 @@ SceneSettings exact_settings(ContactDetail detail, double contact_distance) {
 
 std::vector<ModeSetting> surface_settings(const MovingSurfaces& models, ContactDetail detail,
                                           double contact_distance, std::uint64_t exact_work) {
-  std::vector<ModeSetting> settings = {exact_setting(detail, contact_distance)};
+  std::vector<ModeSetting> settings = {exact_mode(detail, contact_distance)};
   for (const double edges : {0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0}) {
     ModeSetting setting{format("within(%g edges)", edges), ModeFamily::within,
                         exact_settings(detail, contact_distance)};
@@ -81,14 +81,14 @@ std::vector<ModeSetting> surface_settings(const MovingSurfaces& models, ContactD
 
 std::vector<ModeSetting> vertex_settings(const MovingSurfaces& models, ContactDetail detail,
                                          double contact_distance) {
-  std::vector<ModeSetting> settings = {exact_setting(detail, contact_distance)};
+  std::vector<ModeSetting> settings = {exact_mode(detail, contact_distance)};
   ModeSetting formula{"paper, eq. 3 and 6", ModeFamily::paper_formula,
                       exact_settings(detail, contact_distance)};
   formula.settings.accuracy = Accuracy::paper();
   settings.push_back(formula);
   for (const double part : {1.0, 0.7, 0.5, 0.35, 0.25, 0.15})
-    settings.push_back(paper_setting(models, detail, contact_distance, part, 1));
-  settings.push_back(paper_setting(models, detail, contact_distance, 0.5, 1.5));
+    settings.push_back(paper_mode(models, detail, contact_distance, part, 1));
+  settings.push_back(paper_mode(models, detail, contact_distance, 0.5, 1.5));
   return settings;
 }
 

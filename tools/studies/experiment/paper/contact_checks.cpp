@@ -12,7 +12,7 @@ using VertexName = std::array<std::uint32_t, 2>;
 
 constexpr std::array<double, 2> tolerances = {0.5, 5};
 
-std::vector<VertexName> names_of(std::span<const Contact> contacts) {
+std::vector<VertexName> vertex_names_of(std::span<const Contact> contacts) {
   std::vector<VertexName> names;
   for (const Contact& contact : contacts) names.push_back({contact.feature_a.index, contact.feature_b.index});
   return names;
@@ -95,7 +95,7 @@ void ContactChecks::check(PaperWalk& walk, std::size_t a, std::size_t b) {
                            ? leaf_contacts(walk, settings.contact_distance)
                            : vertex_contacts(walk, settings.contact_distance);
     const auto reported =
-        row == nullptr ? std::vector<VertexName>() : names_of(checked.report->contacts(*row));
+        row == nullptr ? std::vector<VertexName>() : vertex_names_of(checked.report->contacts(*row));
     tally_contacts(truth, reported, checked.result);
     if (row != nullptr) check_distance(*row, nearest, settings.accuracy.tolerance(), checked.result);
   }

@@ -79,7 +79,7 @@ class Frame {
   std::vector<Body> bodies_;
 };
 
-std::vector<FeatureName> names_of(std::span<const Contact> contacts) {
+std::vector<FeatureName> feature_names_of(std::span<const Contact> contacts) {
   std::vector<FeatureName> names;
   for (const Contact& contact : contacts)
     names.emplace_back(contact.kind, contact.feature_a, contact.feature_b);
@@ -136,7 +136,8 @@ class Comparison {
     std::vector<std::vector<FeatureName>> names;
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
       const PairReport* row = scenes_[i]->row(*reports[i], a, b);
-      names.push_back(row == nullptr ? std::vector<FeatureName>() : names_of(reports[i]->contacts(*row)));
+      names.push_back(row == nullptr ? std::vector<FeatureName>()
+                                     : feature_names_of(reports[i]->contacts(*row)));
     }
     if (!sample.takes(!names[0].empty())) return;
     const auto truth = frame.truth(a, b, contact_distance_);

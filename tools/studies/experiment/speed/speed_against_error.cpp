@@ -12,7 +12,7 @@
 namespace graze::tools {
 namespace {
 
-const char* introduction =
+const char* speed_introduction =
     R"(**What was measured.** Which accuracy mode gives what for its time? Every scene is asked two questions. Both are about
 vertices, so that all modes can answer them.
 
@@ -144,8 +144,9 @@ void add_violations(const SpeedResults& scene, std::vector<std::string>& violati
 Study speed_against_error_study(const ExperimentOptions& options) {
   std::vector<SpeedResults> scenes;
   for (SpeedScene& scene : speed_scenes(options)) scenes.push_back(measure_speed(std::move(scene), options));
-  Study study{"speed", "Speed against error", introduction, speed_tables(scenes), speed_figures(scenes), {},
-              {}};
+  Study study{
+      "speed", "Speed against error", speed_introduction, speed_tables(scenes), speed_figures(scenes), {},
+      {}};
   study.text += answers_text(scenes);
   if (options.times) study.text += times_text(scenes);
   study.claims.push_back(accuracy_claim(scenes));
