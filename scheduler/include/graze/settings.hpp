@@ -70,6 +70,13 @@ struct ObjectSettings {
   /// An edge between a hidden face and one that is seen is tested with the seen face alone. The seen face is
   /// taken to go on behind the edge in its plane, so that the edge is neither a border nor a crease.
   std::vector<std::uint8_t> hidden_groups = {};
+  /// Whether reports say what the object meets between two steps. A pair is swept if one of its objects is.
+  /// Then every vertex of both objects counts as moving along a straight line from where the last step saw
+  /// it, and FrameReport::impacts() lists what meets on the way. A pair that meets on the way is listed.
+  ///
+  /// Also a rigid object's vertices move straight from pose to pose. An object stands at its new place in its
+  /// first step, after a `teleport`, and when its mesh was replaced. A fixed object always stands.
+  bool swept = false;
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the
@@ -149,6 +156,12 @@ struct SceneSettings {
   /// How much less deep than the deepest a contact may be that #carrying chooses. It is finite, and 0 or
   /// more. No value means the threshold of the pair.
   std::optional<double> carrying_band = std::nullopt;
+  /// The bounds of an impact's time are at most this far apart, where a whole step takes time 1. It is at
+  /// least 2^-52, and at most 1. It counts for objects that are #ObjectSettings::swept.
+  double sweep_tolerance = 1e-6;
+  /// Reports say of swept pairs when their surfaces come that near: PairReport::time_of_gap. A pair that
+  /// comes that near on the way is listed. It is finite, and 0 or more. With 0 nothing is asked.
+  double swept_gap = 0;
 };
 
 /// Says how much room Scene::reserve() makes ahead of time.

@@ -98,7 +98,7 @@ void PairAnswers::remember(const PairJob& job, const PairAnswer& answer) const {
   PairMemory& memory = job.memory_to_write();
   memory.version_a = whole ? job.a->surface().version() : 0;
   memory.version_b = whole ? job.b->surface().version() : 0;
-  memory.rules_version = rules_version_;
+  memory.rules_version = job.is_swept ? PairMemory::no_rules : rules_version_;
 }
 
 void PairAnswers::keep(std::uint32_t job, PairAnswer& answer, unsigned worker) {

@@ -42,8 +42,8 @@ bool may_be_cut(const PairJob& job, std::size_t limit) {
   return limit > 0 && (job.last == nullptr || job.last->contacts_cut || job.last->contact_count > limit / 2);
 }
 
-/// Returns what says which features of a pair are looked at, or null if all are, or none. It is in `room` if
-/// faces are hidden, and no groups of the pair were ever ignored.
+}  // namespace
+
 const FeatureFilter* filter_of(const PairJob& job, std::optional<FeatureFilter>& room) {
   room.reset();
   if (job.groups.version != 0) return job.groups.filter;
@@ -52,8 +52,6 @@ const FeatureFilter* filter_of(const PairJob& job, std::optional<FeatureFilter>&
   return room->leaves_some() ? &*room : nullptr;
 }
 
-}  // namespace
-
 PairQuery PairQueries::of(const PairJob& job, std::optional<FeatureFilter>& filter) const {
   PairQuery query;
   query.detail = settings_.detail;
@@ -61,7 +59,8 @@ PairQuery PairQueries::of(const PairJob& job, std::optional<FeatureFilter>& filt
   query.tolerance = settings_.accuracy.tolerance();
   query.epsilon = job.thresholds.epsilon;
   query.threshold = job.thresholds.threshold;
-  query.reach = job.was_in_contact() ? std::numeric_limits<double>::infinity() : job.thresholds.reach;
+  query.reach =
+      job.was_in_contact() || job.met_on_way ? std::numeric_limits<double>::infinity() : job.thresholds.reach;
   query.region_distance_reach = job.thresholds.reach;
   query.groups = filter_of(job, filter);
   set_limits(query);
