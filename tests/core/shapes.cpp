@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

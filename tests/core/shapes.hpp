@@ -7,7 +7,7 @@
 
 #include "models/models.hpp"
 #include "support/model_shape.hpp"
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tests {
 

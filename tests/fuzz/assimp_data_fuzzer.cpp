@@ -2,10 +2,10 @@
 // from the bytes, and no file is read.
 
 #include "assimp/assimp_scene.hpp"
-#include "assimp_scene_builder.hpp"
 #include "byte_reader.hpp"
 #include "finding.hpp"
-#include "rig_checks.hpp"
+#include "fuzz/files/assimp_scene_builder.hpp"
+#include "fuzz/files/rig_checks.hpp"
 
 namespace graze::fuzz {
 namespace {

@@ -3,10 +3,10 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
+#include "fuzz/files/rig_checks.hpp"
 #include "gltf/gltf_document.hpp"
 #include "gltf/read_gltf.hpp"
 #include "input_folder.hpp"
-#include "rig_checks.hpp"
 
 namespace graze::fuzz {
 namespace {

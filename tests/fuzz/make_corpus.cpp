@@ -12,12 +12,12 @@
 #include <iostream>
 #include <limits>
 
-#include "gltf_texts.hpp"
-#include "mesh_text.hpp"
-#include "pair_case.hpp"
-#include "report_meshes.hpp"
-#include "scene_files.hpp"
-#include "support/random_scenes.hpp"
+#include "fuzz/files/gltf_texts.hpp"
+#include "fuzz/files/mesh_text.hpp"
+#include "fuzz/files/scene_files.hpp"
+#include "fuzz/pair/pair_case.hpp"
+#include "fuzz/scenes/report_meshes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::fuzz {
 namespace {

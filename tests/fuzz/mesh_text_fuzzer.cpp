@@ -7,9 +7,9 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
+#include "fuzz/files/mesh_text.hpp"
 #include "input_folder.hpp"
 #include "mesh/raw_object.hpp"
-#include "mesh_text.hpp"
 
 namespace graze::fuzz {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
+#include "fuzz/files/mesh_text.hpp"
 #include "input_folder.hpp"
-#include "mesh_text.hpp"
 
 namespace graze::fuzz {
 namespace {

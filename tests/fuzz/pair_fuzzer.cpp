@@ -3,7 +3,7 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
-#include "pair_case.hpp"
+#include "fuzz/pair/pair_case.hpp"
 
 namespace graze::fuzz {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "finding.hpp"
-#include "fuzz/made_recording.hpp"
-#include "fuzz/recording_judge.hpp"
+#include "fuzz/recording/made_recording.hpp"
+#include "fuzz/recording/recording_judge.hpp"
 #include "input_folder.hpp"
 #include "recording/chunks.hpp"
 #include "recording/crc32.hpp"

@@ -10,11 +10,11 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
+#include "fuzz/scenes/report_meshes.hpp"
 #include "input_folder.hpp"
 #include "report/report_builder.hpp"
 #include "report/report_fields.hpp"
 #include "report/statistics_fields.hpp"
-#include "report_meshes.hpp"
 
 namespace graze::fuzz {
 namespace {

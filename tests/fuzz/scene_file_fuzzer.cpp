@@ -9,8 +9,8 @@
 
 #include "byte_reader.hpp"
 #include "finding.hpp"
+#include "fuzz/files/scene_files.hpp"
 #include "input_folder.hpp"
-#include "scene_files.hpp"
 
 namespace graze::fuzz {
 namespace {

@@ -2,7 +2,7 @@
 // same positions says, whatever the objects did before.
 
 #include "byte_reader.hpp"
-#include "scene_calls.hpp"
+#include "fuzz/scenes/scene_calls.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr int most_calls = 32;

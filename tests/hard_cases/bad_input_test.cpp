@@ -6,7 +6,7 @@
 #include "hard_cases/scene_comparison.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

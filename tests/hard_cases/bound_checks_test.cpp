@@ -17,8 +17,8 @@
 #include "pair/bounds.hpp"
 #include "support/catch.hpp"
 #include "support/effort.hpp"
-#include "support/exact.hpp"
-#include "support/random_scenes.hpp"
+#include "support/exact/exact.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

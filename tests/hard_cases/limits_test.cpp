@@ -6,7 +6,7 @@
 #include "core/comparison.hpp"
 #include "hard_cases/scene_comparison.hpp"
 #include "support/catch.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

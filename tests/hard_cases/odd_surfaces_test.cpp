@@ -7,7 +7,7 @@
 
 #include "hard_cases/scene_comparison.hpp"
 #include "support/catch.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scheduler/scene_support.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 

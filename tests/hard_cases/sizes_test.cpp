@@ -10,7 +10,7 @@
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
 #include "support/effort.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

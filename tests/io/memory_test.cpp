@@ -4,7 +4,7 @@
 #include <graze/io/player.hpp>
 
 #include "io/formats/gltf_builder.hpp"
-#include "scheduler/failing_allocator.hpp"
+#include "scheduler/memory/failing_allocator.hpp"
 
 using namespace graze::tests;
 namespace io = graze::io;

@@ -5,7 +5,7 @@
     include_order.py [--root DIR] --draw FILE.svg  draws the folders and their includes (needs Graphviz's `dot`)
 
 Each layer (core, scheduler, io) is a list of folders, from the bottom up. A file includes from its own folder and from
-folders further down. Between layers: io includes scheduler's and core's public headers, scheduler also the headers in
+folders further down. A folder within another has its own place in the list. Between layers: io includes scheduler's and core's public headers, scheduler also the headers in
 core/internal, and core includes none of either. Of io the folder `page` alone includes headers of core/internal, for the
 regions of a mesh. Public headers include public headers alone.
 """
@@ -28,12 +28,17 @@ ORDER = {
         "sweep": "features that meet on the way",
         "closest_features": "closest features of a pair",
         "measure": "points, normals, sides",
-        "leaves": "features of two leaves, filters",
+        "leaves/layout": "features in float, filters",
+        "leaves": "features of two leaves",
         "walk": "DMV, leaf pairs, witness",
         "vertices": "near vertices, by blocks",
         "solid": "what is inside a closed surface",
         "paper": "paper mode, region distances",
-        "search": "one query, in stages",
+        "search/workers": "the pair, slices of a search",
+        "search/closest": "closest points of a pair",
+        "search/solids": "insides and ways out of a pair",
+        "search/contacts": "contacts, in stages",
+        "search": "one query",
         "query": "two surfaces without a scene",
         "response": "contacts at other positions",
     },
@@ -91,10 +96,10 @@ def files_of(root):
             for path in sorted(base.rglob("*")) if base.is_dir() else []:
                 if path.suffix not in (".hpp", ".cpp", ".inc"):
                     continue
-                parts = path.relative_to(base).parts
-                if len(parts) != 2 or parts[0] not in folders:
+                folder = path.relative_to(base).parent.as_posix()
+                if folder not in folders:
                     raise SystemExit(f"{path.relative_to(root)}: stands in no folder of the order")
-                yield path, Location(layer, parts[0], internal)
+                yield path, Location(layer, folder, internal)
         for path in sorted((root / layer / "include").rglob("*.hpp")):
             yield path, Location(layer, PUBLIC)
 
@@ -106,9 +111,9 @@ def location_of_include(root, name, layer):
             return Location(other, PUBLIC)
     first, _, rest = name.partition("/")
     if first in ORDER and (root / first / "internal" / name).is_file():
-        return Location(first, rest.partition("/")[0], True)
+        return Location(first, rest.rpartition("/")[0], True)
     if (root / layer / "src" / name).is_file():
-        return Location(layer, first)
+        return Location(layer, name.rpartition("/")[0])
     return None
 
 

@@ -30,6 +30,7 @@ GOOD = {
 # (file, text, what the checker has to say of it).
 MISTAKES = [
     ("core/src/base/upward.hpp", '#include "search/search.hpp"\n', "base stands below search"),
+    ("core/src/search/workers/upward.hpp", '#include "search/search.hpp"\n', "search/workers stands below search"),
     ("core/src/mesh/library.cpp", "#include <boost/any.hpp>\n", "core depends on no such library"),
     ("core/include/graze/leaky.hpp", '#include "core/surface/surface.hpp"\n',
      "a public header includes a header that is not installed"),

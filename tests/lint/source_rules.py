@@ -8,7 +8,7 @@
 3. Commands that read files of others print by `say` and `say_aside` alone, which spell out control characters.
 4. A function has at most one argument that draws a random number. Compilers evaluate arguments in any order, so the
    scenes of two builds would differ. Within braces the order is that of the text.
-5. No folder of tools has more than 30 files: a larger one has folders by subject.
+5. No folder of sources has more than 30 files: a larger one has folders by subject.
 
 Prints each place where a rule is broken; the exit code is 1 where there is one.
 """
@@ -19,7 +19,7 @@ import re
 import sys
 
 LIBRARIES = ["core", "scheduler", "io"]
-MOST_FILES = 30  # in a folder of tools
+MOST_FILES = 30  # in a folder
 COMMANDS = ["tools/graze", "tools/graze/recording", "tools/program"]  # the files in them, not the folders below
 
 # A comment, a raw text, a text, a character.
@@ -107,7 +107,8 @@ def check(root):
             source = without_comments(file.read_text(encoding="utf-8"))
             problems += [f"{file.relative_to(root).as_posix()}:{source.count(chr(10), 0, match.start()) + 1}: "
                          "two arguments draw random numbers, in any order" for match in TWO_DRAWS.finditer(source)]
-    for folder in sorted(path for path in (root / "tools").rglob("*") if path.is_dir()):
+    for folder in sorted(path for top in [*LIBRARIES, "tools", "tests"] for path in (root / top).rglob("*")
+                         if path.is_dir()):
         count = sum(path.is_file() for path in folder.iterdir())
         if count > MOST_FILES and "node_modules" not in folder.parts:
             problems.append(f"{folder.relative_to(root).as_posix()}: {count} files are more than {MOST_FILES}; "

@@ -58,9 +58,9 @@ class SourceRulesTest(unittest.TestCase):
         self.assertEqual([problem.split(": ")[0] for problem in found], ["tests/a.cpp:1", "tools/b.cpp:2"])
 
     def test_folders_of_many_files(self):
-        found = self.problems({f"tools/{folder}/{index}.cpp": "" for folder, count in {"a": 30, "a/b": 31}.items()
-                               for index in range(count)})
-        self.assertEqual([problem.split(": ")[0] for problem in found], ["tools/a/b"])
+        counts = {"tools/a": 30, "tools/a/b": 31, "core/src/c": 31, "tests/d": 31, "docs/e": 31}
+        found = self.problems({f"{folder}/{index}.hpp": "" for folder, count in counts.items() for index in range(count)})
+        self.assertEqual([problem.split(": ")[0] for problem in found], ["core/src/c", "tests/d", "tools/a/b"])
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

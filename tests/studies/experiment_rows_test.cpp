@@ -17,7 +17,7 @@
 #include "experiment/paper/paper_rows.hpp"
 #include "experiment/paper/paper_walk.hpp"
 #include "experiment/paper/region_escapes.hpp"
-#include "scheduler/naive_paper.hpp"
+#include "scheduler/answers/naive_paper.hpp"
 #include "support/catch.hpp"
 #include "support/model_shape.hpp"
 #include "tools/program.hpp"

@@ -15,7 +15,7 @@
 #include "figures/html_page.hpp"
 #include "figures/result_table.hpp"
 #include "support/catch.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 #include "tools/program.hpp"
 #include "tools/temporary_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include <new>
 
 #include "scenes/random.hpp"
-#include "scheduler/failing_allocator.hpp"
+#include "scheduler/memory/failing_allocator.hpp"
 #include "stress/soak/soak.hpp"
 #include "support/catch.hpp"
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "support/catch.hpp"
-#include "support/exact_distance.hpp"
+#include "support/exact/exact_distance.hpp"
 #include "support/mesh_of.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {

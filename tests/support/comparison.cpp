@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "support/oracle_grouped_nearest.hpp"
+#include "support/oracle/oracle_grouped_nearest.hpp"
 
 namespace graze::tests {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tests {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "support/comparison.hpp"
-#include "support/oracle_edges.hpp"
+#include "support/oracle/oracle_edges.hpp"
 
 namespace graze::tests {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::oracle {
 
@@ -49,6 +49,7 @@ FacePairs::FacePairs(const Shape& a, const Shape& b,
 }
 
 bool FacePairs::may(const Feature& a, const Feature& b) const {
+  if (is_of_self()) return self_.may(a, b);
   if (looked_at_.empty()) return true;
   for (const std::uint32_t face_a : a_[static_cast<std::size_t>(a.kind)][a.index])
     for (const std::uint32_t face_b : b_[static_cast<std::size_t>(b.kind)][b.index])

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tests {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/models.hpp"
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tests {
 

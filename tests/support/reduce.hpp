@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tests {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "support/catch.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 #include "support/reduce.hpp"
 
 namespace graze::tests {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tests {
 

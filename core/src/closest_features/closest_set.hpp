@@ -38,7 +38,8 @@ class ClosestSet {
   ClosestSet(const SurfacePair& pair, Ties ties, Closest& closest)
       : pair_(pair), ties_(ties), closest_(closest), keys_(closest.keys) {}
 
-  void offer(const FeaturePairKey& key) {
+  void offer(const FeaturePairKey& offered) {
+    const FeaturePairKey key = in_order(pair_, offered);
     closest_.pierced = closest_.pierced || is_edge_through_face(key);
     if (keys_.empty()) return replace(key);
     const bool is_known = ties_ == Ties::lowest ? key == keys_.front() : keys_.contains(key);

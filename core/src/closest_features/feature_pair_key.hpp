@@ -29,9 +29,15 @@ struct SurfacePair {
   [[nodiscard]] bool may(const FeatureRef& of_a, const FeatureRef& of_b) const {
     return groups == nullptr || groups->may(of_a, of_b);
   }
+  /// Whether it counts that an edge or fold pierces a face.
+  [[nodiscard]] bool may_pierce(const FeatureRef& of_a, const FeatureRef& of_b) const {
+    return groups == nullptr || groups->may_pierce(of_a, of_b);
+  }
   [[nodiscard]] bool may_vertices(std::uint32_t of_a, std::uint32_t of_b) const {
     return groups == nullptr || groups->may_vertices(of_a, of_b);
   }
+  /// Whether both are one surface.
+  [[nodiscard]] bool is_of_self() const { return &a == &b; }
   /// Whether any features of two regions may be tested against each other.
   [[nodiscard]] bool may_regions(const RegionPair& regions) const {
     return groups == nullptr || groups->may_regions(regions);
@@ -132,6 +138,13 @@ class FeaturePairKey {
   std::uint64_t high_ = 0;
   std::uint64_t low_ = 0;
 };
+
+/// The key by which two features are known. Those of one surface are met in both orders, and known by the one
+/// with the lower feature first.
+inline FeaturePairKey in_order(const SurfacePair& pair, const FeaturePairKey& key) {
+  if (!pair.is_of_self() || key.a() <= key.b()) return key;
+  return FeaturePairKey::of(key.b(), key.a(), key.meeting());
+}
 
 /// Whether an edge pierces a face, which is contact at every threshold. A fold that does is no edge.
 inline bool is_edge_through_face(const FeaturePairKey& key) {

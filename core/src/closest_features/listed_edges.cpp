@@ -177,7 +177,8 @@ class EdgeSide {
   [[nodiscard]] bool may(std::uint32_t face) const {
     const FeatureRef this_face{FeatureRefKind::face, face};
     const FeatureRef other_edge{FeatureRefKind::edge, other_};
-    return is_of_a_ ? pair_.may(this_face, other_edge) : pair_.may(other_edge, this_face);
+    return is_of_a_ ? pair_.groups->may_groups(this_face, other_edge)
+                    : pair_.groups->may_groups(other_edge, this_face);
   }
 
   const SurfacePair& pair_;

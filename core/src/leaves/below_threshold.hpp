@@ -9,9 +9,11 @@ namespace graze {
 
 /// The range of a query for contacts: pairs below the threshold, and piercing at every threshold. Pairs that
 /// come to be so within the slack are listed. `nearest`: of each vertex the nearest is wanted alone.
-template <bool nearest>
+/// `inner_edges`: two edges are of interest only if their closest points are inside both.
+template <bool nearest, bool inner_edges = nearest>
 struct BelowThreshold {
   static constexpr bool nearest_only = nearest;
+  static constexpr bool inner_edges_only = inner_edges;
   static constexpr bool may_settle = false;
 
   double threshold;

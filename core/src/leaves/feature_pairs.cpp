@@ -42,7 +42,7 @@ template <typename Use>
 void CloseFeatures::with_names(const Use& use) {
   BelowThreshold<false> range{threshold_, listing_, touching_};
   const auto sink = [&](const FeaturePairKey& key, const SquaredRange& squared) {
-    add_if_contact(key, squared);
+    add_if_contact(in_order(pair_, key), squared);
   };
   LeafFeaturePairs keys(pair_, scratch_, range, sink);
   use(keys);

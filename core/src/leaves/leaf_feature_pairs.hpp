@@ -41,8 +41,8 @@ namespace graze {
 /// one for which `range.is_superfluous(key)` holds on are of no interest. If `range.wants_touching()`,
 /// neither is anything that is apart.
 ///
-/// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance,
-/// and two edges have a key only if both closest points are inside. If `Range::may_settle` is true, pairs
+/// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance. If
+/// `Range::inner_edges_only` is true, two edges have a key only if both closest points are inside. If `Range::may_settle` is true, pairs
 /// that `LeafScratch::coinciding` settles are left to it.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
@@ -55,7 +55,8 @@ class LeafFeaturePairs {
         range_(range),
         sink_(sink) {}
 
-  /// The features that the scratch has taken.
+  /// The features that the scratch has taken. Those of one leaf are met in both orders where this is no more
+  /// work.
   void add_selected() {
     use_frame();
     const SelectedLeaf& a = scratch_.a;
@@ -65,7 +66,7 @@ class LeafFeaturePairs {
       touching(a.edges, b.triangles, faces, batches_.through_b, handle_through_b());
       touching(a.folds, b.triangles, faces, batches_.through_b, handle_through_b());
     }
-    if (const kernels::Block faces = boxes_of(a.triangles); faces.count > 0) {
+    if (const kernels::Block faces = boxes_of(a.triangles); faces.count > 0 && !scratch_.is_one_leaf) {
       near_vertices(b.vertices, a.triangles, faces, batches_.vertex_b, handle_vertex_b());
       touching(b.edges, a.triangles, faces, batches_.through_a, handle_through_a());
       touching(b.folds, a.triangles, faces, batches_.through_a, handle_through_a());
@@ -102,7 +103,7 @@ class LeafFeaturePairs {
 
   void finish() {
     finish_batches();
-    scratch_.naming.finish<Range::nearest_only>(pair_, sink_);
+    scratch_.naming.finish<Range::inner_edges_only>(pair_, sink_);
   }
 
  private:
@@ -307,7 +308,7 @@ class LeafFeaturePairs {
               [&](const FeatureRef& segment, const FeatureRef& face) {
                 const FeatureRef& a = is_through_a ? face : segment;
                 const FeatureRef& b = is_through_a ? segment : face;
-                if (pair_.may(a, b)) range_.found(a, b);
+                if (pair_.may_pierce(a, b)) range_.found(a, b);
               });
   }
   template <typename Batch, typename Kernel, typename Handler>
@@ -344,12 +345,13 @@ class LeafFeaturePairs {
   }
   auto handle_segments() {
     return [this](const FeatureRef& a, const FeatureRef& b, const KnownInFloat& known) {
+      if (scratch_.is_one_leaf && b.index < a.index && a.kind == b.kind) return;
       if (!pair_.may(a, b)) return;
       range_.found(a, b);
       const bool are_edges = a.kind == FeatureRefKind::edge && b.kind == FeatureRefKind::edge;
       if (known.voronoi != kernels::unsure_voronoi && are_edges) {
         const auto voronoi = static_cast<std::size_t>(known.voronoi);
-        if (Range::nearest_only && voronoi != inside_both) return;
+        if (Range::inner_edges_only && voronoi != inside_both) return;
         return accept_in_float(piece_of_edge(pair_.a.mesh(), a.index, voronoi >> 2U),
                                piece_of_edge(pair_.b.mesh(), b.index, voronoi & 3U), SquaredRange{0, 0});
       }
@@ -359,18 +361,19 @@ class LeafFeaturePairs {
       if (!may_be_near(pair_.a, a, pair_.b, b, known)) return;
       if (range_.wants_touching() && certainly_apart(ends_of(pair_.a, a), ends_of(pair_.b, b))) return;
       if (are_edges)
-        scratch_.naming.add_edges<Range::nearest_only>(pair_, a.index, b.index, sink_);
+        scratch_.naming.add_edges<Range::inner_edges_only>(pair_, a.index, b.index, sink_);
       else if (is_segment(pair_.a, a) && is_segment(pair_.b, b))
         offer_inner(piece_of(a), piece_of(b));
     };
   }
   auto handle_through_b() {
     return [this](const FeatureRef& segment, const FeatureRef& face, const KnownInFloat& known) {
-      if (!pair_.may(segment, face) || !may_touch(pair_.a, segment, pair_.b, face, known)) return;
+      if (!pair_.may_pierce(segment, face) || !may_touch(pair_.a, segment, pair_.b, face, known)) return;
       range_.may_touch(segment, true);
       pair_.check_time();
       const FeaturePiece a = piece_of(segment);
-      if (range_.is_superfluous(FeaturePairKey::of(a, face_piece(face.index, Piece::fold), Meeting::pierced)))
+      const FeaturePiece lowest_of_face = face_piece(face.index, Piece::fold);
+      if (range_.is_superfluous(in_order(pair_, FeaturePairKey::of(a, lowest_of_face, Meeting::pierced))))
         return;
       if (!is_segment(pair_.a, segment)) return;
       if (const auto b = pierced(pair_.a, a, pair_.b, face, known))
@@ -379,11 +382,12 @@ class LeafFeaturePairs {
   }
   auto handle_through_a() {
     return [this](const FeatureRef& segment, const FeatureRef& face, const KnownInFloat& known) {
-      if (!pair_.may(face, segment) || !may_touch(pair_.b, segment, pair_.a, face, known)) return;
+      if (!pair_.may_pierce(face, segment) || !may_touch(pair_.b, segment, pair_.a, face, known)) return;
       range_.may_touch(segment, false);
       pair_.check_time();
       const FeaturePiece b = piece_of(segment);
-      if (range_.is_superfluous(FeaturePairKey::of(face_piece(face.index, Piece::fold), b, Meeting::pierced)))
+      const FeaturePiece lowest_of_face = face_piece(face.index, Piece::fold);
+      if (range_.is_superfluous(in_order(pair_, FeaturePairKey::of(lowest_of_face, b, Meeting::pierced))))
         return;
       if (!is_segment(pair_.b, segment)) return;
       if (const auto a = pierced(pair_.b, b, pair_.a, face, known))
@@ -400,8 +404,8 @@ class LeafFeaturePairs {
   }
 
   /// The lowest key that two features can have, by the lowest vertex of each.
-  static FeaturePairKey lowest_key(std::uint32_t vertex_a, std::uint32_t vertex_b) {
-    return FeaturePairKey::of(vertex_piece(vertex_a), vertex_piece(vertex_b));
+  [[nodiscard]] FeaturePairKey lowest_key(std::uint32_t vertex_a, std::uint32_t vertex_b) const {
+    return in_order(pair_, FeaturePairKey::of(vertex_piece(vertex_a), vertex_piece(vertex_b)));
   }
   static std::uint32_t lowest_corner(const Surface& surface, const FeatureRef& face) {
     const auto corner = surface.mesh().face(face.index);

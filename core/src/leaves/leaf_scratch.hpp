@@ -6,10 +6,10 @@
 #include "closest_features/feature_pair_key.hpp"
 #include "leaves/closest_features_batch.hpp"
 #include "leaves/coinciding_corners.hpp"
-#include "leaves/float_filter.hpp"
-#include "leaves/leaf_cache.hpp"
-#include "leaves/leaf_features.hpp"
-#include "leaves/listed_vertices.hpp"
+#include "leaves/layout/float_filter.hpp"
+#include "leaves/layout/leaf_cache.hpp"
+#include "leaves/layout/leaf_features.hpp"
+#include "leaves/layout/listed_vertices.hpp"
 #include "surface/leaf_slab.hpp"
 #include "surface/per_leaf_cache.hpp"
 
@@ -46,12 +46,15 @@ struct LeafScratch {
   /// Whether leaves get slabs that are further apart than they are large. They pay where boxes leave many
   /// leaves about as near as the nearest, as between a shell and what is in its middle.
   bool makes_slabs_of_far = false;
+  /// Whether both leaves whose features are selected are one, of a surface with itself.
+  bool is_one_leaf = false;
 
   /// Call it before the first pair of leaves of a query or slice. It forgets the query before. The frame is
   /// that of this pair, or of the first that is met.
   void begin() {
     frame = {};
     makes_slabs_of_far = false;
+    is_one_leaf = false;
     folds.begin();
     filter.begin();
     naming.begin();
@@ -104,6 +107,7 @@ struct LeafScratch {
   template <typename Range, typename Take>
   bool select_near(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
                    double touching_within, bool vertices_only, const Take& select) {
+    is_one_leaf = &leaf_a.region == &leaf_b.region;
     const double limit = range.limit();
     const auto nothing_near = [&] {
       range.left_out(limit);

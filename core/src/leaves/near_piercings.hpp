@@ -4,7 +4,7 @@
 
 #include "closest_features/feature_pair_key.hpp"
 #include "core/pair/near_list.hpp"
-#include "leaves/leaf_features.hpp"
+#include "leaves/layout/leaf_features.hpp"
 #include "leaves/leaf_scratch.hpp"
 
 namespace graze {

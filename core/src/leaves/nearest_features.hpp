@@ -26,7 +26,8 @@ struct NearestFound {
   std::vector<EdgesIfSunk>& edges_if_sunk;  ///< further edges below the threshold
   PiercingEdges& piercing;                  ///< the edges that pierce
   /// The nearest where one feature is the fold of a quad, or one edge a seam of hidden faces, of those below
-  /// the threshold. It is a contact only where there is no other.
+  /// the threshold. It is a contact only where there is no other. For a surface and itself it is the nearest of
+  /// all that is no contact.
   std::optional<NearKey>& fold;
   /// The features that may be nearest to each vertex. It is complete when all leaves have been added.
   NearestOfVertices& vertices;
@@ -55,10 +56,13 @@ class NearestFeatures {
  private:
   template <typename Use>
   void with_names(const Use& use);
+  template <typename Range, typename Use>
+  void with_names_in(Range range, const Use& use);
   void take(const FeaturePairKey& key, const SquaredRange& squared);
-  void take_near(const FeaturePairKey& key, const SquaredRange& squared);
-  void take_edges(const FeaturePairKey& key, const SquaredRange& squared);
-  void take_alone(const FeaturePairKey& key, const SquaredRange& squared);
+  void take_vertices_of_self(const FeaturePairKey& key, const SquaredRange& squared);
+  void take_near(const FeaturePairKey& key);
+  void take_edges(const FeaturePairKey& key);
+  void take_alone(const FeaturePairKey& key);
 
   const SurfacePair& pair_;
   double threshold_;

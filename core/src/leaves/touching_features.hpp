@@ -1,7 +1,7 @@
 #pragma once
 
 #include "closest_features/feature_pair_key.hpp"
-#include "leaves/leaf_features.hpp"
+#include "leaves/layout/leaf_features.hpp"
 #include "leaves/leaf_scratch.hpp"
 #include "leaves/touching_edges.hpp"
 

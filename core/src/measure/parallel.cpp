@@ -245,8 +245,11 @@ class ParallelContacts {
            });
   }
 
-  /// Takes parallel features if they are the lowest that give way to no others.
-  void offer(const TwoFeatures& features) {
+  /// Takes parallel features if they are the lowest that give way to no others. Those of one surface are known
+  /// by the lower first, as keys are.
+  void offer(const TwoFeatures& offered) {
+    const bool is_in_order = !pair_.is_of_self() || offered.first <= offered.second;
+    const TwoFeatures features = is_in_order ? offered : TwoFeatures{offered.second, offered.first};
     const auto& [a, b] = features;
     const FeaturePairKey key = FeaturePairKey::of({a, Piece::fold}, {b, Piece::fold}, Meeting::parallel);
     if (lowest_ && !(key < *lowest_)) return;

@@ -1,5 +1,7 @@
 #include "core/pair/group_filter.hpp"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/base/bytes_of.hpp"
@@ -21,6 +23,40 @@ FeatureFilter::FeatureFilter(const FaceGroups* a, const FaceGroups* b)
       some_faces_{a_->first_seen_face(), b_->first_seen_face()},
       leaves_some_(a_->all().any() && b_->all().any()),
       leaves_all_(!a_->hides_some() && !b_->hides_some()) {}
+
+bool FeatureFilter::may_of_self(const FeatureRef& a, const FeatureRef& b) const {
+  if (self_.exclusion->are_neighbours(a, b)) return false;
+  return !(self_.rest_distance > 0) || !self_.exclusion->are_near_at_rest(a, b, self_.rest_distance);
+}
+
+/// Between surfaces a vertex is tested with the faces of the other vertex.
+bool FeatureFilter::may_vertices_of_self(std::uint32_t a, std::uint32_t b) const {
+  if (!self_.is_of_vertices) return may_vertex(a, {FeatureKind::vertex, b});
+  return a < b && may_of_self({FeatureRefKind::vertex, a}, {FeatureRefKind::vertex, b});
+}
+
+bool FeatureFilter::may_vertex(std::uint32_t vertex, const Feature& feature) const {
+  const IndexedMesh& mesh = self_.exclusion->mesh();
+  const auto faces = feature.kind == FeatureKind::face   ? std::span(&feature.index, 1)
+                     : feature.kind == FeatureKind::edge ? mesh.edge_faces(feature.index)
+                                                         : mesh.vertex_faces(feature.index);
+  return std::any_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
+    return may({FeatureRefKind::vertex, vertex}, {FeatureRefKind::face, face});
+  });
+}
+
+std::optional<std::array<std::uint32_t, 2>> FeatureFilter::some_vertices(const IndexedMesh& mesh_a,
+                                                                         const IndexedMesh& mesh_b) const {
+  if (!is_of_self()) return std::array{mesh_a.face(some_faces_[0])[0], mesh_b.face(some_faces_[1])[0]};
+  for (const auto& [vertex, face] : self_.exclusion->far_pairs()) {
+    const std::uint32_t corner = mesh_b.face(face)[0];
+    const bool may_be_tested =
+        self_.is_of_vertices ? may_vertices(std::min(vertex, corner), std::max(vertex, corner))
+                             : may({FeatureRefKind::vertex, vertex}, {FeatureRefKind::face, face});
+    if (may_be_tested) return std::array{vertex, corner};
+  }
+  return std::nullopt;
+}
 
 GroupFilter::GroupFilter(std::shared_ptr<const FaceGroups> a, std::shared_ptr<const FaceGroups> b)
     : FeatureFilter(a.get(), b.get()),

@@ -63,9 +63,8 @@ class Paper {
  private:
   /// Offers two vertices that may be tested, since DV may meet none.
   void offer_some(const FeatureFilter& groups) {
-    const auto& [a, b] = groups.some_faces();
-    nearest_.offer(
-        FeaturePairKey::of(vertex_piece(pair_.a.mesh().face(a)[0]), vertex_piece(pair_.b.mesh().face(b)[0])));
+    if (const auto some = groups.some_vertices(pair_.a.mesh(), pair_.b.mesh()))
+      nearest_.offer(FeaturePairKey::of(vertex_piece((*some)[0]), vertex_piece((*some)[1])));
   }
   /// Eq. 4: expand when the middle vertices are closer than the level's epsilon. The pair of roots is always
   /// expanded.

@@ -1,6 +1,10 @@
 #include "core/search/pair_detector.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/pair/group_filter.hpp"
 #include "pair/bounds.hpp"
@@ -9,20 +13,26 @@
 namespace graze {
 namespace {
 
-/// A vertex of each surface that may be looked at: the middle vertex of the whole, or the corner of a face.
-std::array<std::uint32_t, 2> some_vertices(const Surface& a, const Surface& b, const FeatureFilter* groups) {
+/// A vertex of each surface that may be tested: the middle vertex of the whole, or the corner of a face. It is
+/// not there where none is known, of one surface with itself.
+std::optional<std::array<std::uint32_t, 2>> some_vertices(const Surface& a, const Surface& b, const FeatureFilter* groups) {
   const std::uint32_t middle_a = a.mesh().regions().region(0).middle;
   const std::uint32_t middle_b = b.mesh().regions().region(0).middle;
-  if (groups == nullptr || groups->may_vertices(middle_a, middle_b)) return {middle_a, middle_b};
-  const auto& [face_a, face_b] = groups->some_faces();
-  return {a.mesh().face(face_a)[0], b.mesh().face(face_b)[0]};
+  if (groups == nullptr || (!groups->is_of_self() && groups->may_vertices(middle_a, middle_b)))
+    return std::array{middle_a, middle_b};
+  return groups->some_vertices(a.mesh(), b.mesh());
 }
 
 /// Bounds that need no search: the objects' boxes, and two of their vertices.
 void set_outer_bounds(const Surface& a, const Surface& b, const FeatureFilter* groups, PairAnswer& answer) {
-  const auto [vertex_a, vertex_b] = some_vertices(a, b, groups);
-  answer.distance = {lower_distance(a.box(), b.box()),
-                     upper_distance(a.position(vertex_a), b.position(vertex_b))};
+  const auto some = some_vertices(a, b, groups);
+  answer.distance = {lower_distance(a.box(), b.box()), std::numeric_limits<double>::infinity()};
+  answer.witness = {};
+  if (!some) return;
+  std::uint32_t vertex_a = (*some)[0];
+  std::uint32_t vertex_b = (*some)[1];
+  if (&a == &b && vertex_b < vertex_a) std::swap(vertex_a, vertex_b);
+  answer.distance.upper = upper_distance(a.position(vertex_a), b.position(vertex_b));
   answer.witness = {{FeatureKind::vertex, vertex_a},
                     {FeatureKind::vertex, vertex_b},
                     a.position(vertex_a),

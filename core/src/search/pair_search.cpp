@@ -6,9 +6,9 @@
 #include "pair/time_limit.hpp"
 #include "search/deepest_contacts.hpp"
 #include "search/past_seams.hpp"
-#include "search/search_worker.hpp"
-#include "search/solid_search.hpp"
-#include "search/way_out_search.hpp"
+#include "search/solids/solid_search.hpp"
+#include "search/solids/way_out_search.hpp"
+#include "search/workers/search_worker.hpp"
 
 namespace graze {
 

@@ -5,11 +5,11 @@
 
 #include "core/mesh/pair_room.hpp"
 #include "core/pair/pair_counters.hpp"
-#include "search/closest_search.hpp"
-#include "search/contact_search.hpp"
-#include "search/search_scratch.hpp"
-#include "search/search_slices.hpp"
-#include "search/searched_pair.hpp"
+#include "search/closest/closest_search.hpp"
+#include "search/contacts/contact_search.hpp"
+#include "search/workers/search_scratch.hpp"
+#include "search/workers/search_slices.hpp"
+#include "search/workers/searched_pair.hpp"
 #include "vertices/near_vertices.hpp"
 
 namespace graze {

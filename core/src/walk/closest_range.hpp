@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "closest_features/closest_set.hpp"
 #include "core/pair/pair_query.hpp"
@@ -83,27 +85,25 @@ class ClosestRange {
     const std::uint32_t b = pair_.b.mesh().regions().region(regions.b).middle;
     if (pair_.may_vertices(a, b))
       offer_apart(a, b);
-    else if (!is_about_vertices(query_.detail))
+    else if (!is_about_vertices(query_.detail) && !pair_.is_of_self())
       at_most(RegionBounds(pair_.a, pair_.b, RefitOf::faces).upper(regions));
   }
   /// Offers two vertices of the surfaces before the search begins: the roots' middle vertices, or corners of
   /// faces that may be tested.
   void offer_some() {
     if (pair_.groups == nullptr) return offer_middles(whole_surfaces);
-    const auto& [a, b] = pair_.groups->some_faces();
-    offer_apart(pair_.a.mesh().face(a)[0], pair_.b.mesh().face(b)[0]);
+    if (const auto some = pair_.groups->some_vertices(pair_.a.mesh(), pair_.b.mesh()))
+      offer_apart((*some)[0], (*some)[1]);
   }
-  /// Offers two vertices, wherever they are, where nothing is below the reach.
-  void offer_any() {
-    const auto offer = [this](std::uint32_t a, std::uint32_t b) {
-      set_.offer(FeaturePairKey::of(vertex_piece(a), vertex_piece(b)));
-    };
-    if (pair_.groups != nullptr) {
-      const auto& [a, b] = pair_.groups->some_faces();
-      return offer(pair_.a.mesh().face(a)[0], pair_.b.mesh().face(b)[0]);
-    }
-    offer(pair_.a.mesh().regions().region(whole_surfaces.a).middle,
-          pair_.b.mesh().regions().region(whole_surfaces.b).middle);
+  /// Offers two vertices, wherever they are, where nothing is below the reach. Returns false if no two are
+  /// known.
+  bool offer_any() {
+    std::optional<std::array<std::uint32_t, 2>> any =
+        std::array{pair_.a.mesh().regions().region(whole_surfaces.a).middle,
+                   pair_.b.mesh().regions().region(whole_surfaces.b).middle};
+    if (pair_.groups != nullptr) any = pair_.groups->some_vertices(pair_.a.mesh(), pair_.b.mesh());
+    if (any) set_.offer(FeaturePairKey::of(vertex_piece((*any)[0]), vertex_piece((*any)[1])));
+    return any.has_value();
   }
   /// Offers two vertices that are apart.
   void offer_apart(std::uint32_t a, std::uint32_t b) {
@@ -126,6 +126,7 @@ class ClosestRange {
   }
   [[nodiscard]] bool wants_touching() const { return is_decided(); }
   static constexpr bool nearest_only = false;
+  static constexpr bool inner_edges_only = false;
   static constexpr bool may_settle = true;
   void may_touch(const FeatureRef& segment, bool is_of_a) const {
     if (touching_edges_ != nullptr) touching_edges_->add(segment, is_of_a);

@@ -71,7 +71,8 @@ struct Expansion {
 /// when the budget ran out on the way.
 ///
 /// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf. Neither
-/// ends the walk there. A leaf is never expanded. Where both are, a child that `may_meet` finds to be far
+/// ends the walk there. A leaf is never expanded. A region of one tree and itself is always expanded on both
+/// sides, and each two of its children make one pair. Where both are, a child that `may_meet` finds to be far
 /// from the whole of the other region is left out. `leaves(pair, a, b)` takes each pair of leaves that is
 /// reached.
 template <typename Expand, typename MayMeet, typename Leaves>
@@ -80,12 +81,18 @@ bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch
          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   const auto push_children = [&](const RegionPair& pair, const Region& a, const Region& b,
                                  const Expansion& expansion) {
+    const bool is_of_itself = &a == &b;
     const bool a_stays = a.is_leaf() || !expansion.a;
     const bool b_stays = b.is_leaf() || !expansion.b;
     const std::uint32_t first_a = a_stays ? pair.a : a.first_child;
     const std::uint32_t first_b = b_stays ? pair.b : b.first_child;
     const std::uint32_t count_a = a_stays ? 1 : a.child_count;
     const std::uint32_t count_b = b_stays ? 1 : b.child_count;
+    if (is_of_itself) {
+      for (std::uint32_t i = 0; i < count_a; ++i)
+        for (std::uint32_t j = i; j < count_a; ++j) scratch.next.push_back({first_a + i, first_a + j});
+      return;
+    }
     if (count_a == 1 || count_b == 1) {
       for (std::uint32_t i = 0; i < count_a; ++i)
         for (std::uint32_t j = 0; j < count_b; ++j) scratch.next.push_back({first_a + i, first_b + j});

@@ -10,7 +10,7 @@
 #include "core/mesh/pair_room.hpp"
 #include "core/pair/leaf_front.hpp"
 #include "core/pair/pair_query.hpp"
-#include "leaves/leaf_features.hpp"
+#include "leaves/layout/leaf_features.hpp"
 #include "pair/bounds.hpp"
 #include "surface/leaf_boxes.hpp"
 #include "surface/long_leaf_boxes.hpp"
@@ -146,7 +146,9 @@ class LeafPairs {
           if (!pair_.may_regions(leaves)) return;
           meet(leaves);
           const double lower = bounds_.lower(leaves);
-          if (keeps(lower)) found.leaves.push_back({std::max(lower, lower_of_leaves(leaves)), leaves, 0, 0});
+          if (!keeps(lower)) return;
+          const RegionPair listed = in_order(leaves);
+          found.leaves.push_back({std::max(lower, lower_of_leaves(listed)), listed, 0, 0});
         },
         most);
   }
@@ -177,6 +179,11 @@ class LeafPairs {
   }
 
  private:
+  /// Two leaves of one surface are known by the one with the lower number first.
+  [[nodiscard]] RegionPair in_order(const RegionPair& leaves) const {
+    if (!pair_.is_of_self()) return leaves;
+    return {std::min(leaves.a, leaves.b), std::max(leaves.a, leaves.b)};
+  }
   /// Expands only the larger of two regions of very different size: with a pebble and a planet one way down
   /// the planet is walked, not one for each part of the pebble. Otherwise expands both, as in the paper.
   [[nodiscard]] Expansion expansion_of(const RegionPair& regions, const Region& a, const Region& b) const {

@@ -196,7 +196,7 @@ struct StepStatistics {
   /// Objects that were surveyed: the step computed their bounding box without a copy of their positions.
   /// Those that came near another object, so that they were read as well, are included.
   std::uint64_t objects_surveyed = 0;
-  /// All pairs of objects: n(n-1)/2 for n objects.
+  /// All pairs of objects: n(n-1)/2 for n objects, and one more for each that is tested against itself.
   std::uint64_t pairs_total = 0;
   /// Objects that moved but stayed inside their loose boxes, so that the broad phase looked for no new pairs
   /// of them. A loose box is the object's box with room to move.

@@ -70,6 +70,21 @@ struct ObjectSettings {
   /// An edge between a hidden face and one that is seen is tested with the seen face alone. The seen face is
   /// taken to go on behind the edge in its plane, so that the edge is neither a border nor a crease.
   std::vector<std::uint8_t> hidden_groups = {};
+  /// Whether the surface is tested against itself: the pair (id, id) has a row of its own, as two objects
+  /// have. It has an effect with all details but `regions`, and not with Accuracy::paper(). Layers, groups
+  /// and #motion do not take this pair out. What a #solid or SceneSettings::ways_out adds does not go with
+  /// it.
+  ///
+  /// A contact names two features of the surface, the lower as `feature_a`. Features that belong together are
+  /// not tested: see #self_rings and #self_at_rest. An edge that pierces a face counts wherever the two share
+  /// no vertex.
+  bool self = false;
+  /// With #self: two features are not tested if a vertex of one is joined to a vertex of the other by this
+  /// many edges or fewer. With 0 only features that share a vertex are left out. It is at most 8.
+  std::uint32_t self_rings = 1;
+  /// With #self: whether features are tested that are nearer than the threshold at rest. A mesh finer than
+  /// the threshold would then touch itself everywhere.
+  bool self_at_rest = false;
   /// Whether reports say what the object meets between two steps. A pair is swept if one of its objects is.
   /// Then every vertex of both objects counts as moving along a straight line from where the last step saw
   /// it, and FrameReport::impacts() lists what meets on the way. A pair that meets on the way is listed.

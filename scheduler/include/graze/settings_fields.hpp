@@ -63,6 +63,9 @@ inline constexpr std::tuple object_settings_fields{
     SettingsField<&ObjectSettings::solid>{"solid"},
     SettingsField<&ObjectSettings::face_groups>{"face_groups"},
     SettingsField<&ObjectSettings::hidden_groups>{"hidden_groups"},
+    SettingsField<&ObjectSettings::self>{"self"},
+    SettingsField<&ObjectSettings::self_rings>{"self_rings"},
+    SettingsField<&ObjectSettings::self_at_rest>{"self_at_rest"},
     SettingsField<&ObjectSettings::swept>{"swept"},
 };
 static_assert(has_every_member<ObjectSettings>(object_settings_fields),

@@ -7,6 +7,12 @@
 #include "core/pair/setting_checks.hpp"
 
 namespace graze {
+namespace {
+
+/// More edges than this make no neighbourhood, and take long to follow.
+constexpr std::uint32_t most_self_rings = 8;
+
+}  // namespace
 
 std::optional<std::string> problem_of(const SceneSettings& settings) {
   if (auto problem = problem_of_enumerator("scene: ", "detail", settings.detail)) return problem;
@@ -37,6 +43,9 @@ std::optional<std::string> problem_of(const ObjectSettings& settings) {
   if (auto problem = problem_of_distance(object, "margin", settings.margin)) return problem;
   if (settings.kind >= kind_count)
     return object + "kind is " + std::to_string(settings.kind) + "; kinds are 0 to 255";
+  if (settings.self_rings > most_self_rings)
+    return object + "self_rings is " + std::to_string(settings.self_rings) + "; it is at most " +
+           std::to_string(most_self_rings);
   return std::nullopt;
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/spare_positions.hpp"
 #include "core/mesh/face_groups.hpp"
+#include "core/pair/self_exclusion.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {
@@ -25,6 +26,7 @@ struct AddObject {
   std::unique_ptr<Surface> surface;  ///< made on the caller's thread
   ObjectSettings settings;
   std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
+  std::shared_ptr<const SelfExclusion> self;      ///< null unless it is tested against itself
 };
 struct RemoveObject {
   ObjectId object;
@@ -36,6 +38,7 @@ struct ReplaceMesh {
   std::vector<std::uint32_t> new_of_old;          ///< the new vertex of each old one, or Mesh::no_vertex
   std::vector<std::uint8_t> group_of_face;        ///< of the new faces, or empty: all are in group 0
   std::shared_ptr<const FaceGroups> face_groups;  ///< as that of AddObject
+  std::shared_ptr<const SelfExclusion> self;      ///< as that of AddObject
 };
 struct SetPose {
   ObjectId object;

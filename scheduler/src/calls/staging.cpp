@@ -50,6 +50,13 @@ std::shared_ptr<const FaceGroups> face_groups_of(const IndexedMesh& mesh,
   return std::make_shared<const FaceGroups>(mesh, groups, hidden);
 }
 
+/// Returns what is left out where a surface is tested against itself, or null if it is not.
+std::shared_ptr<const SelfExclusion> self_exclusion_of(const Surface& surface,
+                                                       const ObjectSettings& settings) {
+  if (!settings.self) return nullptr;
+  return std::make_shared<const SelfExclusion>(surface.shared_mesh(), settings.self_rings);
+}
+
 /// Throws Error if the surface of a solid is not closed.
 void check_solid(const Mesh& mesh, const ObjectSettings& settings, const std::string& who) {
   if (!settings.solid) return;
@@ -176,7 +183,9 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   AddObject call{{},
                  std::make_unique<Surface>(mesh),
                  settings,
-                 face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who)};
+                 face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who),
+                 {}};
+  call.self = self_exclusion_of(*call.surface, settings);
   const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
   try {
@@ -209,17 +218,19 @@ void Staging::replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                            std::span<const std::uint8_t> face_groups) {
   if (mesh == nullptr) throw Error("replace_mesh: there is no mesh");
   check_map(*mesh, new_of_old);
-  std::vector<std::uint8_t> hidden;
+  ObjectSettings settings;
   if (const ObjectIds::Pin named = ids_.pin(object)) {
     check_solid(*mesh, named->settings, "replace_mesh");
-    hidden = named->settings.hidden_groups;
+    settings = named->settings;
   }
   const FloatingPointScope scope;
   ReplaceMesh call{object,
                    std::make_unique<Surface>(mesh),
                    {new_of_old.begin(), new_of_old.end()},
                    {face_groups.begin(), face_groups.end()},
-                   face_groups_of(indexed(*mesh), face_groups, hidden, "replace_mesh")};
+                   face_groups_of(indexed(*mesh), face_groups, settings.hidden_groups, "replace_mesh"),
+                   {}};
+  call.self = self_exclusion_of(*call.surface, settings);
   const std::lock_guard lock(bindings_);
   Calls calls(queue_);
   const ObjectIds::Pin named = ids_.pin(object);

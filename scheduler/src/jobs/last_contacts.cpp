@@ -2,11 +2,21 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "objects/mapped_feature.hpp"
 #include "report/contact_key.hpp"
 
 namespace graze {
+
+namespace {
+
+/// The two features of a contact, of which the lower comes first for an object with itself.
+std::pair<Feature, Feature> in_order(const PairJob& job, const Feature& a, const Feature& b) {
+  return job.is_of_self() && b < a ? std::pair(b, a) : std::pair(a, b);
+}
+
+}  // namespace
 
 void LastContacts::begin(const FrameReport& last, std::span<const PairJob> jobs, bool some_replaced) {
   last_ = &last;
@@ -24,8 +34,7 @@ void LastContacts::map(std::size_t job) {
     const auto a = mapped_feature(*jobs_[job].a, contact.feature_a);
     const auto b = mapped_feature(*jobs_[job].b, contact.feature_b);
     if (!a || !b) continue;
-    contact.feature_a = *a;
-    contact.feature_b = *b;
+    std::tie(contact.feature_a, contact.feature_b) = in_order(jobs_[job], *a, *b);
     contacts_.push_back(contact);
   }
   std::sort(contacts_.begin() + begin, contacts_.end(), [](const Contact& left, const Contact& right) {

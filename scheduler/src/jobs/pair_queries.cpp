@@ -42,9 +42,24 @@ bool may_be_cut(const PairJob& job, std::size_t limit) {
   return limit > 0 && (job.last == nullptr || job.last->contacts_cut || job.last->contact_count > limit / 2);
 }
 
+/// What an object with itself leaves out, beside what the groups of its faces do.
+FeatureFilter filter_of_self(const PairJob& job, ContactDetail detail) {
+  const FeatureFilter all(job.a->face_groups.get(), job.b->face_groups.get());
+  const FeatureFilter& groups = job.groups.filter == nullptr ? all : *job.groups.filter;
+  const double rest_distance = job.a->settings.self_at_rest ? 0 : job.thresholds.threshold;
+  return {groups, SelfQuery{job.a->self.get(), rest_distance, is_about_vertices(detail)}};
+}
+
+/// Returns what says which features of a pair are looked at, or null if all are, or none. It may be in
+/// `room`.
+const FeatureFilter* filter_of(const PairJob& job, ContactDetail detail, std::optional<FeatureFilter>& room) {
+  if (!job.is_of_self()) return groups_of(job, room);
+  return &room.emplace(filter_of_self(job, detail));
+}
+
 }  // namespace
 
-const FeatureFilter* filter_of(const PairJob& job, std::optional<FeatureFilter>& room) {
+const FeatureFilter* groups_of(const PairJob& job, std::optional<FeatureFilter>& room) {
   room.reset();
   if (job.groups.version != 0) return job.groups.filter;
   if (!job.a->hides_some_faces() && !job.b->hides_some_faces()) return nullptr;
@@ -62,7 +77,7 @@ PairQuery PairQueries::of(const PairJob& job, std::optional<FeatureFilter>& filt
   query.reach =
       job.was_in_contact() || job.met_on_way ? std::numeric_limits<double>::infinity() : job.thresholds.reach;
   query.region_distance_reach = job.thresholds.reach;
-  query.groups = filter_of(job, filter);
+  query.groups = filter_of(job, query.detail, filter);
   set_limits(query);
   set_slacks(query, job);
   set_solids(query, job);
@@ -94,7 +109,7 @@ void PairQueries::set_slacks(PairQuery& query, const PairJob& job) {
 }
 
 void PairQueries::set_solids(PairQuery& query, const PairJob& job) const {
-  if (is_about_vertices(query.detail) || job.task != PairJob::Task::detect) return;
+  if (is_about_vertices(query.detail) || job.task != PairJob::Task::detect || job.is_of_self()) return;
   query.a_is_solid = job.a->settings.solid;
   query.b_is_solid = job.b->settings.solid;
   query.wants_way_out = settings_.ways_out && query.mode != AccuracyMode::paper;

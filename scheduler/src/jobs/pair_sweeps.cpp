@@ -78,7 +78,8 @@ void PairSweeps::sweep(std::size_t index, unsigned worker, std::uint64_t work_li
   const AccessScope access({AccessRight::read(), {}});
   std::optional<FeatureFilter> filter;
   SweepQuery query = this->query();
-  query.groups = filter_of(job, filter);
+  query.groups = groups_of(job, filter);
+  query.is_self = job.is_of_self();
   query.work_limit = work_limit;
   Worker& own = workers_[worker];
   const auto way_of = [&](const Object& object) {

@@ -19,6 +19,7 @@
 #include "core/base/box.hpp"
 #include "core/mesh/face_groups.hpp"
 #include "core/mesh/indexed_mesh.hpp"
+#include "core/pair/self_exclusion.hpp"
 #include "core/surface/surface.hpp"
 #include "core/sweep/swept_surface.hpp"
 
@@ -160,6 +161,7 @@ struct Object {
   std::uint64_t serial = 0;  ///< ascends in the order of addition. It is never reused
   ObjectSettings settings;
   std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
+  std::shared_ptr<const SelfExclusion> self;      ///< null unless it is tested against itself
   std::unique_ptr<Surface> owned_surface;         ///< use the accessors below
   const IndexedMesh* mesh = nullptr;              ///< the surface's
   bool in_parts = false;                          ///< it is large, so several tasks read and refit it

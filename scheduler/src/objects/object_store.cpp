@@ -102,6 +102,7 @@ void ObjectStore::apply(AddObject& call) {
   object->serial = next_serial_++;
   object->settings = std::move(call.settings);
   object->face_groups = std::move(call.face_groups);
+  object->self = std::move(call.self);
   put_surface(*object, std::move(call.surface));
   count_bytes(*object);
   by_index_[call.object.index] = object.get();
@@ -131,6 +132,7 @@ void ObjectStore::apply(ReplaceMesh& call) {
   now.settings = std::move(object->settings);
   now.settings.face_groups = std::move(call.group_of_face);
   now.face_groups = std::move(call.face_groups);
+  now.self = std::move(call.self);
   now.mesh_number = object->mesh_number + 1;
   now.replaced = std::move(replaced);
   now.ignored_partners = std::move(object->ignored_partners);
@@ -280,7 +282,8 @@ void ObjectStore::reserve(std::size_t count) {
 void ObjectStore::count_bytes(Object& object) {
   const std::size_t bytes = object.surface().byte_count() +
                             (object.face_groups == nullptr ? 0 : object.face_groups->byte_count()) +
-                            (object.sweep == nullptr ? 0 : object.sweep->motion.byte_count());
+                            (object.sweep == nullptr ? 0 : object.sweep->motion.byte_count()) +
+                            (object.self == nullptr ? 0 : object.self->byte_count());
   surface_bytes_ += bytes - std::exchange(object.counted_bytes, bytes);
 }
 

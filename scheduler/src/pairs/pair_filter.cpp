@@ -57,7 +57,8 @@ void PairFilter::forget(Object& object) {
 }
 
 PairVerdict PairFilter::verdict(const ObjectSummary& a, const ObjectSummary& b) const {
-  const PairVerdict lasting = lasting_verdict(a, b);
+  // No filter of pairs takes out an object with itself, but all groups of its faces may be ignored.
+  const PairVerdict lasting = a.serial == b.serial ? PairVerdict::tested : lasting_verdict(a, b);
   if (lasting != PairVerdict::tested || is_empty()) return lasting;
   return contains(std::minmax(a.serial, b.serial)) ? PairVerdict::ignored : PairVerdict::tested;
 }

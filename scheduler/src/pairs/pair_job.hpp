@@ -42,6 +42,8 @@ struct PairJob {
     require_write(StepData::pairs, this);
     return *memory;
   }
+  /// Whether it is an object with itself.
+  [[nodiscard]] bool is_of_self() const { return a == b; }
   [[nodiscard]] bool is_tested() const { return task == Task::detect || task == Task::end; }
   /// Whether both surfaces are so large that a search of the pair is cut for several workers.
   [[nodiscard]] bool is_large() const {

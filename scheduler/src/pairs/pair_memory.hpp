@@ -16,8 +16,6 @@ struct PairMemory {
   std::uint64_t version_a = 0;
   std::uint64_t version_b = 0;
   std::uint64_t rules_version = 0;
-  /// In the place of #rules_version: the answer holds for no other step, since the pair was swept.
-  static constexpr std::uint64_t no_rules = ~std::uint64_t{0};
   /// PairGroups::version of the groups with which the front was made.
   std::uint64_t groups_version = 0;
 

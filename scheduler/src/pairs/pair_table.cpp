@@ -23,7 +23,9 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   if (store_.swept().some()) summaries_.take_up_sweeps(objects, store_.swept());
   find_listed(previous);
   find_ended(previous);
-  const auto close = broad_phase_.find(summaries_, filter_.half_reaches(), filter_, tasks);
+  const auto close = self_pairs_.add_to(
+      broad_phase_.find(summaries_, filter_.half_reaches(), filter_, tasks), objects, filter_);
+  statistics.pairs_total += self_pairs_.count();
   filter_.forget_changed();
   count_filtered(statistics);
   statistics.work.boxes_tested = broad_phase_.counters().boxes_tested;
@@ -198,7 +200,9 @@ bool PairTable::says_something(PairJob& job) const {
 void PairTable::add(PairJob job, const SelectedPair& selected) {
   job.memory = &selection_.memory_of(selected);
   if (store_.some_replaced() && job.speaks_of_replaced()) job.memory->forget();
-  if (job.memory->groups_version != job.groups.version) {
+  // Of an object with itself, the threshold says which features are near enough at rest to be left out.
+  const bool is_of_other_rule = job.is_of_self() && job.memory->rules_version != filter_.rules_version();
+  if (job.memory->groups_version != job.groups.version || is_of_other_rule) {
     // The answer holds no more, and the front lacks what those groups left out.
     job.memory->front.forget();
     job.memory->version_a = job.memory->version_b = 0;
@@ -232,6 +236,7 @@ void PairTable::count_jobs(StepStatistics& statistics) const {
 void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemoryRoom& room) {
   summaries_.reserve(objects);
   broad_phase_.reserve(objects, pairs);
+  self_pairs_.reserve(pairs);
   selection_.reserve(pairs, room);
   jobs_.reserve(pairs);
   last_rows_.reserve(pairs);
@@ -243,7 +248,7 @@ void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemory
 
 std::size_t PairTable::byte_count() const {
   return filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
-         selection_.byte_count() + bytes_of(jobs_) + bytes_of(last_rows_) + bytes_of(listed_) +
+         self_pairs_.byte_count() + selection_.byte_count() + bytes_of(jobs_) + bytes_of(last_rows_) + bytes_of(listed_) +
          bytes_of(rows_) + bytes_of(ended_) + bytes_of(wanted_);
 }
 

@@ -13,6 +13,7 @@
 #include "pairs/pair_filter.hpp"
 #include "pairs/pair_job.hpp"
 #include "pairs/pair_selection.hpp"
+#include "pairs/self_pairs.hpp"
 
 namespace graze {
 
@@ -21,7 +22,10 @@ namespace graze {
 class PairTable {
  public:
   PairTable(const SceneSettings& settings, PairFilter& filter, ObjectStore& store)
-      : store_(store), filter_(filter), may_rest_(!ContactLimit(settings).is_shared()) {}
+      : store_(store),
+        filter_(filter),
+        may_rest_(!ContactLimit(settings).is_shared()),
+        self_pairs_(settings) {}
 
   [[nodiscard]] PairFilter& filter() { return filter_; }
 
@@ -79,6 +83,7 @@ class PairTable {
   std::uint64_t filter_version_ = ~std::uint64_t{0};  ///< of the last look for what is near and unread
   ObjectSummaries summaries_;
   BroadPhase broad_phase_;
+  SelfPairs self_pairs_;
   PairSelection selection_;
   std::vector<PairJob> jobs_;
   std::vector<LastRows> last_rows_;

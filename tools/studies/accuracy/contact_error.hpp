@@ -5,7 +5,7 @@
 
 #include "accuracy/kernels.hpp"
 #include "support/comparison.hpp"
-#include "support/oracle_features.hpp"
+#include "support/oracle/oracle_features.hpp"
 
 namespace graze::tools {
 

@@ -9,7 +9,7 @@
 #include "core/pair/pair_query.hpp"
 #include "core/search/pair_detector.hpp"
 #include "core/surface/surface.hpp"
-#include "support/oracle_parallel.hpp"
+#include "support/oracle/oracle_parallel.hpp"
 
 namespace graze::tools {
 namespace {

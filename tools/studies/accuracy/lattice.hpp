@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "support/oracle.hpp"
-#include "support/random_scenes.hpp"
+#include "support/oracle/oracle.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tools {
 

@@ -6,7 +6,7 @@
 #include "mean_edge_length.hpp"
 #include "models/models.hpp"
 #include "support/model_shape.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tools {
 namespace {

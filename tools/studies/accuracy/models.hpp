@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "accuracy/moving_surfaces.hpp"
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tools {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "accuracy/lattice.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tools {
 

@@ -9,8 +9,8 @@
 #include "closest_features/key_order.hpp"
 #include "core/surface/surface.hpp"
 #include "leaves/feature_pairs.hpp"
+#include "leaves/layout/listed_vertices.hpp"
 #include "leaves/leaf_scratch.hpp"
-#include "leaves/listed_vertices.hpp"
 #include "measure/measure_batch.hpp"
 
 namespace graze::bench {

@@ -5,15 +5,18 @@
 #include <cstdint>
 #include <graze/export.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/mesh/face_groups.hpp"
 #include "core/pair/leaf_front.hpp"
 #include "core/pair/near_list.hpp"
+#include "core/pair/self_exclusion.hpp"
 
 namespace graze {
 
-/// Says which features of two surfaces may be tested against each other, by the groups of their faces.
+/// Says which features of two surfaces may be tested against each other, by the groups of their faces. For a
+/// surface and itself, features that belong together are left out as well (SelfQuery).
 ///
 /// Two features may be if some face of the one and some face of the other are not hidden, and in groups that
 /// are not ignored. A fold belongs to its quad. So exactly those features are tested that belong to two
@@ -22,19 +25,44 @@ class GRAZE_API FeatureFilter {
  public:
   /// A null pointer stands for a mesh whose faces are all in group 0.
   FeatureFilter(const FaceGroups* a, const FaceGroups* b);
+  /// The groups of another filter of a surface and itself, of which features are left out.
+  FeatureFilter(const FeatureFilter& groups, const SelfQuery& self) : FeatureFilter(groups) {
+    self_ = self;
+    leaves_all_ = false;
+  }
 
   /// Whether any two faces that there are may be tested.
   [[nodiscard]] bool leaves_some() const { return leaves_some_; }
   /// Whether all faces that there are may be tested.
   [[nodiscard]] bool leaves_all() const { return leaves_all_; }
 
-  /// Whether a feature of a and one of b may be tested.
-  [[nodiscard]] bool may(const FeatureRef& a, const FeatureRef& b) const {
+  /// Whether this is a query about a surface and itself.
+  [[nodiscard]] bool is_of_self() const { return self_.exclusion != nullptr; }
+  /// Whether the groups of a feature of a and of one of b let them be tested.
+  [[nodiscard]] bool may_groups(const FeatureRef& a, const FeatureRef& b) const {
     return may_sets(set_of(*a_, a), set_of(*b_, b));
   }
-  [[nodiscard]] bool may_vertices(std::uint32_t a, std::uint32_t b) const {
-    return may_sets(a_->of_vertex(a), b_->of_vertex(b));
+  /// Whether a feature of a and one of b may be tested. They are a vertex and a face, two edges or folds, or
+  /// features that are parallel.
+  [[nodiscard]] bool may(const FeatureRef& a, const FeatureRef& b) const {
+    return may_groups(a, b) && (!is_of_self() || may_of_self(a, b));
   }
+  /// Whether it counts that an edge or fold pierces a face.
+  [[nodiscard]] bool may_pierce(const FeatureRef& a, const FeatureRef& b) const {
+    return may_groups(a, b) && (!is_of_self() || !self_.exclusion->share_vertex(a, b));
+  }
+  /// Whether two vertices may be tested, or some features that they are corners of. Two vertices of one
+  /// surface are tested in one order only, where pairs are of vertices.
+  [[nodiscard]] bool may_vertices(std::uint32_t a, std::uint32_t b) const {
+    return may_sets(a_->of_vertex(a), b_->of_vertex(b)) && (!is_of_self() || may_vertices_of_self(a, b));
+  }
+  /// Whether a vertex of a surface may be tested with a face of the same surface that has a feature, or is
+  /// it.
+  [[nodiscard]] bool may_vertex(std::uint32_t vertex, const Feature& feature) const;
+  /// Two vertices that may be tested, or whose distance bounds one that is: corners of a pair of faces. There
+  /// may be none only for a surface and itself.
+  [[nodiscard]] std::optional<std::array<std::uint32_t, 2>> some_vertices(const IndexedMesh& mesh_a,
+                                                                          const IndexedMesh& mesh_b) const;
   /// Whether a vertex of a, or of b, may be tested against any feature of the other surface.
   [[nodiscard]] bool may_vertex_of_a(std::uint32_t vertex) const {
     return may_sets(a_->of_vertex(vertex), b_->of_region(0));
@@ -46,8 +74,6 @@ class GRAZE_API FeatureFilter {
   [[nodiscard]] bool may_regions(const RegionPair& regions) const {
     return may_sets(a_->of_region(regions.a), b_->of_region(regions.b));
   }
-  /// A face of a and one of b that may be tested. `leaves_some` holds.
-  [[nodiscard]] const std::array<std::uint32_t, 2>& some_faces() const { return some_faces_; }
 
   // The groups of the faces of a and of b.
   [[nodiscard]] const FaceGroups& of_a() const { return *a_; }
@@ -57,7 +83,9 @@ class GRAZE_API FeatureFilter {
   const FaceGroups* a_;
   const FaceGroups* b_;
   const GroupSet* partners_;  ///< for each set of a: the groups of b that one of its groups may meet
+  /// A face of a and one of b that groups let be tested, where there are any.
   std::array<std::uint32_t, 2> some_faces_{};
+  SelfQuery self_;
   bool leaves_some_ = true;
   bool leaves_all_ = true;
 
@@ -67,6 +95,8 @@ class GRAZE_API FeatureFilter {
     return feature.kind == FeatureRefKind::edge ? groups.of_edge(feature.index)
                                                 : groups.of_face(feature.index);
   }
+  [[nodiscard]] bool may_of_self(const FeatureRef& a, const FeatureRef& b) const;
+  [[nodiscard]] bool may_vertices_of_self(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool may_sets(std::uint32_t a, std::uint32_t b) const {
     return (partners_[a] & b_->sets()[b]).any();
   }

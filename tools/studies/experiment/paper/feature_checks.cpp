@@ -7,7 +7,7 @@
 
 #include "experiment/paper/contact_checks.hpp"
 #include "progress.hpp"
-#include "support/oracle.hpp"
+#include "support/oracle/oracle.hpp"
 
 namespace graze::tools {
 namespace {

@@ -1,0 +1,58 @@
+// A repeated query takes no memory once it has answered at the same positions before.
+
+#include <cmath>
+#include <graze/query.hpp>
+#include <iostream>
+#include <vector>
+
+#include "scheduler/memory/allocation_count.hpp"
+#include "scheduler/scene_support.hpp"
+#include "support/catch.hpp"
+#include "support/details.hpp"
+
+namespace graze::tests {
+namespace {
+
+constexpr int frames_of_period = 12;
+
+/// Returns the positions of a body in each frame. It goes into another body and out again.
+std::vector<Positions> period_of(const Mesh& mesh) {
+  std::vector<Positions> frames;
+  for (int frame = 0; frame < frames_of_period; ++frame) {
+    const double phase = 2 * 3.14159265358979 * frame / frames_of_period;
+    frames.push_back(moved(mesh.rest(), {2 + std::cos(phase), 0.1, 0.2}));
+  }
+  return frames;
+}
+
+}  // namespace
+
+TEST_CASE("after one period a repeated query takes no memory, at every detail") {
+  if (!AllocationCount::is_possible()) {
+    std::cout << "skipped: the allocator cannot be replaced here\n";
+    return;
+  }
+  const auto mesh = mesh_of(models::sphere(16, 8));
+  const std::vector<Positions> frames = period_of(*mesh);
+  for (const ContactDetail detail : all_details) {
+    RepeatedQuery repeated(*mesh, *mesh,
+                           {.contact_distance = 0.1,
+                            .range = 0.5,
+                            .detail = detail,
+                            .a_is_solid = true,
+                            .b_is_solid = true,
+                            .ways_out = true});
+    std::size_t in_contact = 0;
+    for (const Positions& now : frames) in_contact += repeated.ask(mesh->rest(), now).in_contact;
+    CHECK(in_contact > 0);
+    CHECK(in_contact < frames.size());
+    AllocationCount::begin();
+    for (int period = 0; period < 3; ++period)
+      for (const Positions& now : frames) repeated.ask(mesh->rest(), now);
+    AllocationCount::end();
+    INFO("detail " << name_of(detail) << ": " << AllocationCount::first_of_others());
+    CHECK(AllocationCount::by_others() == 0);
+  }
+}
+
+}  // namespace graze::tests
