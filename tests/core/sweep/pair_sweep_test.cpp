@@ -15,7 +15,7 @@
 #include "support/catch.hpp"
 #include "support/effort.hpp"
 #include "support/mesh_of.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 #include "sweep/moving_features.hpp"
 
 namespace graze::tests {

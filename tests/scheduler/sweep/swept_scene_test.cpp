@@ -9,7 +9,7 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/details.hpp"
-#include "support/random_scenes.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
@@ -292,6 +292,33 @@ TEST_CASE("Impacts are the same for any number of threads") {
   CHECK(one.front().empty());
   CHECK(one.back().size() > 100);
   CHECK(impacts_of_flight(4) == one);
+}
+
+TEST_CASE("One surface that passes itself is found, and each pair of features is named once") {
+  // Two plates of one mesh, of which the upper one falls through the lower one.
+  Positions start = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  for (std::size_t i = 0; i < 4; ++i) start.emplace_back(0.5 * start[i] + Vector3d(0.1, 0.05, 1));
+  const std::vector<std::array<std::uint32_t, 4>> quads = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+  const auto mesh = std::make_shared<const Mesh>(Mesh::from_quads(start, quads));
+  ObjectSettings settings = swept();
+  settings.self = true;
+  Scene scene(settings_of(0.01, 0));
+  const ObjectId id = scene.add(mesh, settings);
+  CHECK(scene.step()->pairs().empty());
+  Positions end = start;
+  for (std::size_t i = 4; i < 8; ++i) end[i].z() -= 4;
+  scene.set_positions(id, end);
+  const ReportHandle report = scene.step();
+  const PairReport& pair = only_pair(*report);
+  CHECK(pair.a == id);
+  CHECK(pair.b == id);
+  REQUIRE(report->impacts(pair).size() == 4);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const Impact& impact = report->impacts(pair)[i];
+    CHECK(impact.feature_a == Feature{FeatureKind::vertex, 4 + i});
+    CHECK(impact.feature_b == Feature{FeatureKind::face, 0});
+    CHECK(is_at(impact.lower, 0.25));
+  }
 }
 
 TEST_CASE("Settings of sweeps that make no sense are refused") {
