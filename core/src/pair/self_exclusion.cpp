@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "core/base/bytes_of.hpp"
+
 namespace graze {
 namespace {
 
@@ -26,6 +28,10 @@ SelfExclusion::SelfExclusion(std::shared_ptr<const IndexedMesh> mesh, std::uint3
   rest_.mesh().prepare_for(IndexedMesh::Use::neighbours);
   rest_.mesh().prepare_for(IndexedMesh::Use::normals_of_points);
   find_far_pairs();
+}
+
+std::size_t SelfExclusion::byte_count() const {
+  return sizeof(SelfExclusion) + bytes_of(rest_gaps_.of_contacts) + bytes_of(rest_gaps_.of_piercings);
 }
 
 bool SelfExclusion::share_vertex(const FeatureRef& a, const FeatureRef& b) const {

@@ -1,5 +1,8 @@
 #include "walk/leaf_pairs.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace graze {
 
 double LeafPairs::lower_of_long_leaves(const RegionPair& leaves) {
@@ -15,6 +18,21 @@ double LeafPairs::lower_along_long(const RegionPair& leaves) {
   if (of_a != nullptr) lower = lower_along_axes(*of_a, box_along(*of_a, pair_.b, leaves.b));
   if (of_b != nullptr) lower = std::max(lower, lower_along_axes(*of_b, box_along(*of_b, pair_.a, leaves.a)));
   return lower;
+}
+
+double LeafPairs::lower_of_self(const RegionPair& leaves, double pierced) {
+  const RestGaps& gaps = pair_.groups->self()->rest_gaps();
+  if (gaps.of_contacts.empty()) return 0;
+  scratch_.motions.begin(pair_.a);
+  const auto motion_of = [&](std::uint32_t leaf) -> const LeafMotion& {
+    return scratch_.motions.of(
+        leaf, [&] { return motion_of_leaf(pair_.a, pair_.a.mesh().regions().region(leaf)); });
+  };
+  const double approach = approach_since_rest(motion_of(leaves.a), motion_of(leaves.b));
+  const auto lower = [&](const std::vector<float>& gap) {
+    return static_cast<double>(std::max(gap[leaves.a], gap[leaves.b])) * round_down - approach;
+  };
+  return lower(gaps.of_piercings) > pierced ? std::max(0.0, lower(gaps.of_contacts) * round_down) : 0;
 }
 
 }  // namespace graze

@@ -13,7 +13,9 @@
 #include "leaves/layout/leaf_features.hpp"
 #include "pair/bounds.hpp"
 #include "surface/leaf_boxes.hpp"
+#include "surface/leaf_motion.hpp"
 #include "surface/long_leaf_boxes.hpp"
+#include "surface/per_leaf_cache.hpp"
 #include "walk/dmv.hpp"
 
 namespace graze {
@@ -55,10 +57,12 @@ struct LeafPairScratch {
   LongLeafBoxes long_a;
   LongLeafBoxes long_b;
   ListedIndices listed;
+  PerLeafCache<LeafMotion> motions;  ///< of one surface with itself
 
   template <typename Self>
   static auto parts(Self& self) {
-    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.long_a, self.long_b, self.listed);
+    return std::tie(self.dmv, self.boxes_a, self.boxes_b, self.long_a, self.long_b, self.listed,
+                    self.motions);
   }
 };
 
@@ -166,6 +170,12 @@ class LeafPairs {
   /// A tighter bound, which takes longer: it is worth it for leaves that are to be tested. It is 0 where it
   /// says nothing more.
   double lower_by_corners(const RegionPair& leaves) { return has_long_ ? lower_along_long(leaves) : 0; }
+  /// A bound by how two leaves of one surface have moved since rest. Of those that hardly bend it leaves
+  /// nothing to be tested. Features that may pierce each other are further apart than `pierced`, or it is 0.
+  /// It is 0 where it says nothing.
+  double lower_since_rest(const RegionPair& leaves, double pierced) {
+    return pair_.is_of_self() ? lower_of_self(leaves, pierced) : 0;
+  }
   /// The pairs at which the last walk stopped.
   [[nodiscard]] std::span<const RegionPair> front() const { return scratch_.dmv.front; }
 
@@ -197,6 +207,7 @@ class LeafPairs {
   // Apart from what calls them, which is so small that it is inlined.
   [[nodiscard]] double lower_of_long_leaves(const RegionPair& leaves);
   [[nodiscard]] double lower_along_long(const RegionPair& leaves);
+  [[nodiscard]] double lower_of_self(const RegionPair& leaves, double pierced);
 
   const SurfacePair& pair_;
   const PairQuery& query_;

@@ -16,6 +16,7 @@
 #include "core/base/floating_point_scope.hpp"
 #include "core/base/view_check.hpp"
 #include "core/mesh/closed.hpp"
+#include "core/search/rest_gaps.hpp"
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/surface/surface.hpp"
 
@@ -54,7 +55,7 @@ std::shared_ptr<const FaceGroups> face_groups_of(const IndexedMesh& mesh,
 std::shared_ptr<const SelfExclusion> self_exclusion_of(const Surface& surface,
                                                        const ObjectSettings& settings) {
   if (!settings.self) return nullptr;
-  return std::make_shared<const SelfExclusion>(surface.shared_mesh(), settings.self_rings);
+  return make_self_exclusion(surface.shared_mesh(), settings.self_rings);
 }
 
 /// Throws Error if the surface of a solid is not closed.

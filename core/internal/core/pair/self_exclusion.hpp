@@ -5,12 +5,21 @@
 #include <graze/export.hpp>
 #include <memory>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/pair/near_list.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {
+
+/// How far features of one surface are apart at rest that are tested against each other, by region: at least
+/// so far is each feature that a leaf owns from any other. Fields are empty where nothing is known.
+struct RestGaps {
+  std::vector<float> of_contacts;   ///< features that may be in contact
+  std::vector<float> of_piercings;  ///< edges and faces, where it counts that they pierce each other
+};
 
 /// Says which features of one surface are not tested against each other: those that share a vertex or belong
 /// to one neighbourhood, and those that are near at rest. Immutable. Any number of threads may read it.
@@ -35,9 +44,15 @@ class GRAZE_API SelfExclusion {
   };
   [[nodiscard]] const std::array<FarPair, 3>& far_pairs() const { return far_pairs_; }
   [[nodiscard]] const IndexedMesh& mesh() const { return rest_.mesh(); }
+  /// The mesh at rest.
+  [[nodiscard]] const Surface& rest() const { return rest_; }
+
+  [[nodiscard]] const RestGaps& rest_gaps() const { return rest_gaps_; }
+  /// Call it before any other thread reads this.
+  void set_rest_gaps(RestGaps gaps) { rest_gaps_ = std::move(gaps); }
 
   /// Bytes held, without the mesh.
-  [[nodiscard]] static std::size_t byte_count() { return sizeof(SelfExclusion); }
+  [[nodiscard]] std::size_t byte_count() const;
 
  private:
   void find_far_pairs();
@@ -46,6 +61,7 @@ class GRAZE_API SelfExclusion {
   Surface rest_;
   std::uint32_t rings_;
   std::array<FarPair, 3> far_pairs_;
+  RestGaps rest_gaps_;
 };
 
 /// The vertices of a feature. `room` is for those that the mesh does not list. A fold has those of its quad.

@@ -210,6 +210,7 @@ bool ClosestSearch::test_leaves(std::size_t begin, std::size_t end, ClosestFound
 /// Tests two leaves, and updates their bounds; false when the budget ran out.
 bool ClosestSearch::test_leaves(LeafPair& leaves, ClosestRange& range, SearchWorker& worker) {
   if (!range.keep(worker.leaf_pairs.lower_by_corners(leaves.pair))) return true;
+  if (!range.keep(worker.leaf_pairs.lower_since_rest(leaves.pair, 0))) return true;
   if (!worker.meter.spend()) return false;
   ++worker.meter.counters().leaf_pairs_tested;
   const LeafOf a = worker.leaf_pairs.leaf_a(leaves.pair);

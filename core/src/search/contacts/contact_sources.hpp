@@ -152,12 +152,14 @@ void LeafSource::feed(SearchSlice& slice, SearchWorker& worker, Collector& colle
                       const Spend& spend) const {
   worker.begin_leaves(slices_->found());
   const Wanted wanted = wanted_;
+  const double pierced = wanted.distance - pair_->query.threshold;  // what may come to pierce is listed, too
   for (std::size_t i = slice.begin; i < slice.end; ++i) {
     const LeafPair& leaves = slices_->found().leaves[i];
     slice.complete = spend();
     if (!slice.complete) return;
     if (!wanted(leaves.lower, 0) || !collector.wants(leaves.lower)) continue;
     if (!wanted(worker.leaf_pairs.lower_by_corners(leaves.pair), 0)) continue;
+    if (!wanted(worker.leaf_pairs.lower_since_rest(leaves.pair, pierced), 0)) continue;
     ++worker.meter.counters().leaf_pairs_tested;
     collector.add(worker.leaf_pairs.leaf_a(leaves.pair), worker.leaf_pairs.leaf_b(leaves.pair));
   }
