@@ -25,6 +25,7 @@ ORDER = {
         "mesh": "indices, regions, vertex order",
         "surface": "positions, bounds, motion",
         "pair": "query, answer, front, near list",
+        "sweep": "features that meet on the way",
         "closest_features": "closest features of a pair",
         "measure": "points, normals, sides",
         "leaves/layout": "features in float, filters",

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
+#include <graze/impact.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -107,6 +108,19 @@ namespace graze {
       return "front";
     case Side::back:
       return "back";
+  }
+  return {};
+}
+
+/// Returns the enumerator's own name, such as "certain". It is empty for any other value.
+[[nodiscard]] constexpr std::string_view name_of(ImpactStatus status) {
+  switch (status) {
+    case ImpactStatus::certain:
+      return "certain";
+    case ImpactStatus::possible:
+      return "possible";
+    case ImpactStatus::at_start:
+      return "at_start";
   }
   return {};
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 
 #include "arithmetic/exact.hpp"
 
@@ -53,7 +52,8 @@ inline int sign(const Ball& number, bool& unsure) {
   if (!number.is_zero()) unsure = true;
   return 0;
 }
-inline int sign(const Exact& number, bool& /*unsure*/) {
+template <int limb_count>
+int sign(const BasicExact<limb_count>& number, bool& /*unsure*/) {
   return number.sign();
 }
 
@@ -119,9 +119,9 @@ Vector<Number> cross(const Vector<Number>& left, const Vector<Number>& right) {
 /// to − from. All kernels see coordinates through this alone, so that a moved scene gives the same numbers.
 template <typename Number>
 Vector<Number> difference(const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
-  if constexpr (std::is_same_v<Number, Exact>) {
-    return {Exact::difference(to.x(), from.x()), Exact::difference(to.y(), from.y()),
-            Exact::difference(to.z(), from.z())};
+  if constexpr (requires { Number::difference(to.x(), from.x()); }) {
+    return {Number::difference(to.x(), from.x()), Number::difference(to.y(), from.y()),
+            Number::difference(to.z(), from.z())};
   } else {
     return {Number(to.x()) - Number(from.x()), Number(to.y()) - Number(from.y()),
             Number(to.z()) - Number(from.z())};

@@ -40,7 +40,8 @@ Limb subtract_limbs(Limb left, Limb right, Limb& borrow) {
 }  // namespace
 
 /// The limbs of another number on a scale that begins at `bottom`, and zeros around them.
-void Exact::copy_shifted(const Exact& other, int bottom, int size) {
+template <int limb_count>
+void BasicExact<limb_count>::copy_shifted(const BasicExact& other, int bottom, int size) {
   assert(size <= capacity);
   exponent_ = bottom;
   size_ = size;
@@ -50,7 +51,8 @@ void Exact::copy_shifted(const Exact& other, int bottom, int size) {
   std::fill(end, first + size, Limb{0});
 }
 
-void Exact::trim() {
+template <int limb_count>
+void BasicExact<limb_count>::trim() {
   while (size_ > 0 && limb(size_ - 1) == 0) --size_;
   if (size_ == 0) {
     sign_ = exponent_ = 0;
@@ -64,13 +66,15 @@ void Exact::trim() {
   std::copy_n(limbs_.data() + zeros, size_, limbs_.data());
 }
 
-Exact Exact::operator-() const {
-  Exact result = *this;
+template <int limb_count>
+BasicExact<limb_count> BasicExact<limb_count>::operator-() const {
+  BasicExact result = *this;
   result.sign_ = -sign_;
   return result;
 }
 
-int Exact::compare_magnitudes(const Exact& left, const Exact& right) {
+template <int limb_count>
+int BasicExact<limb_count>::compare_magnitudes(const BasicExact& left, const BasicExact& right) {
   if (left.top() != right.top()) return left.top() < right.top() ? -1 : 1;
   const int bottom = std::min(left.exponent_, right.exponent_);
   for (int position = left.top() - 1; position >= bottom; --position) {
@@ -81,8 +85,10 @@ int Exact::compare_magnitudes(const Exact& left, const Exact& right) {
   return 0;
 }
 
-Exact Exact::add_magnitudes(const Exact& left, const Exact& right, int sign) {
-  Exact sum;
+template <int limb_count>
+BasicExact<limb_count> BasicExact<limb_count>::add_magnitudes(const BasicExact& left, const BasicExact& right,
+                                                              int sign) {
+  BasicExact sum;
   sum.sign_ = sign;
   const int bottom = std::min(left.exponent_, right.exponent_);
   sum.copy_shifted(left, bottom, std::max(left.top(), right.top()) - bottom + 1);
@@ -96,8 +102,10 @@ Exact Exact::add_magnitudes(const Exact& left, const Exact& right, int sign) {
 }
 
 /// left − right, for |left| > |right|.
-Exact Exact::subtract_magnitudes(const Exact& left, const Exact& right, int sign) {
-  Exact difference;
+template <int limb_count>
+BasicExact<limb_count> BasicExact<limb_count>::subtract_magnitudes(const BasicExact& left,
+                                                                   const BasicExact& right, int sign) {
+  BasicExact difference;
   difference.sign_ = sign;
   const int bottom = std::min(left.exponent_, right.exponent_);
   difference.copy_shifted(left, bottom, left.top() - bottom);
@@ -110,10 +118,12 @@ Exact Exact::subtract_magnitudes(const Exact& left, const Exact& right, int sign
   return difference;
 }
 
-Exact Exact::add(const Exact& left, const Exact& right, int right_sign) {
+template <int limb_count>
+BasicExact<limb_count> BasicExact<limb_count>::add(const BasicExact& left, const BasicExact& right,
+                                                   int right_sign) {
   if (right_sign == 0) return left;
   if (left.sign_ == 0) {
-    Exact result = right;
+    BasicExact result = right;
     result.sign_ = right_sign;
     return result;
   }
@@ -124,14 +134,15 @@ Exact Exact::add(const Exact& left, const Exact& right, int right_sign) {
                    : subtract_magnitudes(right, left, right_sign);
 }
 
-Exact operator*(const Exact& left, const Exact& right) {
-  Exact product;
-  if (left.sign_ == 0 || right.sign_ == 0) return product;
-  product.sign_ = left.sign_ * right.sign_;
-  product.exponent_ = left.exponent_ + right.exponent_;
-  product.size_ = left.size_ + right.size_;
-  assert(product.size_ <= Exact::capacity);
-  std::fill_n(product.limbs_.data(), right.size_, Limb{0});
+template <int limb_count>
+BasicExact<limb_count> BasicExact<limb_count>::product(const BasicExact& left, const BasicExact& right) {
+  BasicExact result;
+  if (left.sign_ == 0 || right.sign_ == 0) return result;
+  result.sign_ = left.sign_ * right.sign_;
+  result.exponent_ = left.exponent_ + right.exponent_;
+  result.size_ = left.size_ + right.size_;
+  assert(result.size_ <= capacity);
+  std::fill_n(result.limbs_.data(), right.size_, Limb{0});
   for (int i = 0; i < left.size_; ++i) {
     Limb carry = 0;
     const Limb factor = left.limb(i);
@@ -140,16 +151,17 @@ Exact operator*(const Exact& left, const Exact& right) {
       Limb low_carry = 0;
       Limb high_carry = 0;
       const Limb low = add_limbs(of_limbs.low, carry, low_carry);
-      product.limb(i + j) = add_limbs(product.limb(i + j), low, high_carry);
+      result.limb(i + j) = add_limbs(result.limb(i + j), low, high_carry);
       carry = of_limbs.high + low_carry + high_carry;  // a product of two limbs leaves room for both
     }
-    product.limb(i + right.size_) = carry;
+    result.limb(i + right.size_) = carry;
   }
-  product.trim();
-  return product;
+  result.trim();
+  return result;
 }
 
-Exact::Scaled Exact::scaled() const {
+template <int limb_count>
+typename BasicExact<limb_count>::Scaled BasicExact<limb_count>::scaled() const {
   if (sign_ == 0) return {};
   // The top three halves of limbs hold at least 65 bits. Each addition rounds once.
   constexpr int half_bits = limb_bits / 2;
@@ -168,16 +180,21 @@ Exact::Scaled Exact::scaled() const {
   return result;
 }
 
-double Exact::rough_quotient(const Exact& left, const Exact& right) {
+template <int limb_count>
+double BasicExact<limb_count>::rough_quotient(const BasicExact& left, const BasicExact& right) {
   const Scaled numerator = left.scaled();
   const Scaled denominator = right.scaled();
   return std::ldexp(numerator.fraction / denominator.fraction, numerator.exponent - denominator.exponent);
 }
 
-double Exact::quotient(const Exact& left, const Exact& right) {
+template <int limb_count>
+double BasicExact<limb_count>::quotient(const BasicExact& left, const BasicExact& right) {
   const double rough = rough_quotient(left, right);
   // The remainder of the rough quotient is exact. Only this sum rounds.
-  return rough + rough_quotient(left - Exact(rough) * right, right);
+  return rough + rough_quotient(left - BasicExact(rough) * right, right);
 }
+
+template class BasicExact<192>;
+template class BasicExact<1152>;
 
 }  // namespace graze

@@ -14,26 +14,32 @@ namespace graze {
 /// There is no division. It lives wholly on the stack and allocates nothing, so that a decision in exact
 /// arithmetic costs time only.
 ///
-/// The capacity is enough for products of ten coordinate differences, the highest degree that the kernels
-/// compare. Coordinates go from the smallest denormal, 2^-1074, to 2^121: (1195 + 4) · 10 bits < 64 · 192.
-/// Numbers in use have a few limbs, and copies take no more than these.
-class Exact {
+/// `limb_count` limbs of 64 bits have to be enough for every number that the caller makes, which an assertion
+/// checks. Numbers in use have a few limbs, and copies take no more than these.
+template <int limb_count>
+class BasicExact {
  public:
-  Exact() {}  // NOLINT(modernize-use-equals-default): a defaulted one would zero the limbs in `Exact{}`
-  Exact(const Exact& other) { copy(other); }
-  Exact& operator=(const Exact& other) {
+  BasicExact() {}  // NOLINT(modernize-use-equals-default): a defaulted one would zero the limbs
+  BasicExact(const BasicExact& other) { copy(other); }
+  BasicExact& operator=(const BasicExact& other) {
     if (this != &other) copy(other);
     return *this;
   }
-  ~Exact() = default;
-  Exact(double value);  // NOLINT(google-explicit-constructor): every finite double is one
+  ~BasicExact() = default;
+  BasicExact(double value);  // NOLINT(google-explicit-constructor): every finite double is one
   /// to − from, which mostly is a double.
-  static Exact difference(double to, double from);
+  static BasicExact difference(double to, double from);
 
-  friend Exact operator+(const Exact& left, const Exact& right) { return add(left, right, right.sign_); }
-  friend Exact operator-(const Exact& left, const Exact& right) { return add(left, right, -right.sign_); }
-  friend Exact operator*(const Exact& left, const Exact& right);
-  Exact operator-() const;
+  friend BasicExact operator+(const BasicExact& left, const BasicExact& right) {
+    return add(left, right, right.sign_);
+  }
+  friend BasicExact operator-(const BasicExact& left, const BasicExact& right) {
+    return add(left, right, -right.sign_);
+  }
+  friend BasicExact operator*(const BasicExact& left, const BasicExact& right) {
+    return product(left, right);
+  }
+  BasicExact operator-() const;
 
   /// -1, 0 or 1.
   [[nodiscard]] int sign() const { return sign_; }
@@ -47,26 +53,27 @@ class Exact {
   [[nodiscard]] Scaled scaled() const;
 
   /// left / right rounded to nearest, but for ties closer than 2^-100 of it.
-  [[nodiscard]] static double quotient(const Exact& left, const Exact& right);
+  [[nodiscard]] static double quotient(const BasicExact& left, const BasicExact& right);
 
  private:
   using Limb = std::uint64_t;
   static constexpr int limb_bits = 64;
-  static constexpr int capacity = 192;
+  static constexpr int capacity = limb_count;
 
   /// left / right to a relative error of at most 2^-50, unless it underflows.
-  static double rough_quotient(const Exact& left, const Exact& right);
-  static Exact add(const Exact& left, const Exact& right, int right_sign);
-  static Exact add_magnitudes(const Exact& left, const Exact& right, int sign);
-  static Exact subtract_magnitudes(const Exact& left, const Exact& right, int sign);
-  static int compare_magnitudes(const Exact& left, const Exact& right);
-  void copy(const Exact& other) {
+  static double rough_quotient(const BasicExact& left, const BasicExact& right);
+  static BasicExact add(const BasicExact& left, const BasicExact& right, int right_sign);
+  static BasicExact product(const BasicExact& left, const BasicExact& right);
+  static BasicExact add_magnitudes(const BasicExact& left, const BasicExact& right, int sign);
+  static BasicExact subtract_magnitudes(const BasicExact& left, const BasicExact& right, int sign);
+  static int compare_magnitudes(const BasicExact& left, const BasicExact& right);
+  void copy(const BasicExact& other) {
     sign_ = other.sign_;
     exponent_ = other.exponent_;
     size_ = other.size_;
     std::copy_n(other.limbs_.begin(), size_, limbs_.begin());
   }
-  void copy_shifted(const Exact& other, int bottom, int size);
+  void copy_shifted(const BasicExact& other, int bottom, int size);
   void trim();
   [[nodiscard]] int top() const { return exponent_ + size_; }
   Limb& limb(int index) { return limbs_[static_cast<std::size_t>(index)]; }
@@ -80,10 +87,11 @@ class Exact {
   int sign_ = 0;
   int exponent_ = 0;                  ///< of the lowest limb, in limbs
   int size_ = 0;                      ///< limbs in use. Neither the lowest nor the highest is 0
-  std::array<Limb, capacity> limbs_;  ///< lowest first. Only the first size_ are ever read
+  std::array<Limb, std::size_t{capacity}> limbs_;  ///< lowest first. Only the first size_ are ever read
 };
 
-inline Exact::Exact(double value) {
+template <int limb_count>
+inline BasicExact<limb_count>::BasicExact(double value) {
   if (value == 0) return;
   assert(std::isfinite(value));
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -93,7 +101,7 @@ inline Exact::Exact(double value) {
   const int exponent = std::max(biased_exponent, 1) - 1075;  // value = mantissa · 2^exponent
   sign_ = value > 0 ? 1 : -1;
   exponent_ = exponent >> 6;  // rounded down
-  const auto shift = static_cast<unsigned>(exponent) % limb_bits;
+  const auto shift = static_cast<unsigned>(exponent) % unsigned{limb_bits};
   const Limb low = mantissa << shift;
   const Limb high = shift == 0 ? 0 : mantissa >> (limb_bits - shift);
   if (low == 0) {
@@ -107,13 +115,22 @@ inline Exact::Exact(double value) {
   }
 }
 
-inline Exact Exact::difference(double to, double from) {
+template <int limb_count>
+inline BasicExact<limb_count> BasicExact<limb_count>::difference(double to, double from) {
   // The error of rounding (Knuth). Finite doubles up to 2^121 do not overflow.
   const double rounded = to - from;
   const double of_from = rounded - to;
   const double left_over = (to - (rounded - of_from)) - (from + of_from);
   if (left_over == 0) return {rounded};
-  return Exact(to) - Exact(from);
+  return BasicExact(to) - BasicExact(from);
 }
+
+/// Its capacity is enough for products of ten coordinate differences, the highest degree that the kernels
+/// compare. Coordinates go from the smallest denormal, 2^-1074, to 2^121: (1195 + 4) · 10 bits < 64 · 192.
+using Exact = BasicExact<192>;
+
+/// Its capacity is enough for products of 61 coordinate differences, the highest degree that is needed where
+/// features move: (1195 + 8) · 61 bits < 64 · 1152.
+using WideExact = BasicExact<1152>;
 
 }  // namespace graze

@@ -88,6 +88,17 @@ WayOut read_way_out(const json& value) {
           read_real(value.at("thickness")), read_real(value.at("extent"))};
 }
 
+ReportedImpact read_impact(const json& value) {
+  ReportedImpact read;
+  read.impact.kind = named<ContactKind>(value.at("kind"));
+  read.impact.feature_a = read_feature(value.at("a"), read.edge_a);
+  read.impact.feature_b = read_feature(value.at("b"), read.edge_b);
+  read.impact.lower = read_real(value.at("time").at(0));
+  read.impact.upper = read_real(value.at("time").at(1));
+  read.impact.status = named<ImpactStatus>(value.at("status"));
+  return read;
+}
+
 ReportedPair read_pair(const json& value) {
   ReportedPair pair;
   pair.a = read_whole<std::uint32_t>(value.at("a"));
@@ -104,6 +115,10 @@ ReportedPair read_pair(const json& value) {
   pair.witness.point_a = read_point(witness.at("point_a"));
   pair.witness.point_b = read_point(witness.at("point_b"));
   if (value.contains("way_out")) pair.way_out = read_way_out(value.at("way_out"));
+  if (value.contains("time_of_impact")) pair.time_of_impact = read_real(value.at("time_of_impact"));
+  if (value.contains("time_of_gap")) pair.time_of_gap = read_real(value.at("time_of_gap"));
+  if (value.contains("impacts"))
+    for (const json& impact : value.at("impacts")) pair.impacts.push_back(read_impact(impact));
   if (value.contains("contact_count")) {
     pair.contact_count = read_whole<std::uint64_t>(value.at("contact_count"));
     return pair;
@@ -191,6 +206,9 @@ void read_setting(const json& settings, std::string_view key, std::optional<Valu
 // A setting that is off is not in the file.
 void read_setting(const json& settings, std::string_view key, bool& is_on) {
   if (settings.contains(key)) is_on = settings.at(key).get<bool>();
+}
+void read_setting(const json& settings, std::string_view key, double& distance) {
+  if (settings.contains(key)) read_value(settings.at(key), distance);
 }
 void read_setting(const json& settings, std::string_view key, std::size_t& most) {
   if (settings.contains(key)) read_value(settings.at(key), most);

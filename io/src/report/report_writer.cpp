@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <graze/enumerators.hpp>
 #include <graze/error.hpp>
 #include <graze/io/error.hpp>
 #include <graze/io/report_json.hpp>
@@ -66,6 +67,26 @@ void write_way_out(JsonText& json, const WayOut& way) {
   json.key("extent").real(way.extent).close('}');
 }
 
+void write_impact(JsonText& json, const Impact& impact, const Mesh& mesh_a, const Mesh& mesh_b) {
+  json.open('{').key("kind").text(to_string(impact.kind)).key("a");
+  write_feature(json, impact.feature_a, mesh_a);
+  json.key("b");
+  write_feature(json, impact.feature_b, mesh_b);
+  json.key("time").open('[').real(impact.lower).real(impact.upper).close(']');
+  json.key("status").text(name_of(impact.status)).close('}');
+}
+
+/// Writes what met on the way, where something did.
+void write_sweep(JsonText& json, const PairReport& pair, std::span<const Impact> impacts, const Mesh& mesh_a,
+                 const Mesh& mesh_b) {
+  if (pair.time_of_impact < 1) json.key("time_of_impact").real(pair.time_of_impact);
+  if (pair.time_of_gap < 1) json.key("time_of_gap").real(pair.time_of_gap);
+  if (impacts.empty()) return;
+  json.key("impacts").open('[');
+  for (const Impact& impact : impacts) write_impact(json, impact, mesh_a, mesh_b);
+  json.close(']');
+}
+
 ReportWriter::Options checked_options(const ReportWriter::Options& options) {
   if (options.every == 0) throw Error("report: each 0th frame was asked for; give 1 or more as every");
   return options;
@@ -113,6 +134,7 @@ void ReportWriter::State::write_pair(std::uint64_t frame, const FrameReport& rep
   json.key("witness");
   write_witness(json, pair.witness, mesh_a, mesh_b);
   if (is_written(pair.way_out)) write_way_out(json, pair.way_out);
+  write_sweep(json, pair, report.impacts(pair), mesh_a, mesh_b);
   if (options.include_contacts) {
     json.key("contacts").open('[');
     for (const Contact& contact : report.contacts(pair))

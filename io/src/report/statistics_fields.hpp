@@ -41,6 +41,8 @@ inline constexpr std::array count_fields{
     CountField{"contacts_left_out", &StepStatistics::contacts_left_out},
     CountField{"region_distances", &StepStatistics::region_distances},
     CountField{"region_distances_left_out", &StepStatistics::region_distances_left_out},
+    CountField{"pairs_swept", &StepStatistics::pairs_swept},
+    CountField{"impacts", &StepStatistics::impacts},
 };
 
 /// All but `regions_expanded`, which is an array.
@@ -53,6 +55,9 @@ inline constexpr std::array work_fields{
     WorkField{"decided_in_double", &StepWork::decided_in_double},
     WorkField{"exact_decisions", &StepWork::exact_decisions},
     WorkField{"fronts_left_out", &StepWork::fronts_left_out},
+    WorkField{"swept_region_pairs", &StepWork::swept_region_pairs},
+    WorkField{"swept_feature_pairs", &StepWork::swept_feature_pairs},
+    WorkField{"swept_exact_decisions", &StepWork::swept_exact_decisions},
 };
 
 /// All but the one below.

@@ -10,6 +10,7 @@
 #include <graze/contact_geometry.hpp>
 #include <graze/enumerators.hpp>
 #include <graze/error.hpp>
+#include <graze/impact.hpp>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
 #include <graze/position_view.hpp>

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <graze/contact.hpp>
 #include <graze/export.hpp>
+#include <graze/impact.hpp>
 #include <graze/object_id.hpp>
 #include <span>
 #include <string>
@@ -72,6 +73,18 @@ struct PairReport {
   /// #inside is Inside::crossing, or an edge pierces a face, or surfaces that share planes have sunk into
   /// each other. Otherwise all of it is 0.
   WayOut way_out;
+  /// The earliest Impact::lower of the pair, if it was swept (ObjectSettings::swept). No features of the pair
+  /// meet earlier in the step. It is 1 if none meet, or if the pair was not swept. It is 0 if #complete is
+  /// false because a budget ran out before the sweep was done.
+  double time_of_impact = 1;
+  /// A time before which no features of the pair are as near as SceneSettings::swept_gap, if the pair was
+  /// swept. It is 1 if they never are, or if no gap is asked about. It is 0 where #time_of_impact is 0 for
+  /// lack of a budget.
+  double time_of_gap = 1;
+  /// The index of the pair's first impact in FrameReport::impacts().
+  std::size_t first_impact = 0;
+  /// The number of impacts of the pair.
+  std::size_t impact_count = 0;
 };
 
 /// The kinds of bad input that a step reports. docs/embedding.md says what graze does in each case.
@@ -130,6 +143,13 @@ struct StepWork {
   /// Pairs of regions that were expanded, by level. The root is level 0, and there are at most 40 levels
   /// below.
   std::array<std::uint64_t, max_region_levels> regions_expanded{};
+  /// Pairs of regions that sweeps tested, by their boxes on the way.
+  std::uint64_t swept_region_pairs = 0;
+  /// Pairs of features whose boxes meet on the way, so that a sweep tested the features themselves.
+  std::uint64_t swept_feature_pairs = 0;
+  /// Pairs of features among #swept_feature_pairs that double arithmetic left open, and that exact arithmetic
+  /// decided.
+  std::uint64_t swept_exact_decisions = 0;
 };
 
 /// Counts the bytes that a scene holds. Meshes are not counted, see Mesh::byte_count(). Memory that oneTBB
@@ -218,6 +238,11 @@ struct StepStatistics {
   std::uint64_t region_distances = 0;
   /// The report left out at least this many region distances, because of SceneSettings::region_distances.
   std::uint64_t region_distances_left_out = 0;
+  /// Pairs that the step swept: one object is ObjectSettings::swept, one has moved, and their boxes met on
+  /// the way.
+  std::uint64_t pairs_swept = 0;
+  /// Impacts in the report.
+  std::uint64_t impacts = 0;
   /// What the searches tested and decided.
   StepWork work;
   /// The memory that the scene holds.
@@ -247,7 +272,8 @@ class GRAZE_API FrameReport {
   /// Returns one row for each listed pair. Rows are sorted by the order in which a, then b, were added.
   ///
   /// A pair is listed if its distance is below the larger of its range and its threshold, or if an edge
-  /// pierces a face. It is listed once more when it has just ended, even beyond the range.
+  /// pierces a face. It is listed once more when it has just ended, even beyond the range. A swept pair that
+  /// met on the way is listed, too. Its phase says whether it is in contact now, at the end of the step.
   [[nodiscard]] std::span<const PairReport> pairs() const { return shown_->pairs; }
   /// Returns the contacts of all pairs in one array, in the order of the rows. The contacts of a pair are
   /// sorted by kind, feature a, feature b.
@@ -266,6 +292,14 @@ class GRAZE_API FrameReport {
   [[nodiscard]] std::span<const RegionDistance> region_distances(const PairReport& pair) const {
     return region_distances().subspan(pair.first_region_distance, pair.region_distance_count);
   }
+  /// Returns what meets between the last step and this one, of all pairs in one array, in the order of the
+  /// rows. Those of a pair are sorted by Impact::lower, kind, feature a, feature b. The array is empty unless
+  /// an object is ObjectSettings::swept.
+  [[nodiscard]] std::span<const Impact> impacts() const { return shown_->impacts; }
+  /// Returns the impacts of one row of this report.
+  [[nodiscard]] std::span<const Impact> impacts(const PairReport& pair) const {
+    return impacts().subspan(pair.first_impact, pair.impact_count);
+  }
   /// Returns what was wrong with the input of this step. It is empty if all input was good.
   [[nodiscard]] std::span<const Diagnostic> diagnostics() const { return diagnostics_; }
   /// Returns the counters and times of this step.
@@ -279,6 +313,7 @@ class GRAZE_API FrameReport {
     std::vector<PairReport> pairs;
     std::vector<Contact> contacts;
     std::vector<RegionDistance> region_distances;
+    std::vector<Impact> impacts;
   };
 
   std::uint64_t frame_ = 0;

@@ -27,6 +27,14 @@ class Replay;
 /// @addtogroup scene
 /// @{
 
+/// Says of a call that moves objects that they jump: what lies between is not passed. Objects that are
+/// ObjectSettings::swept, and what they are tested with, then sweep nothing in the next step. They count as
+/// standing at their new place for the whole step, also if further calls before the step move them.
+struct Teleport {};
+
+/// What is given to calls that move an object by a jump.
+inline constexpr Teleport teleport{};
+
 /// Holds n objects and answers for all n(n-1)/2 pairs between them. Each step reads where the vertices are
 /// now. It publishes a report that says which pairs are near, how near they are, and where they touch.
 ///
@@ -152,6 +160,10 @@ class GRAZE_API Scene {
   /// report has a Diagnostic of kind `bad_pose`, and the pairs of the object are `stale` until a good pose
   /// comes.
   void set_pose(ObjectId object, const Eigen::Isometry3d& pose) { set_pose_rows(object, rows_of(pose)); }
+  /// Places a rigid or fixed object by a jump, as Teleport says.
+  void set_pose(ObjectId object, const Eigen::Isometry3d& pose, Teleport jump) {
+    set_pose_rows(object, rows_of(pose), jump);
+  }
   /// Places a rigid or fixed object by a transform of floats or doubles, such as `Eigen::Isometry3f` or
   /// `Eigen::Affine3d`. Floats are converted to double and used as they stand. The checks are those of the
   /// first form.
@@ -159,6 +171,13 @@ class GRAZE_API Scene {
   requires(mode != Eigen::Projective) void set_pose(ObjectId object,
                                                     const Eigen::Transform<Scalar, 3, mode, options>& pose) {
     set_pose_rows(object, rows_of(pose));
+  }
+  /// Places a rigid or fixed object by a transform of floats or doubles and a jump, as Teleport says.
+  template <typename Scalar, int mode, int options>
+  requires(mode != Eigen::Projective) void set_pose(ObjectId object,
+                                                    const Eigen::Transform<Scalar, 3, mode, options>& pose,
+                                                    Teleport jump) {
+    set_pose_rows(object, rows_of(pose), jump);
   }
   /// Places a rigid or fixed object by a 4 x 4 matrix of floats or doubles. The matrix is for column vectors:
   /// the translation is its last column. The 16 floats of an engine are a
@@ -180,6 +199,8 @@ class GRAZE_API Scene {
   /// Places a rigid or fixed object by the upper three rows of its 4 x 4 matrix, row by row. The checks are
   /// those of set_pose().
   void set_pose_rows(ObjectId object, const std::array<double, 12>& rows);
+  /// Places a rigid or fixed object by a jump, as Teleport says.
+  void set_pose_rows(ObjectId object, const std::array<double, 12>& rows, Teleport jump);
   /// Places a rigid or fixed object by all four rows of its 4 x 4 matrix, row by row. The checks are those of
   /// set_pose() for matrices.
   void set_pose_matrix(ObjectId object, const std::array<double, 16>& rows);
@@ -187,6 +208,10 @@ class GRAZE_API Scene {
   void set_poses(std::span<const ObjectId> objects, std::span<const Eigen::Isometry3d> poses) {
     static_assert(sizeof(Eigen::Isometry3d) == 16 * sizeof(double));
     set_pose_matrices(objects, {poses.empty() ? nullptr : poses[0].data(), 16 * poses.size()});
+  }
+  /// Places many rigid or fixed objects by jumps, as Teleport says. Both spans have the same size.
+  void set_poses(std::span<const ObjectId> objects, std::span<const Eigen::Isometry3d> poses, Teleport jump) {
+    set_pose_matrices(objects, {poses.empty() ? nullptr : poses[0].data(), 16 * poses.size()}, jump);
   }
 
   /// @}
@@ -208,6 +233,12 @@ class GRAZE_API Scene {
   /// size.
   void set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                      double max_displacement = any_displacement);
+  /// Copies the positions of a deformable object that jumps there, as Teleport says.
+  void set_positions(ObjectId object, PositionView positions, Teleport jump);
+  /// Copies the positions of many deformable objects that jump there, as Teleport says. Both spans have the
+  /// same size.
+  void set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                     Teleport jump);
 
   /// Lets steps read the positions of a deformable object from the caller's memory, until it is unbound. The
   /// call copies nothing. The later one of this call and set_positions() counts.
@@ -242,6 +273,12 @@ class GRAZE_API Scene {
   /// A later step may read the memory as well, when another object comes near. So leave it unchanged until
   /// the next call.
   void positions_changed(ObjectId object, double max_displacement = any_displacement);
+  /// Tells the scene that the caller has written bound memory, and that the object jumps there, as Teleport
+  /// says.
+  void positions_changed(ObjectId object, Teleport jump);
+  /// Tells the scene that the caller has written the bound memory of many objects, and that they jump there,
+  /// as Teleport says.
+  void positions_changed(std::span<const ObjectId> objects, Teleport jump);
   /// Tells the scene that the caller has written the bound memory of many objects, with one promise for all.
   void positions_changed(std::span<const ObjectId> objects, double max_displacement = any_displacement);
   /// Tells the scene that the caller has written the bound memory of many objects, with a promise for each.
@@ -332,6 +369,7 @@ class GRAZE_API Scene {
   }
   /// Takes 16 numbers for each object: its 4 x 4 matrix, column by column.
   void set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices);
+  void set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices, Teleport jump);
 
   friend class Recorder;
   friend class Replay;

@@ -71,19 +71,27 @@ struct ObjectSettings {
   /// taken to go on behind the edge in its plane, so that the edge is neither a border nor a crease.
   std::vector<std::uint8_t> hidden_groups = {};
   /// Whether the surface is tested against itself: the pair (id, id) has a row of its own, as two objects
-  /// have. It has an effect with all details but `regions`, and not with Accuracy::paper(). Layers, groups and
-  /// #motion do not take this pair out. What a #solid or SceneSettings::ways_out adds does not go with it.
+  /// have. It has an effect with all details but `regions`, and not with Accuracy::paper(). Layers, groups
+  /// and #motion do not take this pair out. What a #solid or SceneSettings::ways_out adds does not go with
+  /// it.
   ///
   /// A contact names two features of the surface, the lower as `feature_a`. Features that belong together are
   /// not tested: see #self_rings and #self_at_rest. An edge that pierces a face counts wherever the two share
   /// no vertex.
   bool self = false;
-  /// With #self: two features are not tested if a vertex of one is joined to a vertex of the other by this many
-  /// edges or fewer. With 0 only features that share a vertex are left out. It is at most 8.
+  /// With #self: two features are not tested if a vertex of one is joined to a vertex of the other by this
+  /// many edges or fewer. With 0 only features that share a vertex are left out. It is at most 8.
   std::uint32_t self_rings = 1;
-  /// With #self: whether features are tested that are nearer than the threshold at rest. A mesh finer than the
-  /// threshold would then touch itself everywhere.
+  /// With #self: whether features are tested that are nearer than the threshold at rest. A mesh finer than
+  /// the threshold would then touch itself everywhere.
   bool self_at_rest = false;
+  /// Whether reports say what the object meets between two steps. A pair is swept if one of its objects is.
+  /// Then every vertex of both objects counts as moving along a straight line from where the last step saw
+  /// it, and FrameReport::impacts() lists what meets on the way. A pair that meets on the way is listed.
+  ///
+  /// Also a rigid object's vertices move straight from pose to pose. An object stands at its new place in its
+  /// first step, after a `teleport`, and when its mesh was replaced. A fixed object always stands.
+  bool swept = false;
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the
@@ -163,6 +171,12 @@ struct SceneSettings {
   /// How much less deep than the deepest a contact may be that #carrying chooses. It is finite, and 0 or
   /// more. No value means the threshold of the pair.
   std::optional<double> carrying_band = std::nullopt;
+  /// The bounds of an impact's time are at most this far apart, where a whole step takes time 1. It is at
+  /// least 2^-52, and at most 1. It counts for objects that are #ObjectSettings::swept.
+  double sweep_tolerance = 1e-6;
+  /// Reports say of swept pairs when their surfaces come that near: PairReport::time_of_gap. A pair that
+  /// comes that near on the way is listed. It is finite, and 0 or more. With 0 nothing is asked.
+  double swept_gap = 0;
 };
 
 /// Says how much room Scene::reserve() makes ahead of time.

@@ -66,6 +66,7 @@ inline constexpr std::tuple object_settings_fields{
     SettingsField<&ObjectSettings::self>{"self"},
     SettingsField<&ObjectSettings::self_rings>{"self_rings"},
     SettingsField<&ObjectSettings::self_at_rest>{"self_at_rest"},
+    SettingsField<&ObjectSettings::swept>{"swept"},
 };
 static_assert(has_every_member<ObjectSettings>(object_settings_fields),
               "name every field of ObjectSettings above");
@@ -102,6 +103,8 @@ inline constexpr std::tuple scene_settings_fields{
     SettingsField<&SceneSettings::ways_out>{"ways_out"},
     SettingsField<&SceneSettings::carrying>{"carrying"},
     SettingsField<&SceneSettings::carrying_band>{"carrying_band"},
+    SettingsField<&SceneSettings::sweep_tolerance>{"sweep_tolerance"},
+    SettingsField<&SceneSettings::swept_gap>{"swept_gap"},
 };
 static_assert(has_every_member<SceneSettings>(scene_settings_fields),
               "name every field of SceneSettings above");

@@ -18,6 +18,7 @@ class ContactLimit {
       : chooses_carrying_(settings.carrying > 0 && settings.detail == ContactDetail::nearest),
         of_step_(settings.max_contacts.value_or(0)),
         of_search_(chooses_carrying_ ? 0 : lower_of(of_step_, settings.max_contacts_per_pair.value_or(0))),
+        of_impacts_(lower_of(of_step_, settings.max_contacts_per_pair.value_or(0))),
         carrying_(lower_of(settings.carrying, settings.max_contacts_per_pair.value_or(0))),
         cuts_carrying_(carrying_ < settings.carrying),
         band_(settings.carrying_band) {}
@@ -36,6 +37,9 @@ class ContactLimit {
   /// since these are chosen out of all.
   [[nodiscard]] std::size_t of_search() const { return of_search_; }
 
+  /// The most impacts that a sweep of a pair keeps.
+  [[nodiscard]] std::size_t of_impacts() const { return of_impacts_; }
+
   /// Whether only those contacts are listed that carry their pair.
   [[nodiscard]] bool chooses_carrying() const { return chooses_carrying_; }
   /// How these are chosen in a pair with this threshold.
@@ -53,6 +57,7 @@ class ContactLimit {
   bool chooses_carrying_;
   std::size_t of_step_;
   std::size_t of_search_;
+  std::size_t of_impacts_;
   std::size_t carrying_;
   bool cuts_carrying_;
   std::optional<double> band_;

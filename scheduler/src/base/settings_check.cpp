@@ -1,6 +1,7 @@
 #include "base/settings_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <graze/scene_enumerators.hpp>
 
 #include "core/pair/setting_checks.hpp"
@@ -24,7 +25,15 @@ std::optional<std::string> problem_of(const SceneSettings& settings) {
   if (settings.max_contacts == 0 || settings.max_contacts_per_pair == 0)
     return "scene: max_contacts and max_contacts_per_pair are at least 1; ContactDetail::none lists no "
            "contacts";
-  if (settings.carrying_band) return problem_of_distance("scene: ", "carrying_band", *settings.carrying_band);
+  if (settings.carrying_band)
+    if (auto problem = problem_of_distance("scene: ", "carrying_band", *settings.carrying_band))
+      return problem;
+  if (auto problem = problem_of_distance("scene: ", "swept_gap", settings.swept_gap)) return problem;
+  // The comparisons are quiet ones: NaN must not trap where the caller has traps enabled.
+  if (!std::isgreaterequal(settings.sweep_tolerance, 0x1p-52) ||
+      std::isgreater(settings.sweep_tolerance, 1.0))
+    return "scene: sweep_tolerance is " + number_text(settings.sweep_tolerance) +
+           "; give a part of a step, at least 2^-52 and at most 1";
   return std::nullopt;
 }
 

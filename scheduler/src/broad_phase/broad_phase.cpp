@@ -127,7 +127,7 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
     SliceObjects objects;
     for (std::size_t slot = begin; slot < std::min(begin + objects_of_slice, count); ++slot) {
       const ObjectSummary& summary = summaries.all()[slot];
-      const bool has_left = renew_if_left(summary, loose_[slot]);
+      const bool has_left = renew_if_left(summaries, static_cast<std::uint32_t>(slot), loose_[slot]);
       has_left_[slot] = has_left ? 1 : 0;
       if (has_left)
         left_[begin + objects.left++] = static_cast<std::uint32_t>(slot);
@@ -148,10 +148,11 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
 }
 
 /// Returns whether an object has left its loose box, and then replaces that box.
-bool BroadPhase::renew_if_left(const ObjectSummary& summary, Box& loose) const {
+bool BroadPhase::renew_if_left(const ObjectSummaries& summaries, std::uint32_t slot, Box& loose) const {
+  const ObjectSummary& summary = summaries[slot];
   const bool is_new = loose.empty();
   if (!summary.moved && !is_new && !reaches_changed_) return false;
-  const Box needed = grown(summary.box, half_reaches_[summary.kind] + summary.margin);
+  const Box needed = grown(summaries.whole_box(slot), half_reaches_[summary.kind] + summary.margin);
   if (!is_new && contains(loose, needed) && !is_too_loose(loose, needed)) return false;
   loose = loosened(needed, summary.motion);
   return true;

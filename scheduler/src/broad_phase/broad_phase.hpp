@@ -36,9 +36,10 @@ class IgnoredPairs {
 /// among them, and cost nothing while their objects stay in their loose boxes.
 ///
 /// Every object has a loose box: its own box grown by half of its reach, its margin, and some slack for
-/// motion. The pairs are exactly those that pass the filters and whose loose boxes overlap or touch. An
-/// object that has moved inside its loose box costs nothing. An object that has left its loose box gets a new
-/// one, and a tree of all loose boxes finds its pairs. Stepping thread only.
+/// motion. In a step that sweeps it holds the object throughout the step. The pairs are exactly those that
+/// pass the filters and whose loose boxes overlap or touch. An object that has moved inside its loose box
+/// costs nothing. An object that has left its loose box gets a new one, and a tree of all loose boxes finds
+/// its pairs. Stepping thread only.
 class BroadPhase {
  public:
   /// For each kind, half of the largest reach of any pair with an object of that kind, without margins.
@@ -78,7 +79,7 @@ class BroadPhase {
 
   void update_slots(const ObjectSummaries& summaries);
   void loosen(const ObjectSummaries& summaries, TaskPool& tasks);
-  bool renew_if_left(const ObjectSummary& summary, Box& loose) const;
+  bool renew_if_left(const ObjectSummaries& summaries, std::uint32_t slot, Box& loose) const;
   [[nodiscard]] bool wants_new_order() const;
   std::span<Slice> begin_slices(std::size_t count);
   void reserve(Slice& slice) const;

@@ -24,7 +24,8 @@ void validate(const ObjectSummaries& summaries, const BroadPhase::HalfReaches& h
   require(summaries.all().size() == loose.size(), "not every object has a loose box", loose.size());
   for (std::size_t slot = 0; slot < loose.size(); ++slot) {
     const ObjectSummary& summary = summaries.all()[slot];
-    require(encloses(loose[slot], grown(summary.box, half_reaches[summary.kind] + summary.margin)),
+    require(encloses(loose[slot], grown(summaries.whole_box(static_cast<std::uint32_t>(slot)),
+                                        half_reaches[summary.kind] + summary.margin)),
             "a loose box does not contain its object", slot);
   }
   for (std::size_t i = 1; i < pairs.size(); ++i) require(pairs[i - 1] < pairs[i], "pairs do not ascend", i);

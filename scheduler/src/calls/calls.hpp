@@ -72,6 +72,10 @@ struct PositionsChanged {
   ObjectId object;
   double max_displacement;
 };
+/// Where the object is at the next step it has come to by a jump.
+struct MarkTeleport {
+  ObjectId object;
+};
 struct IgnorePair {
   ObjectId a;
   ObjectId b;
@@ -95,8 +99,8 @@ struct Reserve {
 };
 
 /// Any call. An applied call is replaced by an empty RemoveObject, which holds no memory.
-using Call =
-    std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions, UnbindPositions,
-                 PositionsChanged, IgnorePair, IgnoreGroups, SetRule, Reserve, Diagnostic, ReplaceMesh>;
+using Call = std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions,
+                          UnbindPositions, PositionsChanged, IgnorePair, IgnoreGroups, SetRule, Reserve,
+                          Diagnostic, ReplaceMesh, MarkTeleport>;
 
 }  // namespace graze

@@ -265,9 +265,17 @@ void Staging::remove(ObjectId object) {
   }
 }
 
-void Staging::set_pose(ObjectId object, const std::array<double, 12>& rows) {
+/// Adds that an object jumps, where it is one of the scene.
+void Staging::try_jump(Calls& calls, ObjectId object) noexcept {
+  make_or_lose(object, LostCalls::any, [&] {
+    if (contains(object)) calls.add(MarkTeleport{object});
+  });
+}
+
+void Staging::set_pose(ObjectId object, const std::array<double, 12>& rows, bool jumps) {
   const FloatingPointScope scope;
   Calls calls(queue_);
+  if (jumps) try_jump(calls, object);
   make_or_lose(object, LostCalls::any, [&] { add_pose(calls, object, rows); });
 }
 
@@ -281,13 +289,15 @@ void Staging::set_pose(ObjectId object, const std::array<double, 16>& rows) {
   });
 }
 
-void Staging::set_poses(std::span<const ObjectId> objects, std::span<const double> matrices) {
+void Staging::set_poses(std::span<const ObjectId> objects, std::span<const double> matrices, bool jumps) {
   const FloatingPointScope scope;
   Calls calls(queue_);
   if (!check_sizes(calls, objects.size(), matrices.size() / 16, "set_poses", "poses")) return;
-  for (std::size_t i = 0; i < objects.size(); ++i)
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (jumps) try_jump(calls, objects[i]);
     make_or_lose(objects[i], LostCalls::any,
                  [&] { add_pose(calls, objects[i], rows_of(matrices.subspan(16 * i).first<16>())); });
+  }
 }
 
 void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 12>& rows,
@@ -303,19 +313,23 @@ void Staging::add_pose(Calls& calls, ObjectId object, const std::array<double, 1
   calls.add(SetPose{object, rows});
 }
 
-void Staging::set_positions(ObjectId object, const PositionView& positions, double max_displacement) {
+void Staging::set_positions(ObjectId object, const PositionView& positions, double max_displacement,
+                            bool jumps) {
   const FloatingPointScope scope;
   Calls calls(queue_);
+  if (jumps) try_jump(calls, object);
   try_positions(calls, object, positions, max_displacement);
 }
 
 void Staging::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
-                            double max_displacement) {
+                            double max_displacement, bool jumps) {
   const FloatingPointScope scope;
   Calls calls(queue_);
   if (!check_sizes(calls, objects.size(), positions.size(), "set_positions", "views of positions")) return;
-  for (std::size_t i = 0; i < objects.size(); ++i)
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (jumps) try_jump(calls, objects[i]);
     try_positions(calls, objects[i], positions[i], max_displacement);
+  }
 }
 
 void Staging::try_positions(Calls& calls, ObjectId object, const PositionView& positions,
@@ -432,14 +446,18 @@ void Staging::end_binding(NamedObject& object, std::uint64_t mesh_number) {
   if (object.mesh.get().number == mesh_number) object.binding.stands = false;
 }
 
-void Staging::positions_changed(ObjectId object, double max_displacement) {
+void Staging::positions_changed(ObjectId object, double max_displacement, bool jumps) {
   Calls calls(queue_);
+  if (jumps) try_jump(calls, object);
   try_change(calls, object, max_displacement);
 }
 
-void Staging::positions_changed(std::span<const ObjectId> objects, double max_displacement) {
+void Staging::positions_changed(std::span<const ObjectId> objects, double max_displacement, bool jumps) {
   Calls calls(queue_);
-  for (const ObjectId object : objects) try_change(calls, object, max_displacement);
+  for (const ObjectId object : objects) {
+    if (jumps) try_jump(calls, object);
+    try_change(calls, object, max_displacement);
+  }
 }
 
 void Staging::positions_changed(std::span<const ObjectId> objects,

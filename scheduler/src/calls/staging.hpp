@@ -42,20 +42,22 @@ class Staging {
   void replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                     std::span<const std::uint32_t> new_of_old, std::span<const std::uint8_t> face_groups);
   void remove(ObjectId object);
-  void set_pose(ObjectId object, const std::array<double, 12>& rows);
+  // Where `jumps` is true, the objects do not pass what lies between (MarkTeleport).
+  void set_pose(ObjectId object, const std::array<double, 12>& rows, bool jumps = false);
   /// Sets a pose by all four rows of its matrix.
   void set_pose(ObjectId object, const std::array<double, 16>& rows);
   /// Sets poses by 16 numbers for each object: a 4x4 matrix in column-major order.
-  void set_poses(std::span<const ObjectId> objects, std::span<const double> matrices);
-  void set_positions(ObjectId object, const PositionView& positions, double max_displacement);
+  void set_poses(std::span<const ObjectId> objects, std::span<const double> matrices, bool jumps = false);
+  void set_positions(ObjectId object, const PositionView& positions, double max_displacement,
+                     bool jumps = false);
   void set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
-                     double max_displacement);
+                     double max_displacement, bool jumps = false);
   void bind_positions(ObjectId object, const PositionView& positions, BindPolicy policy);
   void bind_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                       BindPolicy policy);
   void unbind_positions(ObjectId object);
-  void positions_changed(ObjectId object, double max_displacement);
-  void positions_changed(std::span<const ObjectId> objects, double max_displacement);
+  void positions_changed(ObjectId object, double max_displacement, bool jumps = false);
+  void positions_changed(std::span<const ObjectId> objects, double max_displacement, bool jumps = false);
   void positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements);
   void set_ignored(ObjectId a, ObjectId b, bool ignored);
   void set_ignored(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b, bool ignored);
@@ -156,6 +158,7 @@ class Staging {
   void add_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy);
   void try_binding(Calls& calls, ObjectId object, const PositionView& positions, BindPolicy policy) noexcept;
   void add_unbinding(Calls& calls, ObjectId object);
+  void try_jump(Calls& calls, ObjectId object) noexcept;
   void try_change(Calls& calls, ObjectId object, double max_displacement) noexcept;
   void add_ignored(Calls& calls, ObjectId a, ObjectId b, bool ignored);
   /// Returns whether both ids name objects, and adds a diagnostic if not.

@@ -92,11 +92,11 @@ void PairAnswers::choose_carrying(std::uint32_t job, PairAnswer& answer, JobWork
   answer.cut = has_more && limit_.cuts_carrying();
 }
 
-/// Remembers for which positions and rules the answer holds.
+/// Remembers for which positions and rules the answer holds. What met on the way is of one step only.
 void PairAnswers::remember(const PairJob& job, const PairAnswer& answer) const {
   const bool whole = answer.complete && job.task == PairJob::Task::detect;
   PairMemory& memory = job.memory_to_write();
-  memory.version_a = whole ? job.a->surface().version() : 0;
+  memory.version_a = whole && !job.is_swept ? job.a->surface().version() : 0;
   memory.version_b = whole ? job.b->surface().version() : 0;
   memory.rules_version = rules_version_;
 }

@@ -43,7 +43,7 @@ void PairJobs::run(const PairList& list, std::uint64_t rules_version, StepDeadli
   large_.begin_step();
   if (settings_.time_budget || settings_.work_budget) sort_by_urgency();
   if (settings_.work_budget)
-    run_within_work(*settings_.work_budget);
+    run_within_work(*settings_.work_budget - std::min(*settings_.work_budget, list.region_pairs_swept));
   else
     settings_.time_budget ? run_by_urgency() : run_group(order_);
   work_.note(workers_.counters(), order_.size());

@@ -50,18 +50,22 @@ FeatureFilter filter_of_self(const PairJob& job, ContactDetail detail) {
   return {groups, SelfQuery{job.a->self.get(), rest_distance, is_about_vertices(detail)}};
 }
 
-/// Returns what says which features of a pair are looked at, or null if all are, or none. It is in `room` if
-/// faces are hidden, and no groups of the pair were ever ignored, or if it is an object with itself.
+/// Returns what says which features of a pair are looked at, or null if all are, or none. It may be in
+/// `room`.
 const FeatureFilter* filter_of(const PairJob& job, ContactDetail detail, std::optional<FeatureFilter>& room) {
+  if (!job.is_of_self()) return groups_of(job, room);
+  return &room.emplace(filter_of_self(job, detail));
+}
+
+}  // namespace
+
+const FeatureFilter* groups_of(const PairJob& job, std::optional<FeatureFilter>& room) {
   room.reset();
-  if (job.is_of_self()) return &room.emplace(filter_of_self(job, detail));
   if (job.groups.version != 0) return job.groups.filter;
   if (!job.a->hides_some_faces() && !job.b->hides_some_faces()) return nullptr;
   room.emplace(job.a->face_groups.get(), job.b->face_groups.get());
   return room->leaves_some() ? &*room : nullptr;
 }
-
-}  // namespace
 
 PairQuery PairQueries::of(const PairJob& job, std::optional<FeatureFilter>& filter) const {
   PairQuery query;
@@ -70,7 +74,8 @@ PairQuery PairQueries::of(const PairJob& job, std::optional<FeatureFilter>& filt
   query.tolerance = settings_.accuracy.tolerance();
   query.epsilon = job.thresholds.epsilon;
   query.threshold = job.thresholds.threshold;
-  query.reach = job.was_in_contact() ? std::numeric_limits<double>::infinity() : job.thresholds.reach;
+  query.reach =
+      job.was_in_contact() || job.met_on_way ? std::numeric_limits<double>::infinity() : job.thresholds.reach;
   query.region_distance_reach = job.thresholds.reach;
   query.groups = filter_of(job, query.detail, filter);
   set_limits(query);

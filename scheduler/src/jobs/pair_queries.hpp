@@ -11,6 +11,10 @@
 
 namespace graze {
 
+/// Returns what says which features of a pair are looked at by their groups, or null if all are, or none. It
+/// is in `room` if faces are hidden, and no groups of the pair were ever ignored.
+[[nodiscard]] const FeatureFilter* groups_of(const PairJob& job, std::optional<FeatureFilter>& room);
+
 /// Says what is asked about the pair of a job, by the settings and by how the pair has moved. Any thread may
 /// call the const members while jobs run: they only read.
 class PairQueries {

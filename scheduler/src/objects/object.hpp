@@ -21,6 +21,7 @@
 #include "core/mesh/indexed_mesh.hpp"
 #include "core/pair/self_exclusion.hpp"
 #include "core/surface/surface.hpp"
+#include "core/sweep/swept_surface.hpp"
 
 namespace graze {
 
@@ -146,6 +147,14 @@ struct IgnoredPartner {
   friend auto operator<=>(const IgnoredPartner&, const IgnoredPartner&) = default;
 };
 
+/// How an object that may be in a swept pair moves in a step. Steps have the numbers of ObjectStore.
+struct ObjectSweep {
+  SurfaceMotion motion;
+  std::uint64_t kept_step = 0;   ///< the step that kept where the object was before
+  std::uint64_t jumps_step = 0;  ///< the step by which it jumps
+  std::uint64_t swept_step = 0;  ///< the last step that has swept a pair of it
+};
+
 /// One object of a scene, as steps see it. `validate` says which states cannot be.
 struct Object {
   ObjectId id;
@@ -191,6 +200,8 @@ struct Object {
     bool walked = false;   ///< one of these jobs walked its regions in the last step
     double shares = 0;     ///< the shares of its box near the jobs' other objects, for large objects only
   } asked;
+
+  std::unique_ptr<ObjectSweep> sweep;  ///< null if no pair of it can be swept
 
   std::vector<IgnoredPartner> ignored_partners;  ///< the notes of IgnoredObjects
 

@@ -182,12 +182,14 @@ Surface::ReadResult accept_positions(Object& object, const Surface::PartSeen& al
 
 bool has_input(const Object& object) {
   if (object.pose || object.is_read_in_every_step()) return true;
-  if (object.is_surveyed()) return object.promises.next || object.state != ReadState::still_surveyed;
+  if (object.is_surveyed())
+    return object.promises.next || object.state != ReadState::still_surveyed || object.sweep != nullptr;
   return object.positions || (object.bound && object.bound->is_notified);
 }
 
 bool stays_unread(const Object& object) {
-  return object.is_surveyed() && !object.pose && !object.promises.next && !object.is_read_in_every_step();
+  return object.is_surveyed() && !object.pose && !object.promises.next && !object.is_read_in_every_step() &&
+         object.sweep == nullptr;
 }
 
 void add_promise(Object& object) {
@@ -201,6 +203,7 @@ bool can_be_viewed(const Object& object) {
 }
 
 bool can_be_surveyed(const Object& object, bool with_views) {
+  if (object.sweep != nullptr) return false;
   const bool is_tested = object.demand != Demand::nothing;
   if (object.pose) return !is_tested;
   const bool is_told_again = object.bound && object.bound->is_notified_again;

@@ -20,7 +20,7 @@ namespace graze {
 void add_promise(Object& object);
 /// Whether an object may be surveyed instead of read. It may if no pair tested it in the last step, or if it
 /// can be viewed. Objects that stand still are read, which writes nothing. So are nearly static objects,
-/// since their pairs have lists.
+/// since their pairs have lists. So are those in swept pairs, since the next step needs their positions.
 [[nodiscard]] bool can_be_surveyed(const Object& object, bool with_views);
 /// Whether the object's box is known without reading a vertex: from its pose, or from copying its positions.
 [[nodiscard]] bool has_known_box(const Object& object);

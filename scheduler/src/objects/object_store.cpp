@@ -54,7 +54,8 @@ void compose(std::vector<std::uint32_t>& new_of_old, std::span<const std::uint32
 
 /// Whether an object may stay unread, if its promises keep it far from everything.
 bool may_stay_unread(const Object& object) {
-  return !checks_every_promise && !object.pose && !object.frozen && object.promises.are_bounds();
+  return !checks_every_promise && !object.pose && !object.frozen && object.promises.are_bounds() &&
+         object.sweep == nullptr;
 }
 
 /// The least number of tasks for small objects. Each task reads several of them, which are mostly neighbours
@@ -78,8 +79,21 @@ const Object* ObjectStore::find_serial(std::uint64_t serial) const {
   return objects_[static_cast<std::size_t>(found - serials_.begin())].get();
 }
 
+/// Takes up the settings of an object that is added. Objects that may be in swept pairs from now on are read
+/// in the next step if they are unread.
+void ObjectStore::take_up_sweep(const ObjectSettings& settings) {
+  if (!swept_.take_up(settings)) return;
+  for (const auto& object : objects_) {
+    if (object == nullptr || object->sweep != nullptr || !swept_.may_meet(object->settings)) continue;
+    object->sweep = std::make_unique<ObjectSweep>();
+    if (object->is_unread()) expect_input(*object);
+  }
+}
+
 void ObjectStore::apply(AddObject& call) {
+  take_up_sweep(call.settings);
   auto object = std::make_unique<Object>();
+  if (swept_.some() && swept_.may_meet(call.settings)) object->sweep = std::make_unique<ObjectSweep>();
   make_room_for_one(serials_);
   make_room_for_one(objects_);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
@@ -122,6 +136,8 @@ void ObjectStore::apply(ReplaceMesh& call) {
   now.mesh_number = object->mesh_number + 1;
   now.replaced = std::move(replaced);
   now.ignored_partners = std::move(object->ignored_partners);
+  now.sweep = std::move(object->sweep);
+  if (now.sweep != nullptr) now.sweep->kept_step = 0;  // it stands in the next step
   now.frozen = object->frozen && object->is_posed();
   if (!now.frozen) now.pose = object->pose ? object->pose : object->standing_pose;
   now.may_have_input = object->may_have_input;
@@ -248,6 +264,10 @@ void ObjectStore::apply(const PositionsChanged& call) {
   if (std::isfinite(call.max_displacement)) object->promises.are_made = true;
 }
 
+void ObjectStore::apply(const MarkTeleport& call) {
+  if (Object* const object = find(call.object)) swept_.note_jump(*object);
+}
+
 void ObjectStore::reserve(std::size_t count) {
   objects_.reserve(count);
   serials_.reserve(count);
@@ -262,6 +282,7 @@ void ObjectStore::reserve(std::size_t count) {
 void ObjectStore::count_bytes(Object& object) {
   const std::size_t bytes = object.surface().byte_count() +
                             (object.face_groups == nullptr ? 0 : object.face_groups->byte_count()) +
+                            (object.sweep == nullptr ? 0 : object.sweep->motion.byte_count()) +
                             (object.self == nullptr ? 0 : object.self->byte_count());
   surface_bytes_ += bytes - std::exchange(object.counted_bytes, bytes);
 }
@@ -295,6 +316,7 @@ void ObjectStore::forget() noexcept {
   // missing.
   std::erase_if(with_input_, [](Object* object) { return std::exchange(object->may_have_input, true); });
   will_have_changed_ = true;
+  last_failed_ = true;
 }
 
 void ObjectStore::drop_removed() {
@@ -325,6 +347,7 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   report_problems(diagnostics);  // those of a step that came to no end
   changed_ = std::exchange(will_have_changed_, false);
   ++steps_;
+  swept_.begin_step(std::exchange(last_failed_, false));
   drop_removed();
   if (!std::exchange(promises_count_, true))
     for (const auto& object : objects_) object->promises.motion = Promises::any_distance;
@@ -434,15 +457,20 @@ void ObjectStore::list_to_read(Object& object) {
   if (!object.in_parts || (is_survey(object.plan) && has_known_box(object)))
     return to_read_.push_back(&object);
   const std::uint32_t count = object.mesh->vertex_count();
+  const bool keeps_start = swept_.begin_keeping(object, is_new(object));
   for (std::uint32_t begin = 0; begin < count; begin += vertices_of_part)
-    parts_.push_back({&object, begin, std::min(vertices_of_part, count - begin), {}});
-  large_.push_back({&object, parts_.size()});
+    parts_.push_back({&object, begin, std::min(vertices_of_part, count - begin), {}, keeps_start});
+  large_.push_back({&object, parts_.size(), keeps_start});
 }
 
 /// Reads one object of `to_read_`. Other threads read other objects at the same time.
 void ObjectStore::read_small(std::size_t index) {
   Object& object = *to_read_[index];
   const AccessScope access({AccessRight::write(&object), {}});
+  if (object.sweep != nullptr && swept_.begin_keeping(object, is_new(object))) {
+    object.sweep->motion.keep(object.surface(), 0, object.mesh->vertex_count());
+    swept_.end_keeping(object);
+  }
   ReadOutcome outcome = read_whole(object);
   // It is looked at first: tasks that only read it do not take the cache line from each other.
   if (outcome.changed && !changed_.load(std::memory_order_relaxed))
@@ -466,6 +494,8 @@ void ObjectStore::read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnost
     if (item < parts_.size()) {
       Part& part = parts_[item];
       const AccessScope access({AccessRight::read(), {}});
+      if (part.keeps_start)
+        part.object->sweep->motion.keep(part.object->surface(), part.begin, part.begin + part.count);
       part.seen = scan_part(*part.object, part.begin, part.begin + part.count);
     } else {
       const std::size_t begin = (item - parts_.size()) * each;
@@ -507,9 +537,9 @@ void ObjectStore::finish_large(TaskPool& tasks) {
   const auto write_finished = [&] {
     tasks.run(to_write, [&](unsigned, std::size_t item) {
       // The last parts come first, since they are still in a cache.
-      const auto& [object, begin, count, seen] = parts_[to_write - 1 - item];
-      const AccessScope access({AccessRight::write(object), {}});
-      write_part(*object, begin, begin + count);
+      const Part& part = parts_[to_write - 1 - item];
+      const AccessScope access({AccessRight::write(part.object), {}});
+      write_part(*part.object, part.begin, part.begin + part.count);
     });
     for (const LargeObject& large : std::span(large_).first(finished)) {
       finish_read(*large.object, large.accepted);
@@ -528,10 +558,11 @@ void ObjectStore::finish_large(TaskPool& tasks) {
 /// Accepts the scan of one large object. If it is to be written, its parts are moved to the front of
 /// `parts_`, before `to_write`.
 void ObjectStore::finish_parts(std::size_t index, std::size_t& to_write) {
-  auto& [object, end, problem, accepted] = large_[index];
+  auto& [object, end, keeps_start, problem, accepted] = large_[index];
   const std::size_t begin = index == 0 ? 0 : large_[index - 1].end;
   Surface::PartSeen all;
   for (std::size_t part = begin; part < end; ++part) all.add(parts_[part].seen);
+  if (keeps_start) swept_.end_keeping(*object);
   ReadOutcome outcome = accept_scan(*object, all);
   if (object->plan == ReadPlan::survey_and_view && !object->frozen) view_memory(*object);
   accepted = outcome.accepted;

@@ -12,6 +12,7 @@
 #include "calls/calls.hpp"
 #include "core/surface/surface.hpp"
 #include "objects/object.hpp"
+#include "objects/swept_objects.hpp"
 
 namespace graze {
 
@@ -49,6 +50,7 @@ class ObjectStore {
   /// Appends a diagnostic if the bound memory is bad.
   void apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics);
   void apply(const PositionsChanged& call);
+  void apply(const MarkTeleport& call);
   /// Reserves memory for that many objects.
   void reserve(std::size_t count);
 
@@ -92,6 +94,8 @@ class ObjectStore {
   [[nodiscard]] bool some_replaced() const { return !replaced_.empty(); }
   /// Forgets the replaced meshes. Call it when a report speaks of the new ones.
   void forget_replaced() noexcept;
+  /// How objects move that may be in swept pairs. Valid after `read_positions`.
+  [[nodiscard]] const SweptObjects& swept() const { return swept_; }
   /// How many objects the last reads left unread because of promises.
   [[nodiscard]] std::size_t unread_count() const { return unread_count_; }
   /// How many objects were surveyed, including those that were read afterwards.
@@ -109,14 +113,18 @@ class ObjectStore {
     std::uint32_t begin;
     std::uint32_t count;
     Surface::PartSeen seen;
+    bool keeps_start = false;  ///< of the object, for sweeps
   };
   struct LargeObject {
     Object* object;
     std::size_t end;  ///< the end of its parts in `parts_`
+    bool keeps_start = false;
     std::optional<Diagnostic> problem = std::nullopt;
     bool accepted = true;
   };
 
+  void take_up_sweep(const ObjectSettings& settings);
+  [[nodiscard]] bool is_new(const Object& object) const { return object.serial >= first_unseen_; }
   /// Lists the object for the next read.
   void expect_input(Object& object);
   void drop_removed();
@@ -134,6 +142,8 @@ class ObjectStore {
   void report_problems(std::vector<Diagnostic>& diagnostics);
 
   bool with_blocks_;
+  SweptObjects swept_;
+  bool last_failed_ = false;            ///< no report speaks of what the last read has found
   MemoryObserver* observer_ = nullptr;  ///< of the current step
   std::vector<std::unique_ptr<Object>>
       objects_;                         ///< null in the slot of a removed object until the next read

@@ -88,6 +88,26 @@ void ObjectSummaries::refresh(std::span<Object* const> read_late) {
   }
 }
 
+void ObjectSummaries::take_up_sweeps(std::span<const std::unique_ptr<Object>> objects,
+                                     const SweptObjects& swept) {
+  sweeps_.resize(objects.size());
+  for (std::size_t slot = 0; slot < objects.size(); ++slot) {
+    const Object& object = *objects[slot];
+    SweptSummary& summary = sweeps_[slot];
+    summary.swept = object.settings.swept;
+    summary.moves = swept.moves(object);
+    summary.box = {summary.moves ? object.sweep->motion.start_box() : object.box, object.box};
+  }
+}
+
+bool ObjectSummaries::may_meet_on_way(SlotPair pair, double gap) const {
+  if (sweeps_.empty()) return false;
+  const SweptSummary& a = sweeps_[first_of(pair)];
+  const SweptSummary& b = sweeps_[second_of(pair)];
+  if (!(a.swept || b.swept) || !(a.moves || b.moves)) return false;
+  return first_meeting(gap > 0 ? grown(a.box, gap) : a.box, b.box) <= 1;
+}
+
 std::uint32_t ObjectSummaries::slot_of(const Object& object) const {
   return find_slot(object.serial);
 }

@@ -10,6 +10,7 @@
 #include "core/base/bytes_of.hpp"
 #include "objects/filter_traits.hpp"
 #include "objects/object.hpp"
+#include "objects/swept_objects.hpp"
 
 namespace graze {
 
@@ -29,6 +30,13 @@ struct ObjectSummary : FilterTraits {
   bool read_late = false;  ///< the box has changed since the refresh
 };
 
+/// How an object moves in a step, in a scene where an object is swept.
+struct SweptSummary {
+  MovingBox box;       ///< on its way to where it is now
+  bool swept = false;  ///< ObjectSettings::swept
+  bool moves = false;
+};
+
 /// The summaries of all objects in one array, in the order of addition. Stepping thread only.
 class ObjectSummaries {
  public:
@@ -39,6 +47,16 @@ class ObjectSummaries {
 
   [[nodiscard]] std::span<const ObjectSummary> all() const { return summaries_; }
   [[nodiscard]] const ObjectSummary& operator[](std::uint32_t slot) const { return summaries_[slot]; }
+  /// Takes up how all objects move in this step, which are those of the last refresh.
+  void take_up_sweeps(std::span<const std::unique_ptr<Object>> objects, const SweptObjects& swept);
+  /// How objects move. It is empty if none is swept.
+  [[nodiscard]] std::span<const SweptSummary> sweeps() const { return sweeps_; }
+  /// The box that holds an object throughout this step.
+  [[nodiscard]] Box whole_box(std::uint32_t slot) const {
+    return sweeps_.empty() || !sweeps_[slot].moves ? summaries_[slot].box : sweeps_[slot].box.whole();
+  }
+  /// Whether a pair is swept, and its objects may come within `gap` of each other on the way.
+  [[nodiscard]] bool may_meet_on_way(SlotPair pair, double gap) const;
   /// The slot of an object.
   [[nodiscard]] std::uint32_t slot_of(const Object& object) const;
   /// The slot of the object of a serial, or no_slot.
@@ -57,7 +75,7 @@ class ObjectSummaries {
     changed_.reserve(objects);
   }
   [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(summaries_) + bytes_of(new_slots_) + bytes_of(changed_);
+    return bytes_of(summaries_) + bytes_of(new_slots_) + bytes_of(changed_) + bytes_of(sweeps_);
   }
 
  private:
@@ -67,6 +85,7 @@ class ObjectSummaries {
   std::vector<ObjectSummary> summaries_;
   std::vector<std::uint32_t> new_slots_;
   std::vector<std::uint8_t> changed_;  ///< in one array, since every pair reads it for both objects
+  std::vector<SweptSummary> sweeps_;   ///< in an array of their own, for the scenes that have them
   bool some_unread_ = false;
 };
 

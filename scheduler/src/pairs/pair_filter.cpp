@@ -10,7 +10,7 @@ namespace graze {
 PairFilter::PairFilter(const SceneSettings& settings) : settings_(settings) {
   const std::span<const double> epsilon(settings_.accuracy.epsilon());
   distances_.push_back({threshold_of(settings_.contact_distance, epsilon), settings_.range, epsilon});
-  half_reaches_.fill(distances_[0].reach() / 2);
+  half_reaches_.fill(std::max(distances_[0].reach(), settings.swept_gap) / 2);
 }
 
 std::size_t PairFilter::index_of(std::uint32_t kind_a, std::uint32_t kind_b) {
@@ -42,10 +42,10 @@ void PairFilter::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, PairRule r
   find_half_reach(kind_b);
 }
 
-/// Finds the half reach of a kind: half of its largest reach to any kind. So the half reaches of two kinds
-/// add up to at least their reach.
+/// Finds the half reach of a kind: half of its largest reach to any kind, or of the gap of sweeps. So the
+/// half reaches of two kinds add up to at least their reach.
 void PairFilter::find_half_reach(std::uint32_t kind) {
-  double reach = 0;
+  double reach = settings_.swept_gap;
   for (std::uint32_t other = 0; other < kind_count; ++other)
     reach = std::max(reach, distances_of(kind, other).reach());
   half_reaches_[kind] = reach / 2;

@@ -94,6 +94,8 @@ class PairFilter final : public IgnoredPairs {
   }
   /// A number that changes with every rule, and with every pair or group that becomes ignored or watched.
   [[nodiscard]] std::uint64_t version() const { return rules_version_ + ignored_version_; }
+  /// How near surfaces have to come on the way so that a sweep says when.
+  [[nodiscard]] double swept_gap() const { return settings_.swept_gap; }
   [[nodiscard]] const BroadPhase::HalfReaches& half_reaches() const { return half_reaches_; }
 
   [[nodiscard]] std::size_t byte_count() const;

@@ -27,7 +27,9 @@ struct PairJob {
     unchanged,    ///< nothing has moved since the last answer: repeat it
   };
   Task task = Task::detect;
-  bool allowed = true;  ///< whether the filters allow the pair
+  bool allowed = true;      ///< whether the filters allow the pair
+  bool is_swept = false;    ///< whether its objects may meet between the last step and this one
+  bool met_on_way = false;  ///< they may have, by a sweep of this step
   SlotPair slots = 0;
   Object* a = nullptr;
   Object* b = nullptr;
@@ -66,8 +68,9 @@ struct LastRows {
 /// All jobs and repeated rows of a step, ordered by the slots of objects a and b.
 struct PairList {
   std::span<const PairJob> jobs;
-  std::span<const LastRows> last_rows;  ///< ascending by the job they stand before
-  std::size_t pair_count = 0;           ///< of all pairs with a memory
+  std::span<const LastRows> last_rows;   ///< ascending by the job they stand before
+  std::size_t pair_count = 0;            ///< of all pairs with a memory
+  std::uint64_t region_pairs_swept = 0;  ///< which a work budget counts, too
 };
 
 }  // namespace graze

@@ -82,8 +82,7 @@ class PairSelection::Walk {
     if (is_known(pair)) known = selection_.last_[last_++];
     const SelectedPair selected{pair, static_cast<std::uint32_t>(index), known.memory, next_listed(pair)};
     if (!known.rests || !given_.stands(pair)) {
-      known.fate =
-          fate_of(given_.summaries[first_of(pair)], given_.summaries[second_of(pair)], given_.filter);
+      known.fate = fate_of(pair, given_.summaries, given_.filter);
       known.rests = known.fate != Fate::tested && known.fate != Fate::frozen;
     }
     ++slice_.fates[static_cast<std::size_t>(known.fate)];
@@ -185,10 +184,14 @@ void PairSelection::cut(std::span<const SlotPair> pairs, std::span<const ListedP
   selected_.resize(std::max(selected_.size(), pairs.size() + listed.size()));
 }
 
-PairSelection::Fate PairSelection::fate_of(const ObjectSummary& a, const ObjectSummary& b,
+PairSelection::Fate PairSelection::fate_of(SlotPair pair, const ObjectSummaries& summaries,
                                            const PairFilter& filter) {
+  const ObjectSummary& a = summaries[first_of(pair)];
+  const ObjectSummary& b = summaries[second_of(pair)];
   if (a.hidden || b.hidden) return Fate::apart;
-  if (!may_be_near(lower_distance(a.box, b.box), filter.reach(a, b))) return Fate::apart;
+  if (!may_be_near(lower_distance(a.box, b.box), filter.reach(a, b)) &&
+      !summaries.may_meet_on_way(pair, filter.swept_gap()))
+    return Fate::apart;
   return a.frozen || b.frozen ? Fate::frozen : Fate::tested;
 }
 
@@ -218,8 +221,8 @@ void PairSelection::validate(const Given& given) {
     if (!known.rests) continue;
     const ObjectSummary& a = given.summaries[first_of(known.pair)];
     const ObjectSummary& b = given.summaries[second_of(known.pair)];
-    bool holds =
-        given.filter.verdict(a, b) == PairVerdict::tested && known.fate == fate_of(a, b, given.filter);
+    bool holds = given.filter.verdict(a, b) == PairVerdict::tested &&
+                 known.fate == fate_of(known.pair, given.summaries, given.filter);
     if (known.fate == Fate::tested) {
       const PairMemory& memory = memories_[known.memory];
       holds = holds && memory.version_a == a.version && memory.version_b == b.version &&

@@ -24,7 +24,7 @@ struct ListedPair {
 /// One pair that needs a job, or several pairs at rest.
 struct SelectedPair {
   enum class Kind : std::uint8_t {
-    tested,   ///< passes the filters, may be near, and neither object is frozen
+    tested,   ///< passes the filters, may be near or meet on the way, and neither object is frozen
     resting,  ///< `count` such pairs in a row that the last report lists, and is to list again as they are
     not_selected,  ///< otherwise, but listed in the last report
   };
@@ -95,7 +95,7 @@ class PairSelection {
 
   void remap(std::span<const std::uint32_t> new_slots);
   void cut(std::span<const SlotPair> pairs, std::span<const ListedPair> listed);
-  static Fate fate_of(const ObjectSummary& a, const ObjectSummary& b, const PairFilter& filter);
+  static Fate fate_of(SlotPair pair, const ObjectSummaries& summaries, const PairFilter& filter);
   std::size_t gather();
   void count(StepStatistics& statistics) const;
   void validate(const Given& given);

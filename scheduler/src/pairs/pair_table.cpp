@@ -20,6 +20,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   statistics.objects = objects.size();
   statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
   summaries_.refresh(objects, tasks);
+  if (store_.swept().some()) summaries_.take_up_sweeps(objects, store_.swept());
   find_listed(previous);
   find_ended(previous);
   const auto close = self_pairs_.add_to(
@@ -157,6 +158,8 @@ void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameRep
       continue;
     }
     PairJob job = job_of(each, previous);
+    job.is_swept =
+        each.kind == SelectedPair::Kind::tested && summaries_.may_meet_on_way(each.pair, filter_.swept_gap());
     if (each.kind == SelectedPair::Kind::tested || says_something(job))
       add(job, each);
     else

@@ -34,6 +34,9 @@ class PairTable {
   PairList list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
                 StepStatistics& statistics);
 
+  /// The jobs of the last `list`.
+  [[nodiscard]] std::span<PairJob> jobs() { return jobs_; }
+
   /// Begins the list of a report's rows, which are added in its order.
   void begin_rows(std::uint64_t frame);
   void add_row(const PairJob& job) { add_row(job.slots); }

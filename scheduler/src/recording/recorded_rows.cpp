@@ -50,9 +50,17 @@ std::uint64_t answer_hash_of(const FrameReport& report, const PairReport& pair) 
   return hash.value();
 }
 
+/// Whether something met on the way, or may have.
+bool is_of_sweep(const PairReport& pair) {
+  return pair.impact_count > 0 || pair.time_of_impact < 1 || pair.time_of_gap < 1;
+}
+
 std::uint64_t history_hash_of(const FrameReport& report, const PairReport& pair) {
   Hash hash;
   hash(pair.phase);
+  if (is_of_sweep(pair)) hash(pair.time_of_impact, pair.time_of_gap);
+  for (const Impact& impact : report.impacts(pair))
+    hash(impact.kind, impact.feature_a, impact.feature_b, impact.lower, impact.upper, impact.status);
   for (const Contact& contact : report.contacts(pair)) hash(report.age(contact));
   return hash.value();
 }
@@ -81,7 +89,7 @@ void summarize(const FrameReport& report, RecordedReport& recorded) {
     if (pair.phase == PairPhase::began || pair.phase == PairPhase::touching) ++recorded.pairs_in_contact;
     recorded.rows.push_back({pair.a, pair.b, pair.phase, pair.complete, pair.stale, pair.contacts_cut,
                              pair.distance.lower, pair.distance.upper, pair.contact_count,
-                             answer_hash_of(report, pair), history_hash_of(report, pair)});
+                             answer_hash_of(report, pair), history_hash_of(report, pair), is_of_sweep(pair)});
   }
 }
 

@@ -23,8 +23,11 @@ struct RecordedRow {
   std::uint64_t contacts = 0;
   /// The hash of bounds, witness, contacts and region distances. They follow from where the objects are now.
   std::uint64_t answer_hash = 0;
-  /// The hash of the phase and of the contacts' ages. They follow from the steps before.
+  /// The hash of the phase, of the contacts' ages, and of what met on the way. They follow from the steps
+  /// before.
   std::uint64_t history_hash = 0;
+  /// Something met on the way, or may have. So the row may be listed for that alone.
+  bool is_of_sweep = false;
 
   friend bool operator==(const RecordedRow&, const RecordedRow&) = default;
 };
@@ -46,7 +49,7 @@ struct RecordedReport {
 template <Is<RecordedRow> T>
 auto fields(T& r) {
   return std::tie(r.a, r.b, r.phase, r.complete, r.stale, r.contacts_cut, r.lower, r.upper, r.contacts,
-                  r.answer_hash, r.history_hash);
+                  r.answer_hash, r.history_hash, r.is_of_sweep);
 }
 template <Is<RecordedReport> T>
 auto fields(T& r) {

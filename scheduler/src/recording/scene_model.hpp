@@ -108,6 +108,7 @@ class SceneModel {
   void take(const MemoryRecord& record);
   void take(const UnbindRecord& record);
   void take(const PositionsChanged&) {}
+  void take(const MarkTeleport&) {}
   void take(const IgnorePair& record);
   void take(const IgnoreGroups& record);
   void take(const SetRule& record);

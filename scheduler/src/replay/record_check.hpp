@@ -52,6 +52,7 @@ class RecordCheck {
   void take(const AddRecord& record);
   void take(const ReplaceRecord& record);
   void take(const RemoveObject& record) { objects_.erase(record.object); }
+  static void take(const MarkTeleport&) {}
   void take(const SetPose& record);
   void take(const RefusePose& record);
   void take(const PositionsRecord& record);

@@ -192,6 +192,10 @@ void ReplayedScene::take(const IgnoreGroups& record) {
     staging_.repeat(IgnoreGroups{a->object.id, record.group_a, b->object.id, record.group_b, record.ignored});
 }
 
+void ReplayedScene::take(const MarkTeleport& record) {
+  if (const Object* const object = find(record.object)) staging_.repeat(MarkTeleport{object->object.id});
+}
+
 void ReplayedScene::take(const Diagnostic& record) {
   staging_.repeat(Diagnostic{id_of(record.object), record.kind, record.message});
 }

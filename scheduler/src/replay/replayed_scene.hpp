@@ -63,6 +63,7 @@ class ReplayedScene {
   void take(const MemoryRecord& record);
   void take(const UnbindRecord& record);
   void take(const PositionsChanged& record);
+  void take(const MarkTeleport& record);
   void take(const IgnorePair& record);
   void take(const IgnoreGroups& record);
   void take(const SetRule& record);

@@ -50,6 +50,7 @@ RowVerdict RowComparison::compare(const RecordedRow* recorded, const RecordedRow
 bool RowComparison::must_be_listed(const RecordedRow& row, double least_range) const {
   if (is_of_before(row)) return false;
   if (row.upper < least_range) return true;
+  if (row.is_of_sweep && !is_in_contact(row)) return false;
   return !is_cut_short(row) && !has_loose_bounds(row);
 }
 

@@ -13,14 +13,17 @@ struct ReportRoom {
   std::size_t pairs = 0;
   std::size_t contacts = 0;
   std::size_t region_distances = 0;
+  std::size_t impacts = 0;
 
   [[nodiscard]] bool covers(const ReportRoom& other) const {
-    return pairs >= other.pairs && contacts >= other.contacts && region_distances >= other.region_distances;
+    return pairs >= other.pairs && contacts >= other.contacts && region_distances >= other.region_distances &&
+           impacts >= other.impacts;
   }
   void include(const ReportRoom& other) {
     pairs = std::max(pairs, other.pairs);
     contacts = std::max(contacts, other.contacts);
     region_distances = std::max(region_distances, other.region_distances);
+    impacts = std::max(impacts, other.impacts);
   }
 };
 
@@ -37,6 +40,7 @@ class ReportBuilder {
     report_.shown_ = &report_.rows_;
     report_.rows_.pairs.clear();
     report_.rows_.region_distances.clear();
+    report_.rows_.impacts.clear();
     report_.diagnostics_.clear();
     report_.statistics_ = {};
   }
@@ -52,7 +56,16 @@ class ReportBuilder {
     report_.rows_.pairs.push_back(pair);
     report_.complete_ = report_.complete_ && pair.complete;
   }
-  /// Appends pairs that were adjacent in an earlier report, unchanged, with their distances of regions.
+  /// Appends the impacts of the pair that is added next.
+  void add_impacts(PairReport& pair, std::span<const Impact> impacts) {
+    if (impacts.empty()) return;
+    auto& rows = report_.rows_.impacts;
+    pair.first_impact = rows.size();
+    pair.impact_count = impacts.size();
+    rows.insert(rows.end(), impacts.begin(), impacts.end());
+  }
+  /// Appends pairs that were adjacent in an earlier report, unchanged, with their distances of regions. They
+  /// have no impacts.
   void add_again(std::span<const PairReport> pairs, std::span<const RegionDistance> region_distances) {
     if (pairs.empty()) return;
     auto& rows = report_.rows_;
@@ -120,6 +133,7 @@ class ReportBuilder {
     reserve_to_overwrite(report_.rows_.pairs, room.pairs);
     reserve_to_overwrite(report_.rows_.contacts, room.contacts);
     reserve_to_overwrite(report_.rows_.region_distances, room.region_distances);
+    reserve_to_overwrite(report_.rows_.impacts, room.impacts);
   }
   /// Frees the rows of the report.
   void release() noexcept {
@@ -128,11 +142,12 @@ class ReportBuilder {
   }
   [[nodiscard]] ReportRoom room() const {
     return {report_.rows_.pairs.capacity(), report_.rows_.contacts.capacity(),
-            report_.rows_.region_distances.capacity()};
+            report_.rows_.region_distances.capacity(), report_.rows_.impacts.capacity()};
   }
   [[nodiscard]] std::size_t byte_count() const {
     std::size_t bytes = bytes_of(report_.rows_.pairs) + bytes_of(report_.rows_.contacts) +
-                        bytes_of(report_.rows_.region_distances) + bytes_of(report_.diagnostics_);
+                        bytes_of(report_.rows_.region_distances) + bytes_of(report_.rows_.impacts) +
+                        bytes_of(report_.diagnostics_);
     for (const Diagnostic& diagnostic : report_.diagnostics_) bytes += diagnostic.message.capacity();
     return bytes;
   }

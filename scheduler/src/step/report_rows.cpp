@@ -5,12 +5,18 @@ namespace graze {
 std::optional<PairReport> repeated_row(const PairJob& job) {
   if (job.last == nullptr) return std::nullopt;
   PairReport row = *job.last;
+  forget_sweep(row);
   row.stale = job.task == PairJob::Task::repeat_last;
   if (row.phase == PairPhase::began) row.phase = PairPhase::touching;
   if (row.phase != PairPhase::ended) return row;
   row.phase = PairPhase::near;
   if (row.distance.lower < job.thresholds.reach) return row;
   return std::nullopt;
+}
+
+void forget_sweep(PairReport& row) {
+  row.time_of_impact = row.time_of_gap = 1;
+  row.first_impact = row.impact_count = 0;
 }
 
 std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer) {

@@ -14,4 +14,7 @@ std::optional<PairReport> row_of(const PairJob& job, const KeptAnswer& answer);
 /// The row of a pair that was not tested: its last row again, or nothing if the report does not list it.
 std::optional<PairReport> repeated_row(const PairJob& job);
 
+/// Forgets what met on the way to another step.
+void forget_sweep(PairReport& row);
+
 }  // namespace graze

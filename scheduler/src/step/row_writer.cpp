@@ -51,6 +51,7 @@ void RowWriter::write_pair(const PairJob& job, std::size_t index, const FrameRep
   if (!row) return;
   const std::size_t left_out = answers.contacts_left_out(index);
   if (left_out > 0) row->contacts_cut = true;
+  if (job.is_swept) add_sweep(index, *row, builder);
   if (row->contacts_cut) row->complete = false;
   const bool in_contact = is_contact(row->phase);
   const auto contacts = in_contact ? answers.contacts(index) : std::span<const Contact>();
@@ -68,6 +69,17 @@ void RowWriter::write_pair(const PairJob& job, std::size_t index, const FrameRep
   if (row->contacts_cut) count_cut(left_out, statistics);
 }
 
+/// Adds to a row what met on the way.
+void RowWriter::add_sweep(std::size_t index, PairReport& row, ReportBuilder& builder) {
+  const SweptJob& swept = sweeps_.of(index);
+  row.time_of_impact = swept.time_of_impact;
+  row.time_of_gap = swept.time_of_gap;
+  row.complete = row.complete && swept.complete;
+  if (swept.left_out > 0) row.contacts_cut = true;
+  builder.add_impacts(row, swept.impacts);
+  builder.statistics().impacts += swept.impacts.size();
+}
+
 /// The row of a pair that was not tested, or nothing if the report does not list it.
 std::optional<PairReport> RowWriter::row_again(const PairJob& job) {
   std::optional<PairReport> row = repeated_row(job);
@@ -83,6 +95,7 @@ void RowWriter::end_pair(PairReport row, ReportBuilder& builder) {
   set_ended(row);
   row.complete = true;
   row.stale = row.contacts_cut = false;
+  forget_sweep(row);
   builder.add(row, 0, {});
   pairs_.pass_row();
   ++builder.statistics().pairs_near;

@@ -7,6 +7,7 @@
 #include "base/task_pool.hpp"
 #include "jobs/last_contacts.hpp"
 #include "jobs/pair_jobs.hpp"
+#include "jobs/pair_sweeps.hpp"
 #include "objects/object_store.hpp"
 #include "pairs/pair_table.hpp"
 #include "report/contact_rows.hpp"
@@ -19,8 +20,13 @@ namespace graze {
 class RowWriter {
  public:
   RowWriter(TaskPool& tasks, const ObjectStore& store, PairTable& pairs, PairJobs& jobs,
-            const LastContacts& last_contacts)
-      : tasks_(tasks), store_(store), pairs_(pairs), jobs_(jobs), last_contacts_(last_contacts) {}
+            const PairSweeps& sweeps, const LastContacts& last_contacts)
+      : tasks_(tasks),
+        store_(store),
+        pairs_(pairs),
+        jobs_(jobs),
+        sweeps_(sweeps),
+        last_contacts_(last_contacts) {}
 
   /// Writes all pairs of a step whose jobs are answered, and counts them in the report's statistics. Returns
   /// whether no pair was tested and all rows are those of `previous`, unchanged.
@@ -36,6 +42,7 @@ class RowWriter {
   [[nodiscard]] bool is_of_old_mesh(const PairJob& job) const {
     return store_.some_replaced() && job.speaks_of_replaced();
   }
+  void add_sweep(std::size_t index, PairReport& row, ReportBuilder& builder);
   void end_pair(PairReport row, ReportBuilder& builder);
   void repeat_pairs(const LastRows& resting, const FrameReport& previous, ReportBuilder& builder);
 
@@ -43,6 +50,7 @@ class RowWriter {
   const ObjectStore& store_;
   PairTable& pairs_;
   PairJobs& jobs_;
+  const PairSweeps& sweeps_;
   const LastContacts& last_contacts_;
   ContactRows contacts_;
   std::size_t rows_again_ = 0;  ///< rows of the current report that are unchanged from the last

@@ -100,11 +100,17 @@ std::string Scene::name(ObjectId object) const {
 void Scene::set_pose_rows(ObjectId object, const std::array<double, 12>& rows) {
   state_->staging.set_pose(object, rows);
 }
+void Scene::set_pose_rows(ObjectId object, const std::array<double, 12>& rows, Teleport) {
+  state_->staging.set_pose(object, rows, true);
+}
 void Scene::set_pose_matrix(ObjectId object, const std::array<double, 16>& rows) {
   state_->staging.set_pose(object, rows);
 }
 void Scene::set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices) {
   state_->staging.set_poses(objects, matrices);
+}
+void Scene::set_pose_matrices(std::span<const ObjectId> objects, std::span<const double> matrices, Teleport) {
+  state_->staging.set_poses(objects, matrices, true);
 }
 void Scene::set_positions(ObjectId object, PositionView positions, double max_displacement) {
   state_->staging.set_positions(object, positions, max_displacement);
@@ -112,6 +118,13 @@ void Scene::set_positions(ObjectId object, PositionView positions, double max_di
 void Scene::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
                           double max_displacement) {
   state_->staging.set_positions(objects, positions, max_displacement);
+}
+void Scene::set_positions(ObjectId object, PositionView positions, Teleport) {
+  state_->staging.set_positions(object, positions, any_displacement, true);
+}
+void Scene::set_positions(std::span<const ObjectId> objects, std::span<const PositionView> positions,
+                          Teleport) {
+  state_->staging.set_positions(objects, positions, any_displacement, true);
 }
 void Scene::bind_positions(ObjectId object, PositionView positions, BindPolicy policy) {
   state_->staging.bind_positions(object, positions, policy);
@@ -131,6 +144,12 @@ void Scene::positions_changed(std::span<const ObjectId> objects, double max_disp
 }
 void Scene::positions_changed(std::span<const ObjectId> objects, std::span<const double> max_displacements) {
   state_->staging.positions_changed(objects, max_displacements);
+}
+void Scene::positions_changed(ObjectId object, Teleport) {
+  state_->staging.positions_changed(object, any_displacement, true);
+}
+void Scene::positions_changed(std::span<const ObjectId> objects, Teleport) {
+  state_->staging.positions_changed(objects, any_displacement, true);
 }
 void Scene::ignore(ObjectId a, ObjectId b) {
   state_->staging.set_ignored(a, b, true);

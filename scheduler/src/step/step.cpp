@@ -31,8 +31,9 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       store_(content.store),
       pairs_(settings, content.filter, store_),
       refit_(settings, tasks_),
+      sweeps_(settings, tasks_),
       jobs_(settings, tasks_),
-      rows_(tasks_, store_, pairs_, jobs_, last_contacts_),
+      rows_(tasks_, store_, pairs_, jobs_, sweeps_, last_contacts_),
       reserve_(settings, content, reports, pairs_, refit_, jobs_, rows_) {}
 
 void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* capture) {
@@ -47,10 +48,11 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
   if (std::exchange(can_repeat_report_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
   } else {
-    const PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
+    PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
     statistics.times.pairs_ms = lap();
     refit_.run(list.jobs);
     statistics.times.refit_ms = lap();
+    if (store_.swept().some()) sweep(list, start, statistics);
     last_contacts_.begin(previous, list.jobs, store_.some_replaced());
     jobs_.run(list, pairs_.filter().rules_version(), start, last_contacts_, builder);
     statistics.times.jobs_ms = lap();
@@ -82,6 +84,17 @@ void Step::apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* captu
   if (applier.concerns_pairs()) can_repeat_report_ = false;
 }
 
+/// Sweeps the pairs that may meet between the last step and this one.
+void Step::sweep(PairList& list, Clock::time_point start, StepStatistics& statistics) {
+  sweeps_.run(pairs_.jobs(), store_.swept(), start);
+  const SweepWork work = sweeps_.work();
+  list.region_pairs_swept = work.region_pairs_tested;
+  statistics.pairs_swept = sweeps_.count();
+  statistics.work.swept_region_pairs = work.region_pairs_tested;
+  statistics.work.swept_feature_pairs = work.feature_pairs_tested;
+  statistics.work.swept_exact_decisions = work.features.exact;
+}
+
 /// Repeats all rows of the last report, in which no pair was tested.
 void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) {
   reports_.repeat_rows();
@@ -98,6 +111,7 @@ void Step::repeat_rows(const FrameReport& previous, StepStatistics& statistics) 
 /// suffice, later steps allocate instead. The step's result does not depend on it.
 void Step::equalize_capacity() {
   try {
+    if (sweeps_.count() > 0) sweeps_.equalize_capacity();
     reports_.equalize_capacity(jobs_.equalize_capacity());
   } catch (const std::bad_alloc&) {
     return;
@@ -143,8 +157,8 @@ void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& s
     if (job.is_tested())
       for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
   statistics.bytes.pairs = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() +
-                           rows_.byte_count() + last_contacts_.byte_count();
-  statistics.bytes.threads = jobs_.thread_byte_count();
+                           rows_.byte_count() + last_contacts_.byte_count() + sweeps_.byte_count();
+  statistics.bytes.threads = jobs_.thread_byte_count() + sweeps_.thread_byte_count();
 }
 
 }  // namespace graze

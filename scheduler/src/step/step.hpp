@@ -8,6 +8,7 @@
 #include "calls/staging.hpp"
 #include "jobs/last_contacts.hpp"
 #include "jobs/pair_jobs.hpp"
+#include "jobs/pair_sweeps.hpp"
 #include "jobs/region_refit.hpp"
 #include "pairs/pair_table.hpp"
 #include "recording/frame_capture.hpp"
@@ -34,6 +35,7 @@ class Step {
   using Clock = std::chrono::steady_clock;
 
   void apply_calls(std::vector<Diagnostic>& diagnostics, FrameCapture* capture);
+  void sweep(PairList& list, Clock::time_point start, StepStatistics& statistics);
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
   void equalize_capacity();
   void sum_counters(StepStatistics& statistics);
@@ -45,6 +47,7 @@ class Step {
   ObjectStore& store_;
   PairTable pairs_;
   RegionRefit refit_;
+  PairSweeps sweeps_;
   PairJobs jobs_;
   LastContacts last_contacts_;
   RowWriter rows_;

@@ -87,6 +87,16 @@ struct ReportedContact {
   EdgeVertices edge_b{};
 };
 
+/// What met on the way, in a report file.
+struct ReportedImpact {
+  /// The impact.
+  Impact impact;
+  /// The vertices of feature a, if it is an edge.
+  EdgeVertices edge_a{};
+  /// The vertices of feature b, if it is an edge.
+  EdgeVertices edge_b{};
+};
+
 /// A row in a report file. Its members mean what those of PairReport mean.
 struct ReportedPair {
   /// The object that was added first, by its ReportedObject::id.
@@ -118,6 +128,12 @@ struct ReportedPair {
   std::vector<ReportedContact> contacts;
   /// The number of contacts of the pair, also if the report leaves them out.
   std::uint64_t contact_count = 0;
+  /// PairReport::time_of_impact.
+  double time_of_impact = 1;
+  /// PairReport::time_of_gap.
+  double time_of_gap = 1;
+  /// The impacts of the pair, sorted as FrameReport::impacts() is.
+  std::vector<ReportedImpact> impacts;
 };
 
 /// A diagnostic in a report file.
