@@ -56,6 +56,7 @@ oracle::Shape read_ply(const std::string& path) {
   std::size_t face_count = 0;
   std::string header;
   for (std::string line; std::getline(in, line) && line != "end_header"; header += line + "\n") {
+    if (line == "property list uchar int vertex_indices") line = "property list uint8 int32 vertex_indices";
     if (line.starts_with("element vertex ")) vertex_count = std::stoul(line.substr(15));
     if (line.starts_with("element face ")) face_count = std::stoul(line.substr(13));
   }

@@ -85,8 +85,8 @@ class BasicExact {
   }
 
   int sign_ = 0;
-  int exponent_ = 0;                  ///< of the lowest limb, in limbs
-  int size_ = 0;                      ///< limbs in use. Neither the lowest nor the highest is 0
+  int exponent_ = 0;                               ///< of the lowest limb, in limbs
+  int size_ = 0;                                   ///< limbs in use. Neither the lowest nor the highest is 0
   std::array<Limb, std::size_t{capacity}> limbs_;  ///< lowest first. Only the first size_ are ever read
 };
 

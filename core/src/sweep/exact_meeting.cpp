@@ -124,12 +124,16 @@ int bits_of(const FeatureSweep& sweep) {
 /// Coordinates of so many bits need no more than the capacity of Exact, 64 · 192 bits: (180 + 8) · 61 bits.
 constexpr int most_bits = 180;
 
+/// No more of these are made, whatever the budget, so that times between doubles fit too.
+constexpr std::uint64_t most_subdivisions = 1024;
+
 }  // namespace
 
 std::optional<SweptMeeting> exact_meeting(SweptPair pair, const FeatureSweep& sweep,
                                           std::uint64_t exact_budget) {
-  if (bits_of(sweep) <= most_bits) return ExactMeeting<Exact>(pair, sweep, exact_budget).find();
-  return ExactMeeting<WideExact>(pair, sweep, exact_budget).find();
+  const std::uint64_t budget = std::min(exact_budget, most_subdivisions);
+  if (bits_of(sweep) <= most_bits) return ExactMeeting<Exact>(pair, sweep, budget).find();
+  return ExactMeeting<WideExact>(pair, sweep, budget).find();
 }
 
 }  // namespace graze
