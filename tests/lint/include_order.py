@@ -35,6 +35,7 @@ ORDER = {
         "search": "one query, in stages",
         "query": "two surfaces without a scene",
         "response": "contacts at other positions",
+        "cast": "rays, spheres, points, boxes",
     },
     "scheduler": {
         "base": "task pool, access rights",
@@ -42,6 +43,7 @@ ORDER = {
         "objects": "objects and how they are read",
         "broad_phase": "objects whose boxes are near",
         "pairs": "filters, memory, list of jobs",
+        "geometry": "what queries between steps ask",
         "report": "reports, handles, contact rows",
         "jobs": "refit, searches on all threads",
         "recording": "what steps take up, as chunks",

@@ -70,6 +70,10 @@ struct ObjectSettings {
   /// An edge between a hidden face and one that is seen is tested with the seen face alone. The seen face is
   /// taken to go on behind the edge in its plane, so that the edge is neither a border nor a crease.
   std::vector<std::uint8_t> hidden_groups = {};
+  /// Whether reports keep this object's mesh and positions: FrameReport::mesh(), FrameReport::positions(), and
+  /// what SceneQuery finds. A step in which the object moved copies its positions and computes the boxes of its
+  /// regions once more. The object is then read in every step, however far it is from others.
+  bool queries = false;
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the

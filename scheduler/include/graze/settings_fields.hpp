@@ -63,6 +63,7 @@ inline constexpr std::tuple object_settings_fields{
     SettingsField<&ObjectSettings::solid>{"solid"},
     SettingsField<&ObjectSettings::face_groups>{"face_groups"},
     SettingsField<&ObjectSettings::hidden_groups>{"hidden_groups"},
+    SettingsField<&ObjectSettings::queries>{"queries"},
 };
 static_assert(has_every_member<ObjectSettings>(object_settings_fields),
               "name every field of ObjectSettings above");

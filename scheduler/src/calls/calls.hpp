@@ -25,6 +25,7 @@ struct AddObject {
   std::unique_ptr<Surface> surface;  ///< made on the caller's thread
   ObjectSettings settings;
   std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
+  std::shared_ptr<const Mesh> mesh;               ///< the surface's
 };
 struct RemoveObject {
   ObjectId object;
@@ -36,6 +37,7 @@ struct ReplaceMesh {
   std::vector<std::uint32_t> new_of_old;          ///< the new vertex of each old one, or Mesh::no_vertex
   std::vector<std::uint8_t> group_of_face;        ///< of the new faces, or empty: all are in group 0
   std::shared_ptr<const FaceGroups> face_groups;  ///< as that of AddObject
+  std::shared_ptr<const Mesh> mesh;               ///< the new one
 };
 struct SetPose {
   ObjectId object;

@@ -176,7 +176,8 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   AddObject call{{},
                  std::make_unique<Surface>(mesh),
                  settings,
-                 face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who)};
+                 face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who),
+                 mesh};
   const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
   try {
@@ -219,7 +220,8 @@ void Staging::replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                    std::make_unique<Surface>(mesh),
                    {new_of_old.begin(), new_of_old.end()},
                    {face_groups.begin(), face_groups.end()},
-                   face_groups_of(indexed(*mesh), face_groups, hidden, "replace_mesh")};
+                   face_groups_of(indexed(*mesh), face_groups, hidden, "replace_mesh"),
+                   mesh};
   const std::lock_guard lock(bindings_);
   Calls calls(queue_);
   const ObjectIds::Pin named = ids_.pin(object);

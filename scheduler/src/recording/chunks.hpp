@@ -21,7 +21,7 @@ namespace graze {
 // The parts of a recording in a file, which docs/recording.md describes. All chunks begin at a multiple of 8.
 
 /// The version that is written. Others are refused by name.
-inline constexpr std::uint32_t recording_version = 3;
+inline constexpr std::uint32_t recording_version = 4;
 inline constexpr std::array<char, 8> recording_magic{'G', 'R', 'A', 'Z', 'E', 'R', 'E', 'C'};
 inline constexpr std::array<char, 8> end_magic{'G', 'R', 'A', 'Z', 'E', 'E', 'N', 'D'};
 
