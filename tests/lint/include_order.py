@@ -41,6 +41,7 @@ ORDER = {
         "search": "one query",
         "query": "two surfaces without a scene",
         "response": "contacts at other positions",
+        "cast": "rays, spheres, points, boxes",
     },
     "scheduler": {
         "base": "task pool, access rights",
@@ -48,6 +49,7 @@ ORDER = {
         "objects": "objects and how they are read",
         "broad_phase": "objects whose boxes are near",
         "pairs": "filters, memory, list of jobs",
+        "geometry": "what queries between steps ask",
         "report": "reports, handles, contact rows",
         "jobs": "refit, searches on all threads",
         "recording": "what steps take up, as chunks",

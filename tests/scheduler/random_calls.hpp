@@ -49,6 +49,7 @@ class RandomCalls {
     settings.kind = static_cast<std::uint32_t>(below(3));
     settings.margin = below(4) / 16.0;
     if (chance(2)) settings.face_groups = groups_of(*body.mesh);
+    settings.queries = objects_.size() % 3 == 0;
     if (chance(4)) settings.hidden_groups = {group(), 7};
     body.id = scene.add(body.mesh, settings);
     objects_.push_back(std::move(body));

@@ -197,7 +197,7 @@ TEST_CASE("a scene file with every key is read as it says") {
       {"name": "liver", "mesh": "meshes/liver.obj", "node": 2, "positions": "liver_####.ply",
        "transform": {"translate": [1, 2, 3], "rotate_degrees": [10, 20, 30], "scale": 0.5}},
       {"name": "tool", "mesh": "/tools/tool.stl", "node": "blade", "motion": "rigid", "layer": 4,
-       "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "hidden_groups": [7, 255], "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
+       "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "hidden_groups": [7, 255], "queries": true, "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
        "poses": [{"frame": 0}, {"frame": 100, "translate": [0, 0, 0]}, {"frame": 101, "rotate_degrees": [1, 2, 3]}]},
       {"mesh": "fox.glb", "animation": "Run"},
       {"mesh": "floor.obj", "motion": "fixed"}],
@@ -232,7 +232,8 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(std::get<std::string>(tool.node.value()) == "blade");
   CHECK(tool.settings.motion == graze::Motion::rigid);
   CHECK((tool.settings.layer == 4 && tool.settings.collides_with == 3 && tool.settings.group == 9 &&
-         tool.settings.margin == 0.001 && tool.settings.solid && tool.settings.kind == 255));
+         tool.settings.margin == 0.001 && tool.settings.solid && tool.settings.queries &&
+         tool.settings.kind == 255));
   CHECK(tool.settings.face_groups == std::vector<std::uint8_t>{0, 255, 7});
   CHECK(tool.settings.hidden_groups == std::vector<std::uint8_t>{7, 255});
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's

@@ -66,7 +66,7 @@ io::PageObject page_object(const std::string& name, const std::shared_ptr<const 
                                // These say which pairs are looked at. A page shows what came of it.
                                &ObjectSettings::layer, &ObjectSettings::collides_with, &ObjectSettings::group,
                                &ObjectSettings::margin, &ObjectSettings::kind, &ObjectSettings::face_groups,
-                               &ObjectSettings::hidden_groups>(),
+                               &ObjectSettings::hidden_groups, &ObjectSettings::queries>(),
                 "each field of ObjectSettings is in pages, or is named as one that is not");
   return {name, mesh, settings.motion, settings.user_data, settings.solid};
 }

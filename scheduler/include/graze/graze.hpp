@@ -18,6 +18,7 @@
 #include <graze/report.hpp>
 #include <graze/scene.hpp>
 #include <graze/scene_enumerators.hpp>
+#include <graze/scene_query.hpp>
 #include <graze/settings.hpp>
 #include <graze/task_scheduler.hpp>
 #include <graze/version.hpp>

@@ -6,7 +6,10 @@
 #include <graze/contact.hpp>
 #include <graze/export.hpp>
 #include <graze/impact.hpp>
+#include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
+#include <graze/position_view.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -251,6 +254,27 @@ struct StepStatistics {
   StepTimes times;
 };
 
+/// @cond internal
+class KeptGeometry;
+
+/// Shares the kept geometry of one step, or nothing. Copies may be made and destroyed by any thread.
+class GRAZE_API KeptGeometryHandle {
+ public:
+  KeptGeometryHandle() = default;
+  explicit KeptGeometryHandle(const KeptGeometry* geometry) noexcept;
+  KeptGeometryHandle(const KeptGeometryHandle& other) noexcept : KeptGeometryHandle(other.geometry_) {}
+  KeptGeometryHandle& operator=(KeptGeometryHandle other) noexcept {
+    std::swap(geometry_, other.geometry_);
+    return *this;
+  }
+  ~KeptGeometryHandle();
+  [[nodiscard]] const KeptGeometry* get() const { return geometry_; }
+
+ private:
+  const KeptGeometry* geometry_ = nullptr;
+};
+/// @endcond
+
 /// The published answer of one step. It never changes, so any number of threads may read it at the same time.
 /// Programs get one through a ReportHandle.
 class GRAZE_API FrameReport {
@@ -306,8 +330,16 @@ class GRAZE_API FrameReport {
   [[nodiscard]] const StepStatistics& statistics() const { return statistics_; }
   /// Returns true if no budget cut a pair short, and no limit left contacts out.
   [[nodiscard]] bool complete() const { return complete_; }
+  /// Returns the mesh of an object as this step saw it, also after Scene::replace_mesh() or after the object
+  /// was removed. It is null unless the object has ObjectSettings::queries and was in the scene.
+  [[nodiscard]] std::shared_ptr<const Mesh> mesh(ObjectId object) const;
+  /// Returns the positions of an object that this report is about, in the precision in which they were given.
+  /// The view is empty unless the object has ObjectSettings::queries and was in the scene. It is good for as
+  /// long as this report, or a copy of it. Positions of vertices that no face uses mean nothing.
+  [[nodiscard]] PositionView positions(ObjectId object) const;
 
  private:
+  friend class SceneQuery;
   friend class ReportBuilder;
   struct Rows {
     std::vector<PairReport> pairs;
@@ -324,6 +356,7 @@ class GRAZE_API FrameReport {
   const Rows* shown_ = &rows_;
   std::vector<Diagnostic> diagnostics_;
   StepStatistics statistics_;
+  KeptGeometryHandle geometry_;
 };
 
 /// @cond internal

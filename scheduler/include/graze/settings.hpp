@@ -92,6 +92,10 @@ struct ObjectSettings {
   /// Also a rigid object's vertices move straight from pose to pose. An object stands at its new place in its
   /// first step, after a `teleport`, and when its mesh was replaced. A fixed object always stands.
   bool swept = false;
+  /// Whether reports keep this object's mesh and positions: FrameReport::mesh(), FrameReport::positions(),
+  /// and what SceneQuery finds. A step in which the object moved copies its positions and computes the boxes
+  /// of its regions once more. The object is then read in every step, however far it is from others.
+  bool queries = false;
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the

@@ -67,6 +67,7 @@ inline constexpr std::tuple object_settings_fields{
     SettingsField<&ObjectSettings::self_rings>{"self_rings"},
     SettingsField<&ObjectSettings::self_at_rest>{"self_at_rest"},
     SettingsField<&ObjectSettings::swept>{"swept"},
+    SettingsField<&ObjectSettings::queries>{"queries"},
 };
 static_assert(has_every_member<ObjectSettings>(object_settings_fields),
               "name every field of ObjectSettings above");

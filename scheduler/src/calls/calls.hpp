@@ -27,6 +27,7 @@ struct AddObject {
   ObjectSettings settings;
   std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
   std::shared_ptr<const SelfExclusion> self;      ///< null unless it is tested against itself
+  std::shared_ptr<const Mesh> mesh;               ///< the surface's
 };
 struct RemoveObject {
   ObjectId object;
@@ -39,6 +40,7 @@ struct ReplaceMesh {
   std::vector<std::uint8_t> group_of_face;        ///< of the new faces, or empty: all are in group 0
   std::shared_ptr<const FaceGroups> face_groups;  ///< as that of AddObject
   std::shared_ptr<const SelfExclusion> self;      ///< as that of AddObject
+  std::shared_ptr<const Mesh> mesh;               ///< the new one
 };
 struct SetPose {
   ObjectId object;

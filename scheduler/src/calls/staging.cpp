@@ -16,8 +16,8 @@
 #include "core/base/floating_point_scope.hpp"
 #include "core/base/view_check.hpp"
 #include "core/mesh/closed.hpp"
-#include "core/search/rest_gaps.hpp"
 #include "core/mesh/indexed_mesh.hpp"
+#include "core/search/rest_gaps.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {
@@ -181,11 +181,9 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   if (const auto problem = problem_of(settings)) throw Error(*problem);
   const std::string who = "object '" + settings.name + "'";
   check_solid(*mesh, settings, who);
-  AddObject call{{},
-                 std::make_unique<Surface>(mesh),
-                 settings,
-                 face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who),
-                 {}};
+  AddObject call{{},       std::make_unique<Surface>(mesh),
+                 settings, face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who),
+                 {},       mesh};
   call.self = self_exclusion_of(*call.surface, settings);
   const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
   Calls calls(queue_);
@@ -230,7 +228,8 @@ void Staging::replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                    {new_of_old.begin(), new_of_old.end()},
                    {face_groups.begin(), face_groups.end()},
                    face_groups_of(indexed(*mesh), face_groups, settings.hidden_groups, "replace_mesh"),
-                   {}};
+                   {},
+                   mesh};
   call.self = self_exclusion_of(*call.surface, settings);
   const std::lock_guard lock(bindings_);
   Calls calls(queue_);

@@ -164,6 +164,7 @@ struct Object {
   std::shared_ptr<const SelfExclusion> self;      ///< null unless it is tested against itself
   std::unique_ptr<Surface> owned_surface;         ///< use the accessors below
   const IndexedMesh* mesh = nullptr;              ///< the surface's
+  std::shared_ptr<const Mesh> users_mesh;         ///< the same, as the caller gave it
   bool in_parts = false;                          ///< it is large, so several tasks read and refit it
   std::uint64_t mesh_number = 0;                  ///< how often its mesh was replaced (NamedMesh)
   std::unique_ptr<ReplacedMesh> replaced;         ///< null, unless that was after the last report

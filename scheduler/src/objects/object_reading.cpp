@@ -203,7 +203,7 @@ bool can_be_viewed(const Object& object) {
 }
 
 bool can_be_surveyed(const Object& object, bool with_views) {
-  if (object.sweep != nullptr) return false;
+  if (object.sweep != nullptr || object.settings.queries) return false;
   const bool is_tested = object.demand != Demand::nothing;
   if (object.pose) return !is_tested;
   const bool is_told_again = object.bound && object.bound->is_notified_again;

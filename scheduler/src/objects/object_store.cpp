@@ -54,8 +54,8 @@ void compose(std::vector<std::uint32_t>& new_of_old, std::span<const std::uint32
 
 /// Whether an object may stay unread, if its promises keep it far from everything.
 bool may_stay_unread(const Object& object) {
-  return !checks_every_promise && !object.pose && !object.frozen && object.promises.are_bounds() &&
-         object.sweep == nullptr;
+  return !checks_every_promise && !object.pose && !object.frozen && !object.settings.queries &&
+         object.promises.are_bounds() && object.sweep == nullptr;
 }
 
 /// The least number of tasks for small objects. Each task reads several of them, which are mostly neighbours
@@ -103,6 +103,7 @@ void ObjectStore::apply(AddObject& call) {
   object->settings = std::move(call.settings);
   object->face_groups = std::move(call.face_groups);
   object->self = std::move(call.self);
+  object->users_mesh = std::move(call.mesh);
   put_surface(*object, std::move(call.surface));
   count_bytes(*object);
   by_index_[call.object.index] = object.get();
@@ -133,6 +134,7 @@ void ObjectStore::apply(ReplaceMesh& call) {
   now.settings.face_groups = std::move(call.group_of_face);
   now.face_groups = std::move(call.face_groups);
   now.self = std::move(call.self);
+  now.users_mesh = std::move(call.mesh);
   now.mesh_number = object->mesh_number + 1;
   now.replaced = std::move(replaced);
   now.ignored_partners = std::move(object->ignored_partners);

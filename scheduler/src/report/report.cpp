@@ -1,6 +1,8 @@
 #include <graze/report.hpp>
 #include <graze/scene_enumerators.hpp>
 
+#include "geometry/kept_geometry.hpp"
+
 namespace graze {
 
 FrameReport::FrameReport(const FrameReport& other)
@@ -9,7 +11,8 @@ FrameReport::FrameReport(const FrameReport& other)
       complete_(other.complete_),
       rows_(*other.shown_),
       diagnostics_(other.diagnostics_),
-      statistics_(other.statistics_) {}
+      statistics_(other.statistics_),
+      geometry_(other.geometry_) {}
 
 FrameReport& FrameReport::operator=(const FrameReport& other) {
   if (this == &other) return *this;
@@ -20,7 +23,18 @@ FrameReport& FrameReport::operator=(const FrameReport& other) {
   shown_ = &rows_;
   diagnostics_ = other.diagnostics_;
   statistics_ = other.statistics_;
+  geometry_ = other.geometry_;
   return *this;
+}
+
+std::shared_ptr<const Mesh> FrameReport::mesh(ObjectId object) const {
+  const KeptObject* const kept = geometry_.get() == nullptr ? nullptr : geometry_.get()->find(object);
+  return kept == nullptr ? nullptr : kept->surface->mesh;
+}
+
+PositionView FrameReport::positions(ObjectId object) const {
+  const KeptObject* const kept = geometry_.get() == nullptr ? nullptr : geometry_.get()->find(object);
+  return kept == nullptr ? PositionView() : kept->surface->surface.positions();
 }
 
 }  // namespace graze

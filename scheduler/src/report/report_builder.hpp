@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <graze/report.hpp>
+#include <utility>
 
 #include "core/base/bytes_of.hpp"
 #include "core/base/growth_policy.hpp"
@@ -43,6 +44,7 @@ class ReportBuilder {
     report_.rows_.impacts.clear();
     report_.diagnostics_.clear();
     report_.statistics_ = {};
+    report_.geometry_ = {};
   }
   /// Appends a pair and its distances of regions, and counts its contacts. The contacts themselves are
   /// written later, in the order of the pairs.
@@ -127,6 +129,8 @@ class ReportBuilder {
   [[nodiscard]] std::uint64_t frame() const { return report_.frame_; }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
+  void set_geometry(KeptGeometryHandle geometry) { report_.geometry_ = std::move(geometry); }
+  [[nodiscard]] bool has_geometry() const { return report_.geometry_.get() != nullptr; }
 
   /// Reserves room in a report that is to be filled. Lists that have to grow lose their content.
   void reserve(const ReportRoom& room) {
@@ -139,6 +143,7 @@ class ReportBuilder {
   void release() noexcept {
     report_.shown_ = &report_.rows_;
     report_.rows_ = {};
+    report_.geometry_ = {};
   }
   [[nodiscard]] ReportRoom room() const {
     return {report_.rows_.pairs.capacity(), report_.rows_.contacts.capacity(),

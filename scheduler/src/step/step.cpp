@@ -34,7 +34,8 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       sweeps_(settings, tasks_),
       jobs_(settings, tasks_),
       rows_(tasks_, store_, pairs_, jobs_, sweeps_, last_contacts_),
-      reserve_(settings, content, reports, pairs_, refit_, jobs_, rows_) {}
+      reserve_(settings, content, reports, pairs_, refit_, jobs_, rows_),
+      geometry_(tasks_, store_) {}
 
 void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* capture) {
   const Clock::time_point start = Clock::now();
@@ -44,6 +45,7 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
 
   apply_calls(builder.diagnostics(), capture);
   store_.read_positions(tasks_, builder.diagnostics(), capture);
+  builder.set_geometry(geometry_.keep());
   statistics.times.read_ms = lap();
   if (std::exchange(can_repeat_report_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
@@ -64,7 +66,7 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
   statistics.objects_unread = store_.unread_count();
   statistics.objects_surveyed = store_.surveyed_count();
   statistics.bytes.objects = store_.byte_count() + staging_.byte_count();
-  statistics.bytes.reports = reports_.byte_count();
+  statistics.bytes.reports = reports_.byte_count() + geometry_.byte_count();
   store_.forget_replaced();
   store_.forget_departed();  // the report is made: nothing throws from here on
   statistics.times.publish_ms = lap();

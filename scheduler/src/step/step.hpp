@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calls/staging.hpp"
+#include "geometry/geometry_keeper.hpp"
 #include "jobs/last_contacts.hpp"
 #include "jobs/pair_jobs.hpp"
 #include "jobs/pair_sweeps.hpp"
@@ -52,6 +53,7 @@ class Step {
   LastContacts last_contacts_;
   RowWriter rows_;
   StepReserve reserve_;
+  GeometryKeeper geometry_;
   /// The last step tested no pair and all its rows were repeated. If nothing changes, the next step can
   /// repeat its report.
   bool can_repeat_report_ = false;

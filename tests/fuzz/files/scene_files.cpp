@@ -85,7 +85,7 @@ std::vector<std::string> scene_file_seeds() {
  "ways_out": true, "carrying": 3, "carrying_band": 0.125,
  "objects": [{"name": "a", "mesh": "solid.obj", "solid": true, "motion": "deformable"},
  {"name": "b", "mesh": "solid.obj", "solid": true, "transform": {"translate": [0.1, 0.1, 0.1], "scale": 0.25}},
- {"name": "c", "mesh": "tent.ply", "face_groups": [0, 1], "hidden_groups": [1]}, {"name": "d", "mesh": "pair.obj", "node": "left",
+ {"name": "c", "mesh": "tent.ply", "face_groups": [0, 1], "hidden_groups": [1], "queries": true}, {"name": "d", "mesh": "pair.obj", "node": "left",
  "face_groups": [255]}], "ignore": [["c", 1, "d", 255]]})",
       R"({"graze": 1, "detail": "regions", "outside_files": true, "objects": [{"mesh": "tent.ply", "transform": {"scale": 1e300}}]})"};
 }

@@ -90,6 +90,7 @@ ObjectSettings read_object_settings(ByteReader& reader) {
     settings.kind = reader.below(300) % 3 + (reader.once_in(64) ? 255 : 0);
   }
   settings.solid = reader.once_in(3);
+  settings.queries = reader.once_in(4);
   return settings;
 }
 

@@ -1,7 +1,9 @@
-// A repeated query takes no memory once it has answered at the same positions before.
+// A repeated query takes no memory once it has answered at the same positions before. A scene whose reports
+// keep geometry takes none either, nor do queries of its reports.
 
+#include <array>
 #include <cmath>
-#include <graze/query.hpp>
+#include <graze/graze.hpp>
 #include <iostream>
 #include <vector>
 
@@ -53,6 +55,44 @@ TEST_CASE("after one period a repeated query takes no memory, at every detail") 
     INFO("detail " << name_of(detail) << ": " << AllocationCount::first_of_others());
     CHECK(AllocationCount::by_others() == 0);
   }
+}
+
+TEST_CASE("steps that keep geometry, and queries of it, take no memory after one period") {
+  if (!AllocationCount::is_possible()) {
+    std::cout << "skipped: the allocator cannot be replaced here\n";
+    return;
+  }
+  const auto mesh = mesh_of(models::sphere(16, 8));
+  const std::vector<Positions> frames = period_of(*mesh);
+  Scene scene({.contact_distance = 0.1, .threads = 1});
+  const ObjectId body = scene.add(mesh, {.queries = true});
+  scene.add(mesh, {.motion = Motion::fixed, .queries = true});
+  MeshProbe probe(mesh);
+  SceneQuery query;
+  ReportHandle held;
+  std::size_t answers = 0;
+  const auto play = [&] {
+    for (const Positions& now : frames) {
+      scene.set_positions(body, now);
+      held = query.report();
+      query.set_report(scene.step());
+      std::array<RayHit, 4> hits;
+      std::array<ObjectId, 2> objects;
+      answers += query.cast_ray({-5, 0.1, 0.2}, {1, 0, 0}, 20, hits);
+      answers += query.cast_sphere({-5, 0.1, 0.2}, {5, 0, 0}, 0.5).has_value();
+      answers += query.closest_point({0, 5, 0}).has_value();
+      answers += query.blocking(probe, 0.1, objects);
+      answers += query.objects_in_box({0, 0, 0}, {1, 1, 1}, objects);
+    }
+  };
+  play();
+  play();
+  REQUIRE(answers > 2 * frames.size());
+  AllocationCount::begin();
+  play();
+  AllocationCount::end();
+  INFO(AllocationCount::first_of_others());
+  CHECK(AllocationCount::by_others() == 0);
 }
 
 }  // namespace graze::tests
