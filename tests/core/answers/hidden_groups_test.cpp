@@ -480,7 +480,8 @@ TEST_CASE("hidden groups: a filter says what is left") {
   watched.set_ignored(7, 0, false);
   CHECK_FALSE(watched.may({FeatureRefKind::face, 1}, {FeatureRefKind::face, 0}));
   watched.set_ignored(0, 0, true);
-  CHECK(watched.some_faces()[0] == 3);
+  const IndexedMesh& faces = indexed(*mesh);
+  CHECK(watched.some_vertices(faces, faces).value()[0] == faces.face(3)[0]);
   watched.set_groups_of_a(std::make_shared<const FaceGroups>(of({255, 7})));
   CHECK_FALSE(watched.leaves_some());
   // Without groups all faces are in group 0.

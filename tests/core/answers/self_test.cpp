@@ -150,12 +150,12 @@ std::string difference_of(const SelfScene& scene, const oracle::FacePairs& pairs
   return text;
 }
 
-struct Met {
+struct SelfMet {
   std::size_t contacts = 0;
   std::size_t pierced = 0;
 };
 
-void check_scene(std::uint64_t seed, const SelfScene& scene, Met& met) {
+void check_self(std::uint64_t seed, const SelfScene& scene, SelfMet& met) {
   const oracle::SelfPairs self(scene.body.rest, scene.rings, scene.rest_distance());
   const oracle::FacePairs pairs = self.pairs();
   const Surface surface = surface_of(scene.body);
@@ -196,7 +196,7 @@ SelfScene waving_sheet(std::uint64_t seed, double phase) {
 
 /// Waves a sheet a little in each step, and compares each answer of a search that remembers the last ones
 /// with that of one which does not, whole and in slices.
-void play(std::uint64_t seed, ContactDetail detail, Met& met, std::size_t& by_list) {
+void play_self(std::uint64_t seed, ContactDetail detail, SelfMet& met, std::size_t& by_list) {
   SelfScene scene = waving_sheet(seed, 0);
   Surface surface = surface_of(scene.body);
   const auto exclusion = make_self_exclusion(surface.shared_mesh(), scene.rings);
@@ -233,34 +233,34 @@ void play(std::uint64_t seed, ContactDetail detail, Met& met, std::size_t& by_li
 
 TEST_CASE("self: two random shapes as one surface are those of brute force") {
   const FloatingPointScope scope;
-  Met met;
-  for (std::uint64_t seed = 1; seed <= repeats(160); ++seed) check_scene(seed, scene_of_two(seed), met);
+  SelfMet met;
+  for (std::uint64_t seed = 1; seed <= repeats(160); ++seed) check_self(seed, scene_of_two(seed), met);
   CHECK(met.contacts > 10 * repeats(160));
   CHECK(met.pierced > repeats(160));
 }
 
 TEST_CASE("self: crumpled sheets are those of brute force") {
   const FloatingPointScope scope;
-  Met met;
-  for (std::uint64_t seed = 1; seed <= repeats(160); ++seed) check_scene(seed, crumpled_sheet(seed), met);
+  SelfMet met;
+  for (std::uint64_t seed = 1; seed <= repeats(160); ++seed) check_self(seed, crumpled_sheet(seed), met);
   CHECK(met.contacts > 10 * repeats(160));
   CHECK(met.pierced > repeats(160));
 }
 
 TEST_CASE("self: sheets of several leaves that hardly bend are those of brute force") {
   const FloatingPointScope scope;
-  Met met;
-  for (std::uint64_t seed = 1; seed <= repeats(8); ++seed) check_scene(seed, waving_sheet(seed, 0.5), met);
+  SelfMet met;
+  for (std::uint64_t seed = 1; seed <= repeats(8); ++seed) check_self(seed, waving_sheet(seed, 0.5), met);
   CHECK(met.contacts > 10 * repeats(8));
 }
 
 TEST_CASE("self: what a search remembers, and slices, do not change its answers") {
   const FloatingPointScope scope;
-  Met met;
+  SelfMet met;
   std::size_t by_list = 0;
   for (const ContactDetail detail : all_details)
     for (std::uint64_t seed = 1; seed <= 12; ++seed)
-      if (is_of_self(detail)) play(seed, detail, met, by_list);
+      if (is_of_self(detail)) play_self(seed, detail, met, by_list);
   CHECK(met.contacts > 1000);
   CHECK(by_list > 50);
 }
