@@ -18,7 +18,7 @@
 namespace graze {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 void check_point(const Eigen::Vector3d& point, const char* name) {
   if (!Surface::is_within_limits(point))
@@ -220,7 +220,7 @@ std::size_t SceneQuery::cast_sphere(const Eigen::Vector3d& from, const Eigen::Ve
   NearestRows hits(room, ByNumber<&SphereHit::t>(objects));
   const auto limit = [&] { return limit_of<&SphereHit::t>(hits, 1); };
   objects.visit(
-      [&](const Box& box) { return box.empty() ? infinity : test.entry(grown(box, radius), limit()); }, limit,
+      [&](const Box& box) { return box.empty() ? endless : test.entry(grown(box, radius), limit()); }, limit,
       [&](const KeptObject& object, const Surface& surface) {
         const auto touch = graze::cast_sphere(sweep, surface, object.groups.get(), limit());
         if (!touch) return;
@@ -233,7 +233,7 @@ std::size_t SceneQuery::cast_sphere(const Eigen::Vector3d& from, const Eigen::Ve
     const KeptObject& object = *state_->geometry()->find(hit.object);
     hit.centre = sweep.centre(hit.t);
     const auto closest =
-        state_->closest.find(hit.centre, object.surface->surface, object.groups.get(), infinity);
+        state_->closest.find(hit.centre, object.surface->surface, object.groups.get(), endless);
     hit.point = closest->point_b;
     hit.normal = -closest->normal;
     hit.feature = closest->feature_b;
@@ -258,7 +258,7 @@ std::size_t SceneQuery::closest_points(const Eigen::Vector3d& point, double limi
   at_point.add(point);
   NearestRows rows(room, ByNumber<&ClosestPoint::distance>(objects));
   const auto limit_now = [&] { return limit_of<&ClosestPoint::distance>(rows, limit); };
-  objects.visit([&](const Box& box) { return box.empty() ? infinity : lower_distance(at_point, box); },
+  objects.visit([&](const Box& box) { return box.empty() ? endless : lower_distance(at_point, box); },
                 limit_now,
                 [&](const KeptObject& object, const Surface& surface) {
                   const auto found = state_->closest.find(point, surface, object.groups.get(), limit);
@@ -282,7 +282,7 @@ std::size_t SceneQuery::blocking(MeshProbe& probe, double clearance, std::span<O
   const FilteredObjects objects(state_->geometry(), filter);
   const Box& around = probe.state_->surface.box();
   ListedObjects found(room, objects);
-  objects.visit([&](const Box& box) { return box.empty() ? infinity : lower_distance(around, box); },
+  objects.visit([&](const Box& box) { return box.empty() ? endless : lower_distance(around, box); },
                 [&] { return clearance; },
                 [&](const KeptObject& object, const Surface& surface) {
                   if (probe.state_->is_blocked_by(surface, object.solid, object.groups.get(), clearance))
@@ -297,7 +297,7 @@ bool SceneQuery::is_free(MeshProbe& probe, double clearance, const QueryFilter& 
   const FilteredObjects objects(state_->geometry(), filter);
   const Box& around = probe.state_->surface.box();
   bool is_blocked = false;
-  objects.visit([&](const Box& box) { return box.empty() ? infinity : lower_distance(around, box); },
+  objects.visit([&](const Box& box) { return box.empty() ? endless : lower_distance(around, box); },
                 [&] { return is_blocked ? -1 : clearance; },
                 [&](const KeptObject& object, const Surface& surface) {
                   is_blocked =
@@ -315,7 +315,7 @@ std::size_t SceneQuery::objects_in_box(const Eigen::Vector3d& min, const Eigen::
   const FilteredObjects objects(state_->geometry(), filter);
   const Box wanted{min, max};
   ListedObjects found(room, objects);
-  objects.visit([&](const Box& box) { return do_meet(wanted, box) ? 0 : infinity; }, [] { return 0.0; },
+  objects.visit([&](const Box& box) { return do_meet(wanted, box) ? 0 : endless; }, [] { return 0.0; },
                 [&](const KeptObject& object, const Surface& surface) {
                   if (meets_box(wanted, surface, object.groups.get())) found.add(object.id);
                 });
