@@ -24,9 +24,9 @@ enum class EdgesListed : std::uint8_t {
 ///
 /// They are, too, if both are creases and the way u from a to b is close to the normal cones. That is so if
 /// no triangle beside the edge of a leads along u by more than τ = 10.2°, and none beside the edge of b along
-/// −u. Where the edges are sunk, u is the opposite. A triangle counts only if the groups of its face let it be
-/// tested with the other edge. Of one surface with itself a triangle counts even if it is a neighbour of the
-/// other edge.
+/// −u. Where the edges are sunk, u is the opposite. A triangle counts only if the groups of its face let it
+/// be tested with the other edge. Of one surface with itself a triangle counts even if it is a neighbour of
+/// the other edge.
 ///
 /// At a seam the seen face goes on behind the edge. So a seam is no crease, and two edges of which one is a
 /// seam are listed only where they cross. If they are locally closest but for that, they are listed alone.

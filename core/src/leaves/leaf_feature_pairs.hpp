@@ -41,9 +41,9 @@ namespace graze {
 /// one for which `range.is_superfluous(key)` holds on are of no interest. If `range.wants_touching()`,
 /// neither is anything that is apart.
 ///
-/// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance. If
-/// `Range::inner_edges_only` is true, two edges have a key only if both closest points are inside. If `Range::may_settle` is true, pairs
-/// that `LeafScratch::coinciding` settles are left to it.
+/// If `Range::nearest_only` is true, the keys of a vertex and a face come with the range of their distance.
+/// If `Range::inner_edges_only` is true, two edges have a key only if both closest points are inside. If
+/// `Range::may_settle` is true, pairs that `LeafScratch::coinciding` settles are left to it.
 template <typename Range, typename Sink>
 class LeafFeaturePairs {
  public:

@@ -26,8 +26,8 @@ struct NearestFound {
   std::vector<EdgesIfSunk>& edges_if_sunk;  ///< further edges below the threshold
   PiercingEdges& piercing;                  ///< the edges that pierce
   /// The nearest where one feature is the fold of a quad, or one edge a seam of hidden faces, of those below
-  /// the threshold. It is a contact only where there is no other. For a surface and itself it is the nearest of
-  /// all that is no contact.
+  /// the threshold. It is a contact only where there is no other. For a surface and itself it is the nearest
+  /// of all that is no contact.
   std::optional<NearKey>& fold;
   /// The features that may be nearest to each vertex. It is complete when all leaves have been added.
   NearestOfVertices& vertices;

@@ -245,8 +245,8 @@ class ParallelContacts {
            });
   }
 
-  /// Takes parallel features if they are the lowest that give way to no others. Those of one surface are known
-  /// by the lower first, as keys are.
+  /// Takes parallel features if they are the lowest that give way to no others. Those of one surface are
+  /// known by the lower first, as keys are.
   void offer(const TwoFeatures& offered) {
     const bool is_in_order = !pair_.is_of_self() || offered.first <= offered.second;
     const TwoFeatures features = is_in_order ? offered : TwoFeatures{offered.second, offered.first};

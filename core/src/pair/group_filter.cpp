@@ -50,9 +50,9 @@ std::optional<std::array<std::uint32_t, 2>> FeatureFilter::some_vertices(const I
   if (!is_of_self()) return std::array{mesh_a.face(some_faces_[0])[0], mesh_b.face(some_faces_[1])[0]};
   for (const auto& [vertex, face] : self_.exclusion->far_pairs()) {
     const std::uint32_t corner = mesh_b.face(face)[0];
-    const bool may_be_tested =
-        self_.is_of_vertices ? may_vertices(std::min(vertex, corner), std::max(vertex, corner))
-                             : may({FeatureRefKind::vertex, vertex}, {FeatureRefKind::face, face});
+    const bool may_be_tested = self_.is_of_vertices
+                                   ? may_vertices(std::min(vertex, corner), std::max(vertex, corner))
+                                   : may({FeatureRefKind::vertex, vertex}, {FeatureRefKind::face, face});
     if (may_be_tested) return std::array{vertex, corner};
   }
   return std::nullopt;

@@ -13,9 +13,10 @@
 namespace graze {
 namespace {
 
-/// A vertex of each surface that may be tested: the middle vertex of the whole, or the corner of a face. It is
-/// not there where none is known, of one surface with itself.
-std::optional<std::array<std::uint32_t, 2>> some_vertices(const Surface& a, const Surface& b, const FeatureFilter* groups) {
+/// A vertex of each surface that may be tested: the middle vertex of the whole, or the corner of a face. It
+/// is not there where none is known, of one surface with itself.
+std::optional<std::array<std::uint32_t, 2>> some_vertices(const Surface& a, const Surface& b,
+                                                          const FeatureFilter* groups) {
   const std::uint32_t middle_a = a.mesh().regions().region(0).middle;
   const std::uint32_t middle_b = b.mesh().regions().region(0).middle;
   if (groups == nullptr || (!groups->is_of_self() && groups->may_vertices(middle_a, middle_b)))

@@ -33,8 +33,7 @@ void PairSweeps::run(std::span<PairJob> jobs, const SweptObjects& objects,
       sweep(index, 0, *settings_.work_budget - std::min(*settings_.work_budget, used));
     }
   } else {
-    tasks_.run(swept_.size(),
-               [this](unsigned worker, std::size_t index) { sweep(index, worker, any_work); });
+    tasks_.run(swept_.size(), [this](unsigned worker, std::size_t index) { sweep(index, worker, any_work); });
   }
   for (const SweptJob& pair : swept_) jobs[pair.job].met_on_way = pair.met;
 }

@@ -71,7 +71,7 @@ class PairSweeps {
   std::chrono::steady_clock::time_point deadline_;
   std::span<const PairJob> jobs_;
   const SweptObjects* objects_ = nullptr;
-  std::vector<SweptJob> swept_;     ///< ascending by job
+  std::vector<SweptJob> swept_;      ///< ascending by job
   std::vector<Object*> on_the_way_;  ///< the objects of these, each once
   std::vector<Worker> workers_;      ///< empty until the first sweep
   SharedBuffer<Impact> impacts_;

@@ -23,8 +23,8 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   if (store_.swept().some()) summaries_.take_up_sweeps(objects, store_.swept());
   find_listed(previous);
   find_ended(previous);
-  const auto close = self_pairs_.add_to(
-      broad_phase_.find(summaries_, filter_.half_reaches(), filter_, tasks), objects, filter_);
+  const auto close = self_pairs_.add_to(broad_phase_.find(summaries_, filter_.half_reaches(), filter_, tasks),
+                                        objects, filter_);
   statistics.pairs_total += self_pairs_.count();
   filter_.forget_changed();
   count_filtered(statistics);
@@ -248,8 +248,8 @@ void PairTable::reserve(std::size_t objects, std::size_t pairs, const PairMemory
 
 std::size_t PairTable::byte_count() const {
   return filter_.byte_count() + summaries_.byte_count() + broad_phase_.byte_count() +
-         self_pairs_.byte_count() + selection_.byte_count() + bytes_of(jobs_) + bytes_of(last_rows_) + bytes_of(listed_) +
-         bytes_of(rows_) + bytes_of(ended_) + bytes_of(wanted_);
+         self_pairs_.byte_count() + selection_.byte_count() + bytes_of(jobs_) + bytes_of(last_rows_) +
+         bytes_of(listed_) + bytes_of(rows_) + bytes_of(ended_) + bytes_of(wanted_);
 }
 
 }  // namespace graze

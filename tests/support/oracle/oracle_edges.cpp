@@ -138,10 +138,10 @@ std::vector<bool> creases_of(const Shape& rest) {
 
 EdgeOracle::EdgeOracle(const ExactShape& a, const ExactShape& b, const FacePairs& pairs)
     : a_(a), b_(b), pairs_(pairs) {
-  a_.pierces =
-      piercing_edges(a, b, [&](const Feature& edge, const Feature& face) { return pairs.may_pierce(edge, face); });
-  b_.pierces =
-      piercing_edges(b, a, [&](const Feature& edge, const Feature& face) { return pairs.may_pierce(face, edge); });
+  a_.pierces = piercing_edges(
+      a, b, [&](const Feature& edge, const Feature& face) { return pairs.may_pierce(edge, face); });
+  b_.pierces = piercing_edges(
+      b, a, [&](const Feature& edge, const Feature& face) { return pairs.may_pierce(face, edge); });
 }
 
 std::vector<EdgePair> EdgeOracle::pairs_within(const Limit& limit, const Creases& creases) const {

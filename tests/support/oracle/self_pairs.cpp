@@ -64,8 +64,7 @@ FacePairs SelfPairs::pairs() const {
 }
 
 bool SelfPairs::are_near_at_rest(const Feature& a, const Feature& b) const {
-  return !limit_.certainly_excludes(extent_of(a), extent_of(b)) &&
-         limit_.admits(rest_distance_squared(a, b));
+  return !limit_.certainly_excludes(extent_of(a), extent_of(b)) && limit_.admits(rest_distance_squared(a, b));
 }
 
 const Extent& SelfPairs::extent_of(const Feature& feature) const {

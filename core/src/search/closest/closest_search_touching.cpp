@@ -100,9 +100,8 @@ bool ClosestSearch::test_overlapping(const RegionPair& start, const TouchingOrde
     return false;
   // Two leaves of one surface are tested with the leaf that is scattered of the two.
   const bool is_of_self = worker.pair.is_of_self();
-  std::erase_if(leaves, [&](const LeafPair& each) {
-    return each.lower > 0 || (is_of_self && each.pair.b != start.b);
-  });
+  std::erase_if(
+      leaves, [&](const LeafPair& each) { return each.lower > 0 || (is_of_self && each.pair.b != start.b); });
   std::sort(leaves.begin(), leaves.end(), order);
   worker.begin_leaves(slices_.found());
   for (LeafPair& each : leaves) {
