@@ -107,7 +107,7 @@ struct LeafScratch {
   template <typename Range, typename Take>
   bool select_near(const SurfacePair& pair, const LeafOf& leaf_a, const LeafOf& leaf_b, Range& range,
                    double touching_within, bool vertices_only, const Take& select) {
-    is_one_leaf = &leaf_a.region == &leaf_b.region;
+    is_one_leaf = pair.is_of_self() && &leaf_a.region == &leaf_b.region;
     const double limit = range.limit();
     const auto nothing_near = [&] {
       range.left_out(limit);

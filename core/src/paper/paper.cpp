@@ -46,7 +46,7 @@ class Paper {
     if (pair_.groups != nullptr) offer_some(*pair_.groups);
     scratch_.dmv.front.assign(1, RegionPair{});
     found_.complete = dmv(
-        pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
+        pair_.a.mesh().regions(), pair_.b.mesh().regions(), false, scratch_.dmv, meter_,
         [&](const RegionPair& regions, const Region& a, const Region& b) {
           const bool both = expand(regions, a, b);
           return Expansion{both, both};

@@ -71,17 +71,17 @@ struct Expansion {
 /// when the budget ran out on the way.
 ///
 /// `expand(pair, a, b)` says which regions of a pair to expand, of which at least one is no leaf. Neither
-/// ends the walk there. A leaf is never expanded. A region of one tree and itself is always expanded on both
-/// sides, and each two of its children make one pair. Where both are, a child that `may_meet` finds to be far
-/// from the whole of the other region is left out. `leaves(pair, a, b)` takes each pair of leaves that is
-/// reached.
+/// ends the walk there. A leaf is never expanded. If `is_of_self`, the trees are of one surface. A region and
+/// itself is then always expanded on both sides, and each two of its children make one pair. Where both are,
+/// a child that `may_meet` finds to be far from the whole of the other region is left out. `leaves(pair, a,
+/// b)` takes each pair of leaves that is reached.
 template <typename Expand, typename MayMeet, typename Leaves>
-bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, DmvScratch& scratch, WorkMeter& meter,
-         const Expand& expand, const MayMeet& may_meet, const Leaves& leaves,
+bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, bool is_of_self, DmvScratch& scratch,
+         WorkMeter& meter, const Expand& expand, const MayMeet& may_meet, const Leaves& leaves,
          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   const auto push_children = [&](const RegionPair& pair, const Region& a, const Region& b,
                                  const Expansion& expansion) {
-    const bool is_of_itself = &a == &b;
+    const bool is_of_itself = is_of_self && pair.a == pair.b;
     const bool a_stays = a.is_leaf() || !expansion.a;
     const bool b_stays = b.is_leaf() || !expansion.b;
     const std::uint32_t first_a = a_stays ? pair.a : a.first_child;

@@ -139,7 +139,7 @@ class LeafPairs {
       return false;
     };
     return dmv(
-        pair_.a.mesh().regions(), pair_.b.mesh().regions(), scratch_.dmv, meter_,
+        pair_.a.mesh().regions(), pair_.b.mesh().regions(), pair_.is_of_self(), scratch_.dmv, meter_,
         [&](const RegionPair& regions, const Region& a, const Region& b) {
           if (!pair_.may_regions(regions)) return Expansion{};
           meet(regions);

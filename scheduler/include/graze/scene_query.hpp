@@ -90,7 +90,7 @@ class GRAZE_API MeshProbe {
   /// Takes a mesh at its rest shape. With `solid` what is inside of it counts as well, and it is inside of
   /// nothing. Throws Error if the mesh is null, or if that of a solid is not closed.
   explicit MeshProbe(std::shared_ptr<const Mesh> mesh, bool solid = false);
-  ~MeshProbe();
+  ~MeshProbe();  ///< Lets go of the mesh.
   /// Takes what `other` holds. `other` must not be used any more.
   MeshProbe(MeshProbe&& other) noexcept;
   /// Takes what `other` holds. `other` must not be used any more.
@@ -127,7 +127,7 @@ class GRAZE_API SceneQuery {
  public:
   /// Asks about a report, which the query keeps. With an empty handle there are no objects.
   explicit SceneQuery(ReportHandle report = {});
-  ~SceneQuery();
+  ~SceneQuery();  ///< Lets go of the report.
   /// Takes what `other` holds. `other` must not be used any more.
   SceneQuery(SceneQuery&& other) noexcept;
   /// Takes what `other` holds. `other` must not be used any more.

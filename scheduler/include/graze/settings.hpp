@@ -176,7 +176,7 @@ struct SceneSettings {
   /// more. No value means the threshold of the pair.
   std::optional<double> carrying_band = std::nullopt;
   /// The bounds of an impact's time are at most this far apart, where a whole step takes time 1. It is at
-  /// least 2^-52, and at most 1. It counts for objects that are #ObjectSettings::swept.
+  /// least 2^-52, and at most 1. It counts for swept pairs (ObjectSettings::swept).
   double sweep_tolerance = 1e-6;
   /// Reports say of swept pairs when their surfaces come that near: PairReport::time_of_gap. A pair that
   /// comes that near on the way is listed. It is finite, and 0 or more. With 0 nothing is asked.
