@@ -61,13 +61,15 @@ void add_page(OutputFiles& outputs, const std::string& option, const fs::path& f
 
 io::PageObject page_object(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
                            const ObjectSettings& settings) {
-  static_assert(are_all_fields<ObjectSettings, &ObjectSettings::name, &ObjectSettings::motion,
-                               &ObjectSettings::user_data, &ObjectSettings::solid,
-                               // These say which pairs are looked at. A page shows what came of it.
-                               &ObjectSettings::layer, &ObjectSettings::collides_with, &ObjectSettings::group,
-                               &ObjectSettings::margin, &ObjectSettings::kind, &ObjectSettings::face_groups,
-                               &ObjectSettings::hidden_groups, &ObjectSettings::queries>(),
-                "each field of ObjectSettings is in pages, or is named as one that is not");
+  static_assert(
+      are_all_fields<ObjectSettings, &ObjectSettings::name, &ObjectSettings::motion,
+                     &ObjectSettings::user_data, &ObjectSettings::solid,
+                     // These say which pairs are looked at. A page shows what came of it.
+                     &ObjectSettings::layer, &ObjectSettings::collides_with, &ObjectSettings::group,
+                     &ObjectSettings::margin, &ObjectSettings::kind, &ObjectSettings::face_groups,
+                     &ObjectSettings::hidden_groups, &ObjectSettings::self, &ObjectSettings::self_rings,
+                     &ObjectSettings::self_at_rest, &ObjectSettings::swept, &ObjectSettings::queries>(),
+      "each field of ObjectSettings is in pages, or is named as one that is not");
   return {name, mesh, settings.motion, settings.user_data, settings.solid};
 }
 
