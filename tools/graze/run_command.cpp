@@ -93,6 +93,8 @@ void replace_settings(SceneSettings& settings, const RunOptions& options) {
                      &SceneSettings::max_contacts, &SceneSettings::max_contacts_per_pair,
                      &SceneSettings::region_distances, &SceneSettings::ways_out, &SceneSettings::carrying,
                      &SceneSettings::carrying_band,
+                     // They matter to objects that are swept, which only a scene file has.
+                     &SceneSettings::sweep_tolerance, &SceneSettings::swept_gap,
                      // A run has no frame rate to keep, and its tasks are the only ones.
                      &SceneSettings::time_budget, &SceneSettings::work_budget, &SceneSettings::arena,
                      // Scene files say which objects are swept, and how exactly.

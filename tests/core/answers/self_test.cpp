@@ -265,4 +265,32 @@ TEST_CASE("self: what a search remembers, and slices, do not change its answers"
   CHECK(by_list > 50);
 }
 
+TEST_CASE("self: a surface of which nothing is tested with itself has no answer in any step") {
+  const FloatingPointScope scope;
+  for (const ContactDetail detail : all_details) {
+    if (!is_of_self(detail)) continue;
+    INFO("detail " << static_cast<int>(detail));
+    SelfScene scene{sheet(1, 1, false), 0.25, 2};
+    Surface surface = surface_of(scene.body);
+    const auto exclusion = make_self_exclusion(surface.shared_mesh(), scene.rings);
+    const FeatureFilter filter(FeatureFilter(nullptr, nullptr), self_query(scene, *exclusion, detail));
+    PairQuery query = query_of(detail, scene.threshold);
+    query.groups = &filter;
+    query.slack = query.leaf_test_slack = query.list_slack = 0.125;
+    PairDetector detector;
+    LeafFront front;
+    PairAnswer answer;
+    PairCounters counters;
+    for (int step = 0; step < 4; ++step) {
+      detector.detect(surface, surface, query, front, answer, counters);
+      REQUIRE(!answer.in_contact);
+      REQUIRE(!answer.listed);
+      for (Eigen::Vector3d& position : scene.body.now.positions) position.x() *= 0.99;
+      REQUIRE(surface.set_positions(scene.body.now.positions).taken());
+      surface.make_blocks();
+      surface.refit_faces();
+    }
+  }
+}
+
 }  // namespace graze::tests

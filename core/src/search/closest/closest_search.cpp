@@ -104,6 +104,16 @@ SearchProgress ClosestSearch::begin_surfaces(SearchWorker& worker) {
   return approach(worker);
 }
 
+/// Begins anew without what the last answer left, so that the search ends even where it finds nothing again.
+SearchProgress ClosestSearch::walk_anew(SearchWorker& worker) {
+  slices_.found().clear();
+  source_ = LeafSource::walk;
+  is_bounded_ = false;
+  closest_.clear();
+  ClosestRange(worker.pair, pair_.query, ties(), closest_).offer_some();
+  return approach(worker);
+}
+
 /// Bounds from below the distance of all pairs of leaves that the front does not list. Not positive where
 /// nothing is known.
 double ClosestSearch::unlisted_lower_bound() const {
@@ -240,12 +250,12 @@ bool ClosestSearch::is_one_pair_of_leaves() const {
          pair_.a->mesh().regions().region_count() == 1 && pair_.b->mesh().regions().region_count() == 1;
 }
 
-/// Answers, unless the closest points may be where the search has not looked. Then it begins anew.
+/// Answers, unless the closest points may be where the search has not looked. Then it walks anew.
 SearchProgress ClosestSearch::finish(SearchWorker& worker) {
   merge_slices(worker);
   slices_.clear();
   if (closest_.closest.keys.empty()) {
-    if (source_ != LeafSource::walk || is_bounded_) return begin_surfaces(worker);
+    if (source_ != LeafSource::walk || is_bounded_) return walk_anew(worker);
     // The whole of both surfaces was walked without a bound, and the reach is less than what underflow loses.
     // To begin anew would find nothing again.
     if (!ClosestRange(worker.pair, pair_.query, ties(), closest_).offer_any()) return find_nothing(worker);

@@ -51,6 +51,7 @@ class ClosestSearch {
 
   SearchProgress begin_vertices(SearchWorker& worker);
   SearchProgress begin_surfaces(SearchWorker& worker);
+  SearchProgress walk_anew(SearchWorker& worker);
   void choose_source();
   SearchProgress approach(SearchWorker& worker);
   void run_approach(SearchSlice& slice, SearchWorker& worker);
