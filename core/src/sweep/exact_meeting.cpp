@@ -124,6 +124,14 @@ int bits_of(const FeatureSweep& sweep) {
 /// Coordinates of so many bits need no more than the capacity of Exact, 64 · 192 bits: (180 + 8) · 61 bits.
 constexpr int most_bits = 180;
 
+/// Finds a meeting with numbers of one capacity. It is never inlined: its numbers take stack only where they
+/// are needed (docs/numerics.md).
+template <typename Number>
+[[gnu::noinline]] std::optional<SweptMeeting> find_meeting(SweptPair pair, const FeatureSweep& sweep,
+                                                           std::uint64_t budget) {
+  return ExactMeeting<Number>(pair, sweep, budget).find();
+}
+
 /// No more of these are made, whatever the budget, so that times between doubles fit too.
 constexpr std::uint64_t most_subdivisions = 1024;
 
@@ -132,8 +140,8 @@ constexpr std::uint64_t most_subdivisions = 1024;
 std::optional<SweptMeeting> exact_meeting(SweptPair pair, const FeatureSweep& sweep,
                                           std::uint64_t exact_budget) {
   const std::uint64_t budget = std::min(exact_budget, most_subdivisions);
-  if (bits_of(sweep) <= most_bits) return ExactMeeting<Exact>(pair, sweep, budget).find();
-  return ExactMeeting<WideExact>(pair, sweep, budget).find();
+  if (bits_of(sweep) <= most_bits) return find_meeting<Exact>(pair, sweep, budget);
+  return find_meeting<WideExact>(pair, sweep, budget);
 }
 
 }  // namespace graze

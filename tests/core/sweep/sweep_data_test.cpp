@@ -7,15 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
-#include <set>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/floating_point_scope.hpp"
-#include "core/mesh_files.hpp"
+#include "core/sweep/sequence.hpp"
 #include "support/catch.hpp"
 #include "sweep/moving_features.hpp"
 
@@ -87,83 +84,31 @@ std::vector<SweepQuery> read_queries(const std::filesystem::path& file) {
   return queries;
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// The whole numbers of a text, two by two.
-std::vector<std::array<std::size_t, 2>> read_pairs(const std::filesystem::path& file) {
-  std::string text = text_of(file);
-  for (char& character : text)
-    if (character < '0' || character > '9') character = ' ';
-  std::istringstream numbers(text);
-  std::vector<std::array<std::size_t, 2>> pairs;
-  std::array<std::size_t, 2> pair{};
-  while (numbers >> pair[0] >> pair[1]) pairs.push_back(pair);
-  return pairs;
-}
-
-/// The words "true" and "false" of a text.
-std::vector<bool> read_answers(const std::filesystem::path& file) {
-  std::vector<bool> answers;
-  for (const char character : text_of(file))
-    if (character == 't' || character == 'f') answers.push_back(character == 't');
-  return answers;
-}
-
-/// Two frames of a sequence, and its edges by their ids.
-struct Frames {
-  oracle::Shape start, end;
-  std::vector<std::array<std::uint32_t, 2>> edges;
-
-  Frames(const std::filesystem::path& folder, int first)
-      : start(read_ply((folder / (std::to_string(first) + ".ply")).string())),
-        end(read_ply((folder / (std::to_string(first + 1) + ".ply")).string())) {
-    std::set<std::array<std::uint32_t, 2>> by_larger_end;
-    for (const auto& face : start.faces)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto [low, high] = std::minmax(face[i], face[(i + 1) % 3]);
-        by_larger_end.insert({high, low});
-      }
-    for (const auto& edge : by_larger_end) edges.push_back({edge[1], edge[0]});
+SweepQuery query_of(const Sequence& sequence, const Sequence::Pair& pair) {
+  std::array<std::uint32_t, 4> vertex{};
+  if (pair.are_edges) {
+    const auto& a = sequence.edges[pair.features[0]];
+    const auto& b = sequence.edges[pair.features[1]];
+    vertex = {a[0], a[1], b[0], b[1]};
+  } else {
+    const auto& face = sequence.start.faces[pair.features[1]];
+    vertex = {static_cast<std::uint32_t>(pair.features[0]), face[0], face[1], face[2]};
   }
-
-  [[nodiscard]] SweepQuery query(const std::array<std::size_t, 2>& ids, bool are_edges, bool meet) const {
-    const std::size_t vertices = start.positions.size();
-    std::array<std::uint32_t, 4> vertex{};
-    if (are_edges) {
-      const auto& a = edges[ids[0] - vertices];
-      const auto& b = edges[ids[1] - vertices];
-      vertex = {a[0], a[1], b[0], b[1]};
-    } else {
-      const auto& face = start.faces[ids[1] - vertices - edges.size()];
-      vertex = {static_cast<std::uint32_t>(ids[0]), face[0], face[1], face[2]};
-    }
-    SweepQuery result;
-    for (std::size_t i = 0; i < 4; ++i) {
-      result.sweep.start[i] = start.positions[vertex[i]];
-      result.sweep.end[i] = end.positions[vertex[i]];
-    }
-    result.are_edges = are_edges;
-    result.meet = meet;
-    return result;
+  SweepQuery result;
+  for (std::size_t i = 0; i < 4; ++i) {
+    result.sweep.start[i] = sequence.start.positions[vertex[i]];
+    result.sweep.end[i] = sequence.end[vertex[i]];
   }
-};
+  result.are_edges = pair.are_edges;
+  result.meet = pair.meet;
+  return result;
+}
 
 void check_sequence(const std::string& name, int first) {
-  const std::filesystem::path folder = std::filesystem::path(GRAZE_SHARED_DATA) / "sequences" / name;
-  if (!has_folder(folder)) return;
-  const Frames frames(folder / "frames", first);
+  const auto sequence = read_sequence(name, first);
+  if (!sequence) return;
   SweepTally tally;
-  for (const bool are_edges : {false, true}) {
-    const std::string file = std::to_string(first) + (are_edges ? "ee" : "vf");
-    const auto pairs = read_pairs(folder / "boxes" / (file + ".json"));
-    const auto answers = read_answers(folder / "mma_bool" / (file + "_mma_bool.json"));
-    REQUIRE(!pairs.empty());
-    REQUIRE(pairs.size() == answers.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i) tally.add(frames.query(pairs[i], are_edges, answers[i]));
-  }
+  for (const Sequence::Pair& pair : sequence->pairs) tally.add(query_of(*sequence, pair));
   tally.check();
 }
 
