@@ -96,9 +96,7 @@ void replace_settings(SceneSettings& settings, const RunOptions& options) {
                      // They matter to objects that are swept, which only a scene file has.
                      &SceneSettings::sweep_tolerance, &SceneSettings::swept_gap,
                      // A run has no frame rate to keep, and its tasks are the only ones.
-                     &SceneSettings::time_budget, &SceneSettings::work_budget, &SceneSettings::arena,
-                     // Scene files say which objects are swept, and how exactly.
-                     &SceneSettings::sweep_tolerance, &SceneSettings::swept_gap>(),
+                     &SceneSettings::time_budget, &SceneSettings::work_budget, &SceneSettings::arena>(),
       "each setting has an option, or is named as one that has none");
   if (options.contact_distance) settings.contact_distance = *options.contact_distance;
   if (options.range) settings.range = *options.range;
