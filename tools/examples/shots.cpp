@@ -1,4 +1,4 @@
-// Boxes of 10 cm and balls of 2 cm are shot at a wall of 10 cm and at an open sheet, at 60 Hz. Some fly
+// Boxes of 10 cm and balls of 4 cm are shot at a wall of 10 cm and at an open sheet, at 60 Hz. Some fly
 // further in a frame than target and projectile are thick. A loop that looks at the end of each frame lets
 // some of them pass. A loop that stops at each impact lets none pass, at any of 20 speeds.
 
