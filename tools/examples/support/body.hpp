@@ -26,7 +26,8 @@ struct Body {
   Points velocities;
   std::vector<double> inverse_masses;  ///< 0 where nothing pushes a vertex
   std::vector<Spring> springs;
-  bool is_solid = false;  ///< whether the surface is closed and bounds a volume
+  bool is_solid = false;      ///< whether the surface is closed and bounds a volume
+  bool meets_itself = false;  ///< whether graze tests the surface against itself, all but neighbours
 };
 
 /// Returns a solid body without springs that nothing pushes. It moves by the velocities that a program gives

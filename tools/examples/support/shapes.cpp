@@ -114,6 +114,15 @@ Shape sheet(double width, int vertices) {
   return shape;
 }
 
+Shape hanging_sheet(double width, int vertices, double height, double waves) {
+  Shape shape = sheet(width, vertices);
+  for (Eigen::Vector3d& point : shape.points) {
+    const double z = point.y() + width / 2 + height;
+    point = {point.x(), 0.01 * std::sin(waves * z) + 0.003 * point.x(), z};
+  }
+  return shape;
+}
+
 Shape moved(Shape shape, const Eigen::Vector3d& offset) {
   for (Eigen::Vector3d& point : shape.points) point += offset;
   return shape;

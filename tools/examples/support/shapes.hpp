@@ -41,6 +41,10 @@ Shape box_of_cells(const Eigen::Vector3d& size, int columns, int rows);
 /// points.
 Shape sheet(double width, int vertices);
 
+/// Returns an open square sheet that hangs in slight waves, so that it folds where its lower edge is stopped.
+/// That edge is at the given height. `waves` are those in 2 pi metres of height.
+Shape hanging_sheet(double width, int vertices, double height, double waves);
+
 /// Returns a shape that is moved by an offset.
 Shape moved(Shape shape, const Eigen::Vector3d& offset);
 

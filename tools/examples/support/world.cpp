@@ -24,6 +24,8 @@ Body& World::add(Body body) {
   Body& added = bodies_.emplace_back(std::move(body));
   graze::ObjectSettings object;
   object.solid = added.is_solid;
+  object.self = added.meets_itself;
+  object.self_rings = 0;  // features of one ring may fold onto each other, too
   object.user_data = bodies_.size() - 1;
   const graze::ObjectId id = scene_.add(added.mesh, object);
   scene_.bind_positions(id, added.positions);
