@@ -137,20 +137,21 @@ double to_unit_interval(double t) {
 }
 
 /// A segment, and which way leads from each end to the other.
-struct Segment {
+struct PlainSegment {
   const std::array<Eigen::Vector3d, 2>& end;
   Plain along;
   double length_squared;
 };
 
-Segment segment_of(const std::array<Eigen::Vector3d, 2>& end) {
+PlainSegment segment_of(const std::array<Eigen::Vector3d, 2>& end) {
   const Plain along = difference<double>(end[1], end[0]);
   return {end, along, dot(along, along)};
 }
 
 /// Whether the closest points are certainly end `along` of a segment and a point inside the other. The foot
 /// of the end has to be inside, and the way to the segment's other end has to lead away from it.
-bool is_end_over_inside(const Segment& segment, Along along, const Segment& other, SquaredRange& squared) {
+bool is_end_over_inside(const PlainSegment& segment, Along along, const PlainSegment& other,
+                        SquaredRange& squared) {
   const std::size_t end = along == Along::first ? 0 : 1;
   const Plain x = difference<double>(segment.end[end], other.end[0]);
   const Plain y = difference<double>(segment.end[end], other.end[1]);
@@ -171,7 +172,8 @@ bool is_end_over_inside(const Segment& segment, Along along, const Segment& othe
 }
 
 /// Whether the closest points are certainly these two ends: the ways from each lead away from the other.
-bool are_ends(const Segment& a, Along along_a, const Segment& b, Along along_b, SquaredRange& squared) {
+bool are_ends(const PlainSegment& a, Along along_a, const PlainSegment& b, Along along_b,
+              SquaredRange& squared) {
   const std::size_t end_a = along_a == Along::first ? 0 : 1;
   const std::size_t end_b = along_b == Along::first ? 0 : 1;
   const Plain x = difference<double>(a.end[end_a], b.end[end_b]);
@@ -194,8 +196,8 @@ Along along_of(double parameter) {
 
 bool certain_along(const std::array<Eigen::Vector3d, 2>& a, const std::array<Eigen::Vector3d, 2>& b,
                    std::array<Along, 2>& along, SquaredRange& squared) {
-  const Segment first = segment_of(a);
-  const Segment second = segment_of(b);
+  const PlainSegment first = segment_of(a);
+  const PlainSegment second = segment_of(b);
   const Plain w = difference<double>(b[0], a[0]);
   const double uu = first.length_squared;
   const double vv = second.length_squared;

@@ -11,7 +11,7 @@ namespace {
 
 /// A rotation of this kind changes no length by more than this part, and a sum of three products of
 /// coordinates loses no more than this part of them.
-constexpr double rounding = 0x1p-46;
+constexpr double of_rounding = 0x1p-46;
 
 /// An orthonormal frame along three points: its columns.
 Eigen::Matrix3d frame_along(const std::array<Eigen::Vector3d, 3>& points) {
@@ -55,8 +55,8 @@ LeafMotion motion_of_leaf(const Surface& surface, const Region& leaf) {
   };
   for (const std::uint32_t vertex : mesh.regions().vertices(leaf)) add(vertex);
   for (const std::uint32_t vertex : mesh.regions().border(leaf)) add(vertex);
-  motion.off = std::sqrt(off) * (1 + rounding) + size * rounding;
-  motion.radius = std::sqrt(radius) * (1 + rounding);
+  motion.off = std::sqrt(off) * (1 + of_rounding) + size * of_rounding;
+  motion.radius = std::sqrt(radius) * (1 + of_rounding);
   return motion;
 }
 
@@ -71,7 +71,7 @@ double approach_since_rest(const LeafMotion& a, const LeafMotion& b) {
   const Eigen::Vector3d at_middle = turn * b.middle + (b.shift - a.shift);
   const double size = b.middle.cwiseAbs().maxCoeff() + b.shift.cwiseAbs().maxCoeff() +
                       a.shift.cwiseAbs().maxCoeff() + b.radius;
-  return (off + at_middle.norm() + turn.norm() * b.radius) * (1 + rounding) + size * rounding;
+  return (off + at_middle.norm() + turn.norm() * b.radius) * (1 + of_rounding) + size * of_rounding;
 }
 
 }  // namespace graze

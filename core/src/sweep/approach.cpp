@@ -13,8 +13,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr int most_rounds = 64;
-constexpr double least_progress = 0x1p-50;  ///< of a round, in time
-constexpr double round_down = 1 - 0x1p-50;  ///< of the time at which a linear function reaches a value
+constexpr double least_progress = 0x1p-50;        ///< of a round, in time
+constexpr double of_crossing_time = 1 - 0x1p-50;  ///< of the time at which a linear function reaches a value
 
 /// The vectors between two features at time 0 and at time 1, from each point of the first feature to each
 /// point of the second one. There are three of a vertex and a face, and four of two edges.
@@ -47,7 +47,7 @@ class Ways {
       const double start = direction.dot(start_[i]) - error;
       const double end = direction.dot(end_[i]) - error;
       if (!(start + (end - start) * time > gap)) return time;
-      if (end <= gap) until = std::min(until, (start - gap) / (start - end) * round_down);
+      if (end <= gap) until = std::min(until, (start - gap) / (start - end) * of_crossing_time);
     }
     return std::max(until, time);
   }
