@@ -58,6 +58,8 @@ struct RunOptions {
   bool ways_out = false;
   std::optional<std::size_t> carrying;
   std::optional<double> carrying_band;
+  std::optional<double> sweep_tolerance;
+  std::optional<double> swept_gap;
 };
 
 /// `exact`, `within:0.001`, `paper` or `paper:24,14,8`.
@@ -92,9 +94,8 @@ void replace_settings(SceneSettings& settings, const RunOptions& options) {
                      &SceneSettings::detail, &SceneSettings::accuracy, &SceneSettings::threads,
                      &SceneSettings::max_contacts, &SceneSettings::max_contacts_per_pair,
                      &SceneSettings::region_distances, &SceneSettings::ways_out, &SceneSettings::carrying,
-                     &SceneSettings::carrying_band,
-                     // They matter to objects that are swept, which only a scene file has.
-                     &SceneSettings::sweep_tolerance, &SceneSettings::swept_gap,
+                     &SceneSettings::carrying_band, &SceneSettings::sweep_tolerance,
+                     &SceneSettings::swept_gap,
                      // A run has no frame rate to keep, and its tasks are the only ones.
                      &SceneSettings::time_budget, &SceneSettings::work_budget, &SceneSettings::arena>(),
       "each setting has an option, or is named as one that has none");
@@ -109,6 +110,8 @@ void replace_settings(SceneSettings& settings, const RunOptions& options) {
   if (options.ways_out) settings.ways_out = true;
   if (options.carrying) settings.carrying = *options.carrying;
   if (options.carrying_band) settings.carrying_band = options.carrying_band;
+  if (options.sweep_tolerance) settings.sweep_tolerance = *options.sweep_tolerance;
+  if (options.swept_gap) settings.swept_gap = *options.swept_gap;
 }
 
 /// The scene that the files name, with what the command line says in place of what the scene says.
@@ -357,6 +360,14 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option("--carrying-band", options->carrying_band,
                    "How much less deep than the deepest they may be; else the threshold of the pair")
+      ->check(real_number(NumberRange::at_least_0));
+  command
+      ->add_option("--sweep-tolerance", options->sweep_tolerance,
+                   "How far apart the bounds of an impact's time are at most, of a step that takes time 1")
+      ->check(real_number(NumberRange::at_least_0));
+  command
+      ->add_option("--swept-gap", options->swept_gap,
+                   "Say when swept objects come that near on the way; 0: do not")
       ->check(real_number(NumberRange::at_least_0));
   command->callback([options] { run(*options); });
 }

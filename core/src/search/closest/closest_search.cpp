@@ -315,7 +315,11 @@ SearchProgress ClosestSearch::report(SearchWorker& worker) {
   if (front.touched && !touched) sort_front();
   if (!answer.listed) return SearchProgress::answered;
   set_distance(answer, worker.pair, nearest);
-  front.witness = last_witness_of(worker.pair, nearest, answer.witness.point_a, answer.witness.point_b);
+  // What pierces need not be tested when it is apart again, so it bounds nothing then.
+  const bool may_be_left_out = worker.pair.is_of_self() && is_edge_through_face(nearest);
+  front.witness = may_be_left_out
+                      ? LastWitness()
+                      : last_witness_of(worker.pair, nearest, answer.witness.point_a, answer.witness.point_b);
   answer.distance.lower = std::min(answer.distance.lower, closest_.lower);
   if (query.detail != ContactDetail::closest || !answer.in_contact) return SearchProgress::answered;
   const auto& keys = closest_.closest.keys.keys();
