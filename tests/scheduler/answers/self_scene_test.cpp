@@ -76,7 +76,7 @@ class SheetScenes {
     REQUIRE(report->diagnostics().empty());
     REQUIRE(report->statistics().pairs_total == 4);
     for (std::size_t i = 1; i < scenes_.size(); ++i)
-      REQUIRE(difference_of(*report, *scenes_[i].step()) == "");
+      REQUIRE(tests::difference_of(*report, *scenes_[i].step()) == "");
     REQUIRE(timeless_rows_of(*report, range_of_sheets) == rows_afresh());
     for (const Contact& contact : report->contacts()) contacts += contact.distance > 0 ? 1U : 0U;
     const PairReport* const row = find_pair(*report, sheet_, sheet_);

@@ -83,7 +83,7 @@ TEST_CASE("recording: impacts of teleports, replaced meshes and one surface with
   const TemporaryFolder folder;
   const auto impacts = record_flight(folder / "run.graze");
   std::size_t with_impacts = 0;
-  for (const auto& now : impacts) with_impacts += now.empty() ? 0 : 1;
+  for (const auto& now : impacts) with_impacts += now.empty() ? 0U : 1U;
   CHECK(with_impacts > impacts.size() / 2);
   for (const unsigned threads : {1U, 3U})
     CHECK(replayed_impacts(folder / "run.graze", {.threads = threads}) == impacts);
