@@ -83,15 +83,17 @@ class SearchInDouble {
     return {Answer::apart, {}};
   }
 
-  DoubleMeeting meeting_at_root(const Part& part) const {
+  [[nodiscard]] DoubleMeeting meeting_at_root(const Part& part) const {
     const double root = rough_root(part);
     const int before = part.cubic.sign_of(part.cubic.coefficient[0]);
     double low = part.low;
     double high = part.high;
-    for (double off = 0x1p-52; off < part.high - part.low; off *= 4) {
+    double off = 0x1p-52;
+    while (off < part.high - part.low) {
       if (low == part.low && root - off > low && sign_at(root - off) == before) low = root - off;
       if (high == part.high && root + off < high && sign_at(root + off) == -before) high = root + off;
       if (low > part.low && high < part.high) break;
+      off *= 4;
     }
     if (high - low > tolerance_) return {};
     switch (touch_at(ball_between(low, high))) {

@@ -59,7 +59,8 @@ class RayBoxTest {
       first = std::max(first, enters * (1 - 0x1p-49) - 0x1p-1000);
       last = std::min(last, leaves * (1 + 0x1p-49) + 0x1p-1000);
     }
-    return first <= last ? first : miss;
+    if (first <= last) return first;
+    return miss;
   }
 
  private:
