@@ -36,7 +36,7 @@ std::size_t count_piercing(const graze::FrameReport& report) {
   return count;
 }
 
-/// What a scene of its own says of the cloth at the end.
+/// The state of the cloth at the end, by a scene of its own.
 struct Outcome {
   std::size_t piercing = 0;  ///< edges that pierce the cloth
   double apart = 0;          ///< m, between the two nearest features that are not neighbours

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -126,6 +127,18 @@ Vector<Number> difference(const Eigen::Vector3d& to, const Eigen::Vector3d& from
     return {Number(to.x()) - Number(from.x()), Number(to.y()) - Number(from.y()),
             Number(to.z()) - Number(from.z())};
   }
+}
+
+/// The normal of a triangle by its winding, as long as twice its area.
+template <typename Number>
+Vector<Number> normal_of_corners(const std::array<Eigen::Vector3d, 3>& corner) {
+  return cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
+}
+
+/// The component of a vector along an axis.
+template <typename Number>
+const Number& component(const Vector<Number>& vector, int axis) {
+  return axis == 0 ? vector.x : (axis == 1 ? vector.y : vector.z);
 }
 
 /// Whether `vector.operator()<Number>()` is zero.

@@ -9,10 +9,6 @@
 namespace graze {
 namespace {
 
-bool boxes_meet(const Box& box, const Box& other) {
-  return (box.min.array() <= other.max.array()).all() && (other.min.array() <= box.max.array()).all();
-}
-
 /// Asks whether an axis parts a box from a triangle (separating axis theorem). Both are closed. Decided
 /// exactly.
 class BoxAndTriangle {
@@ -20,10 +16,8 @@ class BoxAndTriangle {
   BoxAndTriangle(const Box& box, const std::array<Eigen::Vector3d, 3>& corner, DecisionCount& count)
       : box_(box), corner_(corner), count_(count) {}
 
-  [[nodiscard]] bool do_meet() const {
-    const Box around{corner_[0].cwiseMin(corner_[1]).cwiseMin(corner_[2]),
-                     corner_[0].cwiseMax(corner_[1]).cwiseMax(corner_[2])};
-    if (!boxes_meet(box_, around)) return false;
+  [[nodiscard]] bool have_common_point() const {
+    if (!do_meet(box_, box_of(corner_))) return false;
     for (const Eigen::Vector3d& point : corner_)
       if (contains(box_, point)) return true;
     if (plane_parts()) return false;
@@ -49,9 +43,7 @@ class BoxAndTriangle {
   [[nodiscard]] bool plane_parts() const {
     const auto side_of = [&](const Eigen::Vector3d& point) {
       return decide_sign(count_, [&]<typename Number>() {
-        return dot(
-            cross(difference<Number>(corner_[1], corner_[0]), difference<Number>(corner_[2], corner_[0])),
-            difference<Number>(point, corner_[0]));
+        return dot(normal_of_corners<Number>(corner_), difference<Number>(point, corner_[0]));
       });
     };
     const int first = side_of(box_.min);
@@ -65,10 +57,8 @@ class BoxAndTriangle {
     return decide_sign(count_, [&]<typename Number>() {
       const Vector<Number> edge = difference<Number>(corner_[(side + 1) % 3], corner_[side]);
       const Vector<Number> way = difference<Number>(point, origin);
-      const auto of = [](const Vector<Number>& vector, int index) {
-        return index == 0 ? vector.x : (index == 1 ? vector.y : vector.z);
-      };
-      return of(edge, second) * of(way, third) - of(edge, third) * of(way, second);
+      return component(edge, second) * component(way, third) -
+             component(edge, third) * component(way, second);
     });
   }
   [[nodiscard]] bool side_parts(std::size_t side, int axis) const {
@@ -97,10 +87,10 @@ bool meets_box(const Box& box, const Surface& surface, const FaceGroups* groups)
   DecisionCount count;
   bool met = false;
   visit_leaves(
-      surface, [&](const Box& around) { return !met && boxes_meet(box, around); },
+      surface, [&](const Box& around) { return !met && do_meet(box, around); },
       [&](const Region& leaf) {
         visit_triangles(surface, leaf, groups, [&](const TriangleOfFace& triangle) {
-          met = met || BoxAndTriangle(box, corners_of(surface, triangle), count).do_meet();
+          met = met || BoxAndTriangle(box, corners_of(surface, triangle), count).have_common_point();
         });
       });
   return met;

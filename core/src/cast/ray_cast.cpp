@@ -52,9 +52,8 @@ void cast_ray(const Ray& ray, const Surface& surface, const FaceGroups* groups, 
 Eigen::Vector3d triangle_normal(const Surface& surface, const TriangleOfFace& triangle) {
   DecisionCount count;
   const auto corner = corners_of(surface, triangle);
-  const auto normal = unit_direction(count, [&]<typename Number>() {
-    return cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
-  });
+  const auto normal =
+      unit_direction(count, [&]<typename Number>() { return normal_of_corners<Number>(corner); });
   return normal.value_or(Eigen::Vector3d::Zero());
 }
 

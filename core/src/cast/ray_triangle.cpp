@@ -24,15 +24,10 @@ Number turn_about(const Ray& ray, const Eigen::Vector3d& from, const Eigen::Vect
              cross(difference<Number>(from, ray.origin), difference<Number>(to, ray.origin)));
 }
 
-template <typename Number>
-Vector<Number> normal_of(const RayTriangle& corner) {
-  return cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
-}
-
 /// The t at which the ray's line meets the plane of a triangle, as a fraction.
 template <typename Number>
 Ratio<Number> plane_parameter(const Ray& ray, const RayTriangle& corner) {
-  const Vector<Number> normal = normal_of<Number>(corner);
+  const Vector<Number> normal = normal_of_corners<Number>(corner);
   return {dot(normal, difference<Number>(corner[0], ray.origin)), dot(normal, along<Number>(ray))};
 }
 
@@ -54,10 +49,6 @@ VoronoiRegion part_of(const std::array<int, 3>& turn) {
   if (turn[0] == 0) return VoronoiRegion::edge01;
   if (turn[1] == 0) return VoronoiRegion::edge12;
   return turn[2] == 0 ? VoronoiRegion::edge20 : VoronoiRegion::inside;
-}
-
-const Exact& component(const Vector<Exact>& vector, int axis) {
-  return axis == 0 ? vector.x : (axis == 1 ? vector.y : vector.z);
 }
 
 /// The first axis along which a vector is not 0, or 3.
@@ -84,7 +75,7 @@ class MeetingInPlane {
 
  private:
   [[nodiscard]] bool starts_inside() const {
-    const Vector<Exact> normal = normal_of<Exact>(corner_);
+    const Vector<Exact> normal = normal_of_corners<Exact>(corner_);
     if (first_axis(normal) == 3) return false;
     if (dot(normal, difference<Exact>(corner_[0], ray_.origin)).sign() != 0) return false;
     for (std::size_t side = 0; side < 3; ++side) {
@@ -127,7 +118,7 @@ class MeetingInPlane {
     offer({to_start, bottom}, start);
     offer({to_end, bottom}, end);
   }
-  /// Of equal parameters the lowest part counts: a corner before a side.
+  /// Takes a point of the triangle. If parameters are equal the lowest part counts: a corner before a side.
   void offer(const Ratio<Exact>& parameter, VoronoiRegion part) {
     if (parameter.numerator.sign() < 0) return;
     bool unsure = false;

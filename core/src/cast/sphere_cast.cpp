@@ -20,9 +20,7 @@ class FirstTouch {
 
   void offer(const Surface& surface, const TriangleOfFace& triangle) {
     const auto corner = corners_of(surface, triangle);
-    const Box box{corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
-                  corner[0].cwiseMax(corner[1]).cwiseMax(corner[2])};
-    if (box_test_.entry(grown(box, sweep_.radius), limit_) == RayBoxTest::miss) return;
+    if (box_test_.entry(grown(box_of(corner), sweep_.radius), limit_) == RayBoxTest::miss) return;
     const auto t = touch_time(sweep_, corner, limit_);
     if (!t || (found_ && order(*t, triangle) > order(found_->t, found_->triangle))) return;
     if (!ever_touches(sweep_, corner, count_)) return;

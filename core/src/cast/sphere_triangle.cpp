@@ -61,7 +61,7 @@ class PathAndTriangle {
   /// Whether a point is near the plane of the triangle, and over its inside.
   [[nodiscard]] bool is_near_face(const Eigen::Vector3d& point) const {
     return decide(count_, [&]<typename Number>(bool& unsure) {
-      const Vector<Number> normal = normal_of_triangle<Number>();
+      const Vector<Number> normal = normal_of_corners<Number>(corner_);
       const Number height = dot(normal, difference<Number>(point, corner_[0]));
       if (compare_with_radius(height * height, dot(normal, normal), radius_, unsure) > 0) return false;
       for (std::size_t side = 0; side < 3; ++side) {
@@ -91,7 +91,7 @@ class PathAndTriangle {
   /// Whether the path passes through the inside of the triangle.
   [[nodiscard]] bool pierces() const {
     return decide(count_, [&]<typename Number>(bool& unsure) {
-      const Vector<Number> normal = normal_of_triangle<Number>();
+      const Vector<Number> normal = normal_of_corners<Number>(corner_);
       const int first = sign(dot(normal, difference<Number>(ends_[0], corner_[0])), unsure);
       const int second = sign(dot(normal, difference<Number>(ends_[1], corner_[0])), unsure);
       if (first == second) return false;
@@ -104,10 +104,6 @@ class PathAndTriangle {
       }
       return true;
     });
-  }
-  template <typename Number>
-  [[nodiscard]] Vector<Number> normal_of_triangle() const {
-    return cross(difference<Number>(corner_[1], corner_[0]), difference<Number>(corner_[2], corner_[0]));
   }
 
   const std::array<Eigen::Vector3d, 2> ends_;

@@ -17,6 +17,12 @@ inline std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, const T
           surface.position(corner[triangle.second + std::size_t{2}])};
 }
 
+/// The box of a triangle.
+inline Box box_of(const std::array<Eigen::Vector3d, 3>& corner) {
+  return {corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
+          corner[0].cwiseMax(corner[1]).cwiseMax(corner[2])};
+}
+
 /// Calls `use(triangle)` with the triangles that a leaf owns and that are not hidden.
 template <typename Use>
 void visit_triangles(const Surface& surface, const Region& leaf, const FaceGroups* groups, const Use& use) {

@@ -13,9 +13,7 @@ namespace {
 /// The region of Voronoi of a triangle that holds the point. Its borders belong to the lower dimension.
 VoronoiRegion voronoi_region_of(const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& corner,
                                 DecisionCount& count) {
-  const auto normal_of = [&]<typename Number>() {
-    return cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
-  };
+  const auto normal_of = [&]<typename Number>() { return normal_of_corners<Number>(corner); };
   if (is_zero(count, normal_of)) return VoronoiRegion::no_area;
   // From one corner towards another: how far the point has come, and whether it is outside of the line or on
   // it.

@@ -18,8 +18,7 @@ Outline points_of(const Simplex& simplex) {
 
 template <typename Number>
 Vector<Number> normal_of(const Simplex& triangle) {
-  return cross(difference<Number>(triangle.point[1], triangle.point[0]),
-               difference<Number>(triangle.point[2], triangle.point[0]));
+  return normal_of_corners<Number>(triangle.point);
 }
 
 bool has_area(const Simplex& triangle, DecisionCount& count) {

@@ -26,8 +26,7 @@ Crossing crossing(const Simplex& segment, const Simplex& triangle, std::size_t o
   const auto& corner = triangle.point;
   const auto side_of_plane = [&](const Eigen::Vector3d& end) {
     return decide_sign(count, [&]<typename Number>() {
-      const Vector<Number> normal =
-          cross(difference<Number>(corner[1], corner[0]), difference<Number>(corner[2], corner[0]));
+      const Vector<Number> normal = normal_of_corners<Number>(corner);
       return dot(normal, difference<Number>(end, corner[0]));
     });
   };

@@ -25,8 +25,7 @@ std::optional<FeaturePiece> pierced_piece(const Surface& surface, const FeatureP
 /// denominator.
 template <typename Number>
 Ratio<Number> crossing_parameter(const Simplex& segment, const Simplex& triangle, bool& unsure) {
-  const Vector<Number> normal = cross(difference<Number>(triangle.point[1], triangle.point[0]),
-                                      difference<Number>(triangle.point[2], triangle.point[0]));
+  const Vector<Number> normal = normal_of_corners<Number>(triangle.point);
   const Number at_p = dot(normal, difference<Number>(segment.point[0], triangle.point[0]));
   const Number at_q = dot(normal, difference<Number>(segment.point[1], triangle.point[0]));
   if (sign(at_p, unsure) < 0) return {-at_p, at_q - at_p};

@@ -92,7 +92,7 @@ void NearestFeatures::take_alone(const FeaturePairKey& key) {
 
 void NearestFeatures::take_edges(const FeaturePairKey& key) {
   const EdgesListed listed = listed_edges(pair_, key.index_a(), key.index_b());
-  // Of one surface, what leads nearer may not be tested. So these edges may tell the distance.
+  // A face that leads nearer may be a neighbour of the other edge. So these edges may tell the distance.
   if (pair_.is_of_self() && listed != EdgesListed::always) take_alone(key);
   switch (listed) {
     case EdgesListed::never:

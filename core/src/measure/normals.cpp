@@ -12,9 +12,7 @@ namespace {
 
 std::optional<Eigen::Vector3d> triangle_normal(const std::array<Eigen::Vector3d, 3>& point,
                                                DecisionCount& count) {
-  return unit_direction(count, [&]<typename Number>() {
-    return cross(difference<Number>(point[1], point[0]), difference<Number>(point[2], point[0]));
-  });
+  return unit_direction(count, [&]<typename Number>() { return normal_of_corners<Number>(point); });
 }
 
 /// The angle of a triangle at its corner `at`.

@@ -56,10 +56,7 @@ bool bends(const Triangle& left, const Triangle& right) {
   DecisionCount count;
   const auto with_normals = [&](const auto& value) {
     return decide_sign(count, [&]<typename Number>() {
-      const auto normal_of = [](const Triangle& triangle) {
-        return cross(difference<Number>(triangle[1], triangle[0]),
-                     difference<Number>(triangle[2], triangle[0]));
-      };
+      const auto normal_of = [](const Triangle& triangle) { return normal_of_corners<Number>(triangle); };
       return value(normal_of(left), normal_of(right));
     });
   };

@@ -23,8 +23,8 @@ bool any_vertices(const IndexedMesh& mesh, const FeatureRef& a, const FeatureRef
 
 }  // namespace
 
-SelfExclusion::SelfExclusion(std::shared_ptr<const IndexedMesh> mesh, std::uint32_t rings)
-    : rest_(std::move(mesh)), rings_(rings) {
+SelfExclusion::SelfExclusion(std::shared_ptr<const IndexedMesh> mesh, std::uint32_t rings, RestGaps rest_gaps)
+    : rest_(std::move(mesh)), rings_(rings), rest_gaps_(std::move(rest_gaps)) {
   rest_.mesh().prepare_for(IndexedMesh::Use::neighbours);
   rest_.mesh().prepare_for(IndexedMesh::Use::normals_of_points);
   find_far_pairs();

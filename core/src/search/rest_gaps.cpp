@@ -51,11 +51,11 @@ std::shared_ptr<const SelfExclusion> make_self_exclusion(std::shared_ptr<const I
                                                          std::uint32_t rings) {
   Surface rest(mesh);
   rest.refit(RefitOf::faces);
-  auto exclusion = std::make_shared<SelfExclusion>(mesh, rings);
   // Neighbours may pierce each other, unless they share a vertex.
-  const SelfExclusion of_piercings(std::move(mesh), 0);
-  exclusion->set_rest_gaps({gaps_of(rest, *exclusion), gaps_of(rest, of_piercings)});
-  return exclusion;
+  const SelfExclusion of_contacts(mesh, rings);
+  const SelfExclusion of_piercings(mesh, 0);
+  return std::make_shared<const SelfExclusion>(
+      std::move(mesh), rings, RestGaps{gaps_of(rest, of_contacts), gaps_of(rest, of_piercings)});
 }
 
 }  // namespace graze

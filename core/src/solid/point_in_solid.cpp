@@ -33,9 +33,7 @@ int side_of_ray(const Eigen::Vector3d& point, const Eigen::Vector3d& from, const
 /// The sign of the volume of a point over a triangle.
 int side_of_plane(const Eigen::Vector3d& point, const Triangle& triangle, DecisionCount& count) {
   return decide_sign(count, [&]<typename Number>() {
-    return dot(
-        cross(difference<Number>(triangle[1], triangle[0]), difference<Number>(triangle[2], triangle[0])),
-        difference<Number>(point, triangle[0]));
+    return dot(normal_of_corners<Number>(triangle), difference<Number>(point, triangle[0]));
   });
 }
 
@@ -122,9 +120,8 @@ bool leads_to_front(const Surface& solid, const FeaturePiece& triangle, Decision
   const Simplex corners = simplex_of(solid, triangle);
   for (int axis = 0; axis < 3; ++axis) {
     const int side = decide_sign(count, [&]<typename Number>() {
-      const Vector<Number> normal = cross(difference<Number>(corners.point[1], corners.point[0]),
-                                          difference<Number>(corners.point[2], corners.point[0]));
-      return axis == 0 ? normal.x : (axis == 1 ? normal.y : normal.z);
+      const Vector<Number> normal = normal_of_corners<Number>(corners.point);
+      return component(normal, axis);
     });
     if (side != 0) return side > 0;
   }

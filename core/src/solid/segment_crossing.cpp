@@ -57,7 +57,7 @@ class NudgedTriangle {
  private:
   template <typename Number>
   [[nodiscard]] Vector<Number> normal() const {
-    return cross(difference<Number>(corner_[1], corner_[0]), difference<Number>(corner_[2], corner_[0]));
+    return normal_of_corners<Number>(corner_);
   }
 
   const std::array<Eigen::Vector3d, 2>& segment_;

@@ -22,7 +22,7 @@ struct CoplanarCubic {
   /// 1 or -1 where a value is certainly positive or negative, and 0 otherwise.
   [[nodiscard]] int sign_of(double value) const { return value > error ? 1 : value < -error ? -1 : 0; }
 
-  /// What the coefficients say about the roots inside.
+  /// Says what the coefficients tell of the roots inside.
   enum class Roots : unsigned char { unsure, none, one };
   [[nodiscard]] Roots roots() const;
 

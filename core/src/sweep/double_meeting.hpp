@@ -7,7 +7,7 @@
 
 namespace graze {
 
-/// What double arithmetic with error bounds says about two features that move.
+/// The answer of double arithmetic with error bounds about two features that move.
 struct DoubleMeeting {
   enum class Answer : std::uint8_t {
     unsure,

@@ -41,7 +41,7 @@ class ExactSigns {
   [[nodiscard]] int cross(Edge first, Edge second, int axis) const {
     const Vector<Ball> product = graze::cross(vector(first), vector(second));
     bool unsure = false;
-    const int rough = graze::sign(along(product, axis), unsure);
+    const int rough = graze::sign(component(product, axis), unsure);
     return unsure ? time_->sign(polynomials_->cross(first, second, axis)) : rough;
   }
   [[nodiscard]] int dot(Edge first, Edge second) const {

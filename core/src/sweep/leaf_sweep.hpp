@@ -47,9 +47,7 @@ class LeafSweep {
   void test_all(const std::vector<MovingFeatures::Feature>& of_a,
                 const std::vector<MovingFeatures::Feature>& of_b, const Test& test);
   [[nodiscard]] bool may(const FeatureRef& of_a, const FeatureRef& of_b) const {
-    if (query_.groups == nullptr) return true;
-    // Groups of one surface are ignored in either order.
-    return query_.groups->may(of_a, of_b) && (!query_.is_self || query_.groups->may(of_b, of_a));
+    return query_.groups == nullptr || query_.groups->may(of_a, of_b);
   }
   void test_vertex_face(std::uint32_t vertex, std::uint32_t face, bool is_vertex_of_a);
   void test_edges(std::uint32_t edge_a, std::uint32_t edge_b);

@@ -4,13 +4,11 @@
 #include <tuple>
 
 #include "core/base/bytes_of.hpp"
+#include "pair/region_expansion.hpp"
 #include "sweep/leaf_sweep.hpp"
 
 namespace graze {
 namespace {
-
-/// If one region is this many times as large as the other, it alone is expanded.
-constexpr double much_larger = 4;
 
 /// The order of impacts in an answer. No two impacts of a pair have the same features.
 bool comes_before(const Impact& left, const Impact& right) {
@@ -82,24 +80,13 @@ class SweepWalk {
   }
 
   void expand(const RegionPair& pair) {
-    if (query_.is_self && pair.a == pair.b) return expand_with_itself(region_a(pair));
-    const double size_a = a_.face_boxes[pair.a].size();
-    const double size_b = b_.face_boxes[pair.b].size();
+    const auto push = [&](const RegionPair& child) { open_.push_back(child); };
     const Region& a = region_a(pair);
     const Region& b = region_b(pair);
-    const bool opens_a = !a.is_leaf() && (b.is_leaf() || !(size_b > much_larger * size_a));
-    const bool opens_b = !b.is_leaf() && (a.is_leaf() || !(size_a > much_larger * size_b));
-    const std::uint32_t count_a = opens_a ? a.child_count : 1;
-    const std::uint32_t count_b = opens_b ? b.child_count : 1;
-    const std::uint32_t first_a = opens_a ? a.first_child : pair.a;
-    const std::uint32_t first_b = opens_b ? b.first_child : pair.b;
-    for (std::uint32_t i = 0; i < count_a; ++i)
-      for (std::uint32_t j = 0; j < count_b; ++j) open_.push_back({first_a + i, first_b + j});
-  }
-  void expand_with_itself(const Region& region) {
-    for (std::uint32_t i = 0; i < region.child_count; ++i)
-      for (std::uint32_t j = i; j < region.child_count; ++j)
-        open_.push_back({region.first_child + i, region.first_child + j});
+    if (query_.is_self && pair.a == pair.b) return visit_with_itself(a, push);
+    const Expansion expansion =
+        expansion_by_size(a, a_.face_boxes[pair.a].size(), b, b_.face_boxes[pair.b].size());
+    RegionChildren(pair, a, b, expansion).visit(push);
   }
 
   const MovingSurface& a_;
@@ -133,9 +120,7 @@ PairSweep& PairSweep::operator=(PairSweep&&) noexcept = default;
 
 void PairSweep::sweep(const MovingSurface& a, const MovingSurface& b, const SweepQuery& query,
                       SweepAnswer& answer, SweepWork& work) {
-  answer.complete = true;
-  answer.left_out = 0;
-  answer.time_of_impact = answer.time_of_gap = 1;
+  static_cast<SweepFinding&>(answer) = {};
   answer.impacts.clear();
   Scratch& scratch = *scratch_;
   SweepWalk walk(a, b, query, scratch.open, work);

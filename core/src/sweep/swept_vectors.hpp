@@ -6,12 +6,6 @@
 
 namespace graze {
 
-/// The component of a vector along an axis.
-template <typename Number>
-const Number& along(const Vector<Number>& vector, int axis) {
-  return axis == 0 ? vector.x : axis == 1 ? vector.y : vector.z;
-}
-
 inline const Eigen::Vector3d& point(const std::array<Eigen::Vector3d, 4>& points, int index) {
   return points[static_cast<std::size_t>(index)];
 }

@@ -14,7 +14,7 @@ int certain_sign(const Ball& number) {
 }
 
 int certain_sign(const Vector<Ball>& vector, int axis) {
-  return certain_sign(along(vector, axis));
+  return certain_sign(component(vector, axis));
 }
 
 /// Combines what is known along each axis: one axis is enough for either answer.

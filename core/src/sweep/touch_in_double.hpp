@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// What double arithmetic is certain of, about every time in an interval.
+/// The answer of double arithmetic, which is certain of every time in an interval.
 enum class CertainTouch : std::uint8_t {
   unsure,
   no,          ///< at no time do the features touch

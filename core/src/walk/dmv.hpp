@@ -13,6 +13,7 @@
 #include "core/pair/leaf_front.hpp"
 #include "core/pair/pair_counters.hpp"
 #include "core/pair/pair_query.hpp"
+#include "pair/region_expansion.hpp"
 #include "pair/time_limit.hpp"
 
 namespace graze {
@@ -60,12 +61,6 @@ class WorkMeter {
   TimeLimit* time_;
 };
 
-/// Which regions of a pair make way for their children.
-struct Expansion {
-  bool a = false;
-  bool b = false;
-};
-
 /// DMV (paper, figure 3): walks the pairs of regions of two trees breadth first, from those in
 /// `scratch.front`. It stops where a level has more than `most` pairs, and leaves these there. Returns false
 /// when the budget ran out on the way.
@@ -81,30 +76,17 @@ bool dmv(const RegionTree& tree_a, const RegionTree& tree_b, bool is_of_self, Dm
          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   const auto push_children = [&](const RegionPair& pair, const Region& a, const Region& b,
                                  const Expansion& expansion) {
-    const bool is_of_itself = is_of_self && pair.a == pair.b;
-    const bool a_stays = a.is_leaf() || !expansion.a;
-    const bool b_stays = b.is_leaf() || !expansion.b;
-    const std::uint32_t first_a = a_stays ? pair.a : a.first_child;
-    const std::uint32_t first_b = b_stays ? pair.b : b.first_child;
-    const std::uint32_t count_a = a_stays ? 1 : a.child_count;
-    const std::uint32_t count_b = b_stays ? 1 : b.child_count;
-    if (is_of_itself) {
-      for (std::uint32_t i = 0; i < count_a; ++i)
-        for (std::uint32_t j = i; j < count_a; ++j) scratch.next.push_back({first_a + i, first_a + j});
-      return;
-    }
-    if (count_a == 1 || count_b == 1) {
-      for (std::uint32_t i = 0; i < count_a; ++i)
-        for (std::uint32_t j = 0; j < count_b; ++j) scratch.next.push_back({first_a + i, first_b + j});
-      return;
-    }
+    const auto push = [&](const RegionPair& child) { scratch.next.push_back(child); };
+    if (is_of_self && pair.a == pair.b) return visit_with_itself(a, push);
+    const RegionChildren children(pair, a, b, expansion);
+    if (children.count_a == 1 || children.count_b == 1) return children.visit(push);
     std::array<std::uint32_t, 8> near_b;
     std::size_t near_count = 0;
-    for (std::uint32_t j = 0; j < count_b; ++j)
-      if (may_meet({pair.a, first_b + j})) near_b[near_count++] = first_b + j;
-    for (std::uint32_t i = 0; i < count_a && near_count > 0; ++i) {
-      if (!may_meet({first_a + i, pair.b})) continue;
-      for (std::size_t j = 0; j < near_count; ++j) scratch.next.push_back({first_a + i, near_b[j]});
+    for (std::uint32_t j = 0; j < children.count_b; ++j)
+      if (may_meet({pair.a, children.first_b + j})) near_b[near_count++] = children.first_b + j;
+    for (std::uint32_t i = 0; i < children.count_a && near_count > 0; ++i) {
+      if (!may_meet({children.first_a + i, pair.b})) continue;
+      for (std::size_t j = 0; j < near_count; ++j) push({children.first_a + i, near_b[j]});
     }
   };
   while (!scratch.front.empty() && scratch.front.size() <= most) {

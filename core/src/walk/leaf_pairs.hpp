@@ -194,15 +194,8 @@ class LeafPairs {
     if (!pair_.is_of_self()) return leaves;
     return {std::min(leaves.a, leaves.b), std::max(leaves.a, leaves.b)};
   }
-  /// Expands only the larger of two regions of very different size: with a pebble and a planet one way down
-  /// the planet is walked, not one for each part of the pebble. Otherwise expands both, as in the paper.
   [[nodiscard]] Expansion expansion_of(const RegionPair& regions, const Region& a, const Region& b) const {
-    constexpr double very_different = 4;
-    const double size_a = bounds_.size_a(regions);
-    const double size_b = bounds_.size_b(regions);
-    if (size_a > very_different * size_b && !a.is_leaf()) return {true, false};
-    if (size_b > very_different * size_a && !b.is_leaf()) return {false, true};
-    return {true, true};
+    return expansion_by_size(a, bounds_.size_a(regions), b, bounds_.size_b(regions));
   }
   // Apart from what calls them, which is so small that it is inlined.
   [[nodiscard]] double lower_of_long_leaves(const RegionPair& leaves);

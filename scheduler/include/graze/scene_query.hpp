@@ -151,9 +151,9 @@ class GRAZE_API SceneQuery {
                        std::span<RayHit> room, const QueryFilter& filter = {});
 
   /// Returns where a sphere first touches an object, on its straight way from one point to another. `radius`
-  /// is 0 or more. Whether it touches is exact, and SphereHit::t is never late. At that time the gap between
-  /// the sphere and the object is at most 2^-40 of the largest distance between the start and a corner that
-  /// is touched, or of the radius or the way if that is larger.
+  /// is 0 or more. Whether it touches is exact, and SphereHit::t is never late. At that time a gap may be
+  /// left between the sphere and the object. It is at most 2^-40 of the largest of three lengths: the radius,
+  /// the way, and the distance from the start to a corner that is touched.
   std::optional<SphereHit> cast_sphere(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
                                        const QueryFilter& filter = {});
   /// Fills `room` with the first objects that the sphere would touch if it went on through them, as many as

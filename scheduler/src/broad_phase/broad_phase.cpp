@@ -38,10 +38,6 @@ bool contains(const Box& box, const Box& other) {
   return (box.min.array() <= other.min.array()).all() && (other.max.array() <= box.max.array()).all();
 }
 
-bool meet(const Box& box, const Box& other) {
-  return (box.min.array() <= other.max.array()).all() && (other.min.array() <= box.max.array()).all();
-}
-
 double longest_side(const Box& box) {
   return (box.max - box.min).maxCoeff();
 }
@@ -188,7 +184,7 @@ void BroadPhase::change_ignored(const PairCheck& check, std::span<const IgnoredP
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   for (const SlotPair pair : changed_)
-    if (check.passes(pair) && meet(loose_[first_of(pair)], loose_[second_of(pair)]))
+    if (check.passes(pair) && do_meet(loose_[first_of(pair)], loose_[second_of(pair)]))
       new_pairs_.push_back(pair);
   if (!changed_.empty())
     merge([&](SlotPair pair) { return std::binary_search(changed_.begin(), changed_.end(), pair); });

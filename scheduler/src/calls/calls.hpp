@@ -74,7 +74,7 @@ struct PositionsChanged {
   ObjectId object;
   double max_displacement;
 };
-/// Where the object is at the next step it has come to by a jump.
+/// The object has come by a jump to where it is at the next step.
 struct MarkTeleport {
   ObjectId object;
 };

@@ -42,7 +42,7 @@ class Staging {
   void replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                     std::span<const std::uint32_t> new_of_old, std::span<const std::uint8_t> face_groups);
   void remove(ObjectId object);
-  // Where `jumps` is true, the objects do not pass what lies between (MarkTeleport).
+  // If `jumps` is true, the objects do not pass what lies between (MarkTeleport).
   void set_pose(ObjectId object, const std::array<double, 12>& rows, bool jumps = false);
   /// Sets a pose by all four rows of its matrix.
   void set_pose(ObjectId object, const std::array<double, 16>& rows);

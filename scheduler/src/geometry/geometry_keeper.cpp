@@ -8,7 +8,7 @@
 namespace graze {
 
 KeptGeometryHandle GeometryKeeper::keep() {
-  const bool is_listed = listed_serial_ == store_.next_serial() && listed_count_ == store_.objects().size();
+  const bool is_listed = listed_at_ == store_.arrivals_and_departures();
   if (!is_listed) list_asking();
   if (asking_.empty()) return {};
   to_copy_.clear();
@@ -37,8 +37,7 @@ void GeometryKeeper::list_asking() {
   }
   was_asking_.clear();
   order_.clear();
-  listed_serial_ = store_.next_serial();
-  listed_count_ = store_.objects().size();
+  listed_at_ = store_.arrivals_and_departures();
 }
 
 bool GeometryKeeper::is_outdated(const Asking& asking) {

@@ -48,8 +48,7 @@ class GeometryKeeper {
   const ObjectStore& store_;
   std::vector<Asking> asking_;  ///< ascending by serial
   std::vector<Asking> was_asking_;
-  std::uint64_t listed_serial_ = 0;  ///< ObjectStore::next_serial, when they were listed
-  std::size_t listed_count_ = 0;     ///< the number of objects then
+  std::uint64_t listed_at_ = 0;  ///< ObjectStore::arrivals_and_departures, when they were listed
   std::vector<Asking*> to_copy_;
   std::vector<KeptGeometryHandle> geometries_;
   std::vector<KeptGeometry*> writable_;  ///< the same

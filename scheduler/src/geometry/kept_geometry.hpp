@@ -39,8 +39,8 @@ struct KeptObject {
   std::shared_ptr<const FaceGroups> groups;  ///< null if no face is hidden
 };
 
-/// What a report keeps of the objects that ask for queries, with a tree of their boxes. Reports share it. It
-/// does not change while one of them does.
+/// The objects of a report that ask for queries, with a tree of their boxes. Reports share it. It does not
+/// change while one of them has it.
 class KeptGeometry {
  public:
   KeptGeometry() = default;

@@ -42,7 +42,7 @@ bool may_be_cut(const PairJob& job, std::size_t limit) {
   return limit > 0 && (job.last == nullptr || job.last->contacts_cut || job.last->contact_count > limit / 2);
 }
 
-/// What an object with itself leaves out, beside what the groups of its faces do.
+/// Makes the filter of an object with itself, of the groups of its faces and of its neighbourhoods.
 FeatureFilter filter_of_self(const PairJob& job, ContactDetail detail) {
   const FeatureFilter all(job.a->face_groups.get(), job.b->face_groups.get());
   const FeatureFilter& groups = job.groups.filter == nullptr ? all : *job.groups.filter;

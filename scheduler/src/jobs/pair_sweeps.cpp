@@ -86,11 +86,8 @@ void PairSweeps::sweep(std::size_t index, unsigned worker, std::uint64_t work_li
   };
   own.sweep.sweep(way_of(*job.a), way_of(*job.b), query, own.answer, own.work);
   const SweepAnswer& answer = own.answer;
-  pair.complete = answer.complete;
+  static_cast<SweepFinding&>(pair) = answer;
   pair.met = answer.met();
-  pair.left_out = answer.left_out;
-  pair.time_of_impact = answer.time_of_impact;
-  pair.time_of_gap = answer.time_of_gap;
   pair.impacts = impacts_.keep(answer.impacts, worker);
 }
 

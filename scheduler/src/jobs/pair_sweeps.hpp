@@ -15,14 +15,10 @@
 
 namespace graze {
 
-/// What the sweep of a job's pair has found. The impacts are elsewhere.
-struct SweptJob {
+/// The result of the sweep of a job's pair. The impacts are in a shared buffer.
+struct SweptJob : SweepFinding {
   std::uint32_t job = 0;
-  bool complete = true;
   bool met = false;  ///< so that the report lists the pair
-  std::size_t left_out = 0;
-  double time_of_impact = 1;
-  double time_of_gap = 1;
   std::span<const Impact> impacts;
 };
 
@@ -39,7 +35,7 @@ class PairSweeps {
   /// Sweeps all pairs that ask for it, and tells their jobs whether they met. The time budget began at
   /// `start`.
   void run(std::span<PairJob> jobs, const SweptObjects& objects, std::chrono::steady_clock::time_point start);
-  /// What was found of a job that asked for it. It is valid until `equalize_capacity`.
+  /// The result for a job that asked for it. It is valid until `equalize_capacity`.
   [[nodiscard]] const SweptJob& of(std::size_t job) const;
   /// The pairs swept in the last `run`.
   [[nodiscard]] std::size_t count() const { return swept_.size(); }

@@ -84,6 +84,8 @@ class ObjectStore {
   [[nodiscard]] bool is_outdated(const SetPositions& call) const;
   /// The serial of the next object that is added.
   [[nodiscard]] std::uint64_t next_serial() const { return next_serial_; }
+  /// A number that grows whenever objects come or go: how many did either.
+  [[nodiscard]] std::uint64_t arrivals_and_departures() const { return 2 * next_serial_ - objects_.size(); }
   /// The object of a serial, or null.
   [[nodiscard]] const Object* find_serial(std::uint64_t serial) const;
   /// The objects removed since `forget_departed`, sorted by id once `read_positions` has returned.

@@ -24,7 +24,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   find_listed(previous);
   find_ended(previous);
   const auto close = self_pairs_.add_to(broad_phase_.find(summaries_, filter_.half_reaches(), filter_, tasks),
-                                        objects, filter_);
+                                        store_, filter_);
   statistics.pairs_total += self_pairs_.count();
   filter_.forget_changed();
   count_filtered(statistics);
@@ -200,7 +200,7 @@ bool PairTable::says_something(PairJob& job) const {
 void PairTable::add(PairJob job, const SelectedPair& selected) {
   job.memory = &selection_.memory_of(selected);
   if (store_.some_replaced() && job.speaks_of_replaced()) job.memory->forget();
-  // Of an object with itself, the threshold says which features are near enough at rest to be left out.
+  // The threshold of an object with itself says which features are near enough at rest to be left out.
   const bool is_of_other_rule = job.is_of_self() && job.memory->rules_version != filter_.rules_version();
   if (job.memory->groups_version != job.groups.version || is_of_other_rule) {
     // The answer holds no more, and the front lacks what those groups left out.

@@ -3,13 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <graze/settings.hpp>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/slot_pair.hpp"
 #include "core/base/bytes_of.hpp"
-#include "objects/object.hpp"
+#include "objects/object_store.hpp"
 #include "pairs/pair_filter.hpp"
 
 namespace graze {
@@ -24,8 +23,7 @@ class SelfPairs {
 
   /// Returns pairs of two objects with those of one in their places. Both ascend. The result is valid until
   /// the next call, and as long as `pairs` is.
-  std::span<const SlotPair> add_to(std::span<const SlotPair> pairs,
-                                   std::span<const std::unique_ptr<Object>> objects,
+  std::span<const SlotPair> add_to(std::span<const SlotPair> pairs, const ObjectStore& store,
                                    const PairFilter& filter);
   /// How many objects are tested against themselves, of those of the last call.
   [[nodiscard]] std::size_t count() const { return slots_.size(); }
@@ -34,11 +32,10 @@ class SelfPairs {
   [[nodiscard]] std::size_t byte_count() const { return bytes_of(slots_) + bytes_of(all_); }
 
  private:
-  void find_slots(std::span<const std::unique_ptr<Object>> objects);
+  void find_slots(const ObjectStore& store);
 
   bool are_tested_;
-  std::size_t object_count_ = 0;  ///< when slots were looked for last
-  std::uint64_t last_serial_ = 0;
+  std::uint64_t found_at_ = 0;        ///< ObjectStore::arrivals_and_departures, when slots were found
   std::vector<std::uint32_t> slots_;  ///< of the objects, ascending
   std::vector<SlotPair> all_;
 };

@@ -254,6 +254,29 @@ TEST_CASE("self: sheets of several leaves that hardly bend are those of brute fo
   CHECK(met.contacts > 10 * repeats(8));
 }
 
+TEST_CASE("self: two objects of one mesh are answered as two of meshes built alike") {
+  const FloatingPointScope scope;
+  std::size_t contacts = 0;
+  for (const Eigen::Vector3d& beside : {Eigen::Vector3d(0.2, 0.1, 0.05), Eigen::Vector3d(0, 0, 0.3)}) {
+    const SelfScene scene = waving_sheet(3, 0);
+    const Body moved(scene.body.rest, mapped(scene.body.now, 1, beside));
+    const Surface a = surface_of(scene.body);
+    const Surface alike = surface_of(moved);
+    Surface of_same_mesh(a.shared_mesh());
+    REQUIRE(of_same_mesh.set_positions(moved.now.positions).taken());
+    of_same_mesh.make_blocks();
+    of_same_mesh.refit_vertices();
+    of_same_mesh.refit_faces();
+    for (const ContactDetail detail : all_details) {
+      const PairQuery query = query_of(detail, 0.5);
+      const PairAnswer answer = detect(a, of_same_mesh, query);
+      check_same(answer, detect(a, alike, query));
+      contacts += answer.contacts.size();
+    }
+  }
+  CHECK(contacts > 100);
+}
+
 TEST_CASE("self: what a search remembers, and slices, do not change its answers") {
   const FloatingPointScope scope;
   SelfMet met;

@@ -8,8 +8,8 @@
 
 namespace graze::oracle {
 
-/// Which features of one shape are looked at against each other, by brute force: those of which no two
-/// vertices are within so many edges of each other, and which are not nearer than a distance at rest.
+/// Says by brute force which features of one shape are looked at against each other. No two vertices of
+/// theirs are within so many edges of each other, and at rest they are not nearer than a distance.
 class SelfPairs {
  public:
   /// With a distance of 0 it does not matter how near features are at rest.

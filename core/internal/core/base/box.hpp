@@ -58,6 +58,11 @@ inline Box common(const Box& a, const Box& b) {
   return (box.min.array() <= box.max.array()).all() ? box : Box{};
 }
 
+/// Returns whether two boxes have a common point. Points on their borders count.
+inline bool do_meet(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
 /// Returns whether a point is in a box. Points on its border are.
 inline bool contains(const Box& box, const Eigen::Vector3d& point) {
   return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();

@@ -36,7 +36,7 @@ class RayBoxTest {
     }
   }
 
-  /// What `entry` returns where the ray misses the box.
+  /// Returned by `entry` where the ray misses the box.
   static constexpr double miss = std::numeric_limits<double>::infinity();
 
   /// A lower bound of the first t up to `limit` at which the ray is in the box, or `miss` if it certainly

@@ -38,7 +38,7 @@ class GRAZE_API FeatureFilter {
 
   /// Whether this is a query about a surface and itself.
   [[nodiscard]] bool is_of_self() const { return self_.exclusion != nullptr; }
-  /// What is left out of a surface and itself. It is null for two surfaces.
+  /// Says what a surface with itself leaves out. It is null for two surfaces.
   [[nodiscard]] const SelfExclusion* self() const { return self_.exclusion; }
   /// Whether the groups of a feature of a and of one of b let them be tested.
   [[nodiscard]] bool may_groups(const FeatureRef& a, const FeatureRef& b) const {

@@ -5,7 +5,6 @@
 #include <graze/export.hpp>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/mesh/indexed_mesh.hpp"
@@ -26,14 +25,15 @@ struct RestGaps {
 class GRAZE_API SelfExclusion {
  public:
   /// `rings` is the most edges between two vertices that are neighbours.
-  SelfExclusion(std::shared_ptr<const IndexedMesh> mesh, std::uint32_t rings);
+  SelfExclusion(std::shared_ptr<const IndexedMesh> mesh, std::uint32_t rings, RestGaps rest_gaps = {});
 
   /// Whether two features have a vertex in common.
   [[nodiscard]] bool share_vertex(const FeatureRef& a, const FeatureRef& b) const;
   /// Whether a vertex of one feature is joined to a vertex of the other by as many edges as there are rings,
   /// or fewer. So it is for features that share a vertex.
   [[nodiscard]] bool are_neighbours(const FeatureRef& a, const FeatureRef& b) const;
-  /// Whether the closest points of two features are strictly nearer than a distance at rest.
+  /// Whether the closest points of two features are strictly nearer than a distance at rest. The folder
+  /// closest_features has it, since that is where distances are decided.
   [[nodiscard]] bool are_near_at_rest(const FeatureRef& a, const FeatureRef& b, double distance) const;
 
   /// Vertices and faces that lie at opposite ends of the rest shape, along each axis: most likely some of
@@ -44,12 +44,7 @@ class GRAZE_API SelfExclusion {
   };
   [[nodiscard]] const std::array<FarPair, 3>& far_pairs() const { return far_pairs_; }
   [[nodiscard]] const IndexedMesh& mesh() const { return rest_.mesh(); }
-  /// The mesh at rest.
-  [[nodiscard]] const Surface& rest() const { return rest_; }
-
   [[nodiscard]] const RestGaps& rest_gaps() const { return rest_gaps_; }
-  /// Call it before any other thread reads this.
-  void set_rest_gaps(RestGaps gaps) { rest_gaps_ = std::move(gaps); }
 
   /// Bytes held, without the mesh.
   [[nodiscard]] std::size_t byte_count() const;
@@ -60,8 +55,8 @@ class GRAZE_API SelfExclusion {
 
   Surface rest_;
   std::uint32_t rings_;
-  std::array<FarPair, 3> far_pairs_;
   RestGaps rest_gaps_;
+  std::array<FarPair, 3> far_pairs_;
 };
 
 /// The vertices of a feature. `room` is for those that the mesh does not list. A fold has those of its quad.
@@ -74,7 +69,7 @@ inline std::span<const std::uint32_t> feature_vertices(const IndexedMesh& mesh, 
   return std::span(room).first(is_edge ? 2 : 1);
 }
 
-/// What a query about a surface and itself leaves out.
+/// Says what a query about a surface and itself leaves out.
 struct SelfQuery {
   const SelfExclusion* exclusion = nullptr;  ///< null for two surfaces
   double rest_distance = 0;     ///< features nearer than that at rest are left out. 0: none are for that

@@ -34,13 +34,16 @@ struct SweepQuery {
   std::chrono::steady_clock::time_point deadline = PairQuery::no_deadline;
 };
 
-/// What was found about one pair. If it is not complete there are no impacts, and both times are 0.
-struct SweepAnswer {
+/// The result for one pair, without its list. If it is not complete both times are 0.
+struct SweepFinding {
   bool complete = true;
-  std::size_t left_out = 0;       ///< impacts beyond the limit. The times are those of all
-  double time_of_impact = 1;      ///< no features meet earlier
-  double time_of_gap = 1;         ///< none come as near as the gap earlier
-  std::vector<Impact> impacts{};  ///< sorted by (lower, kind, feature a, feature b)
+  std::size_t left_out = 0;   ///< impacts beyond the limit. The times are those of all
+  double time_of_impact = 1;  ///< no features meet earlier
+  double time_of_gap = 1;     ///< none come as near as the gap earlier
+};
+
+struct SweepAnswer : SweepFinding {
+  std::vector<Impact> impacts{};  ///< sorted by (lower, kind, feature a, feature b). None if not complete
 
   /// Whether the surfaces may have met on the way, or come as near as the gap.
   [[nodiscard]] bool met() const { return !complete || !impacts.empty() || time_of_gap < 1; }

@@ -58,7 +58,7 @@ class GRAZE_API SurfaceMotion {
   Box start_box_;
   std::uint64_t start_version_ = 0;  ///< of the surface
   std::vector<MovingBox> boxes_;
-  // What the boxes are of: the versions of both ends, which are equal if the surface stands.
+  // The versions of both ends that the boxes are of. They are equal if the surface stands.
   std::uint64_t boxes_start_ = 0;
   std::uint64_t boxes_end_ = 0;
 };

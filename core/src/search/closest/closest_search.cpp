@@ -315,7 +315,7 @@ SearchProgress ClosestSearch::report(SearchWorker& worker) {
   if (front.touched && !touched) sort_front();
   if (!answer.listed) return SearchProgress::answered;
   set_distance(answer, worker.pair, nearest);
-  // What pierces need not be tested when it is apart again, so it bounds nothing then.
+  // An edge and a face that pierce may be neighbours. Once they are apart they bound nothing.
   const bool may_be_left_out = worker.pair.is_of_self() && is_edge_through_face(nearest);
   front.witness = may_be_left_out
                       ? LastWitness()
