@@ -8,13 +8,9 @@ include(Catch)
 set(GRAZE_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
   "Real meshes that some tests read; those tests are skipped where it is missing")
 
-set(test_options ${GRAZE_TEST_OPTIONS})
 set(catch_options ${GRAZE_TEST_OPTIONS})
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
-  # What tests do themselves is little beside what they have the libraries do, and without optimisation they are compiled
-  # in half the time. Catch2's own sources need no sanitizer.
-  list(APPEND test_options -O0)
-  set(catch_options -O0 -fno-sanitize=all)
+  set(catch_options -fno-sanitize=all)  # its own sources need none, and are compiled and run in half the time
 endif()
 
 if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
@@ -29,7 +25,7 @@ endif()
 
 # The headers and compiler options of all test programs, in one place since headers are precompiled once for all.
 add_library(graze_test_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
-target_compile_options(graze_test_headers PRIVATE ${test_options})
+target_compile_options(graze_test_headers PRIVATE ${GRAZE_TEST_OPTIONS})
 target_link_libraries(graze_test_headers PRIVATE graze_options Catch2::Catch2)
 set_target_properties(graze_test_headers PROPERTIES UNITY_BUILD ON)  # the options of a batch, as those of the programs
 graze_precompile_headers(graze_test_headers ${CMAKE_CURRENT_LIST_DIR}/catch.hpp)
