@@ -36,17 +36,23 @@ class DecodedReport {
     return bits(list<double>(reals_, array).at(index));
   }
   /// The row of a pair's way out, or nothing where it has none.
-  [[nodiscard]] std::optional<std::size_t> way_of(std::size_t pair) const {
-    if (!table_.has("way_pair")) return std::nullopt;
-    const auto& pairs = list<std::uint32_t>(words_, "way_pair");
-    const auto found = std::ranges::lower_bound(pairs, pair);
-    if (found == pairs.end() || *found != pair) return std::nullopt;
-    return static_cast<std::size_t>(found - pairs.begin());
+  [[nodiscard]] std::optional<std::size_t> way_of(std::size_t pair) const { return row_of("way_pair", pair); }
+  /// The row of what a pair met between two steps, or nothing where it has none.
+  [[nodiscard]] std::optional<std::size_t> sweep_of(std::size_t pair) const {
+    return row_of("sweep_pair", pair);
   }
   [[nodiscard]] const nlohmann::json& header() const { return table_.header(); }
   [[nodiscard]] std::size_t index() const { return index_; }
 
  private:
+  /// The row of a pair in an array of ascending pairs.
+  [[nodiscard]] std::optional<std::size_t> row_of(const std::string& array, std::size_t pair) const {
+    if (!table_.has(array)) return std::nullopt;
+    const auto& pairs = list<std::uint32_t>(words_, array);
+    const auto found = std::ranges::lower_bound(pairs, pair);
+    if (found == pairs.end() || *found != pair) return std::nullopt;
+    return static_cast<std::size_t>(found - pairs.begin());
+  }
   template <typename Number>
   const std::vector<Number>& list(std::map<std::string, std::vector<Number>>& known,
                                   const std::string& array) const {

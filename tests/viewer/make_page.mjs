@@ -1,5 +1,5 @@
 // Makes synthetic pages in the format of docs/page_format.md, for the tests and for work on the viewer.
-//   node tests/viewer/make_page.mjs small|long|large OUT.html|OUT.grazeview [TEMPLATE.html]
+//   node tests/viewer/make_page.mjs small|long|large|swept OUT.html|OUT.grazeview [TEMPLATE.html]
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -173,6 +173,11 @@ export function boxMesh(x, y, z) {
   return makeMesh(points, faces, 1);
 }
 
+/// A mesh as the text of an OBJ file.
+export const objText = (mesh) => [
+  ...mesh.points.map((point) => `v ${point.join(' ')}`),
+  ...mesh.faces.map((face) => `f ${face.map((corner) => corner + 1).join(' ')}`), ''].join('\n');
+
 // ---- Motion ----
 
 /// Quantized coordinates of one frame: all x, all y, all z.
@@ -236,6 +241,7 @@ function motionTable(scene, first, end) {
 const INSIDES = ['none', 'a_in_b', 'b_in_a', 'crossing'];
 const PHASES = { near: 0, began: 1, touching: 2, ended: 3 };
 const KINDS = { VV: 0, VE: 1, VF: 2, EE: 3, EF: 4, FF: 5 };
+const STATUSES = ['certain', 'possible', 'at_start'];
 
 /// Data of before pages knew of solids has no `pair_inside`. Data of version 1 says of no contact that it is sunk.
 function reportTable(reports, first, end, isOld) {
@@ -250,6 +256,9 @@ function reportTable(reports, first, end, isOld) {
     region_levels: ['u32', []], region_ids: ['u32', []], region_points: ['f64', []], region_distance: ['f64', []],
     way_pair: ['u32', []], way_direction: ['f64', []], way_point: ['f64', []], way_fullness: ['f64', []],
     way_thickness: ['f64', []], way_extent: ['f64', []],
+    sweep_pair: ['u32', []], sweep_time_of_impact: ['f64', []], sweep_time_of_gap: ['f64', []],
+    sweep_impact_begin: ['u32', []], sweep_impact_end: ['u32', []],
+    impact_kind: ['u8', []], impact_status: ['u8', []], impact_features: ['u32', []], impact_times: ['f64', []],
   };
   const put = (name, ...values) => a[name][1].push(...values);
   const size = (name) => a[name][1].length;
@@ -267,6 +276,19 @@ function reportTable(reports, first, end, isOld) {
       if (pair.way_out) {
         put('way_pair', size('pair_a') - 1);
         for (const [name, value] of Object.entries(pair.way_out)) put(`way_${name}`, ...[value].flat());
+      }
+      if (pair.sweep) {
+        put('sweep_pair', size('pair_a') - 1);
+        put('sweep_time_of_impact', pair.sweep.time_of_impact);
+        put('sweep_time_of_gap', pair.sweep.time_of_gap);
+        put('sweep_impact_begin', size('impact_kind'));
+        for (const impact of pair.sweep.impacts) {
+          put('impact_kind', KINDS[impact.kind]);
+          put('impact_status', STATUSES.indexOf(impact.status));
+          put('impact_features', ...impact.features);
+          put('impact_times', impact.lower, impact.upper);
+        }
+        put('sweep_impact_end', size('impact_kind'));
       }
       put('pair_lower', pair.lower);
       put('pair_upper', pair.upper);
@@ -297,11 +319,16 @@ function reportTable(reports, first, end, isOld) {
     info.push(report.info);
   }
   if (isOld) delete a.pair_inside;
-  if (isOld || size('way_pair') === 0) for (const name of Object.keys(a)) if (name.startsWith('way_')) delete a[name];
+  const without = (...starts) => {
+    for (const name of Object.keys(a)) if (starts.some((start) => name.startsWith(start))) delete a[name];
+  };
+  if (isOld || size('way_pair') === 0) without('way_');
+  if (isOld || size('sweep_pair') === 0) without('sweep_', 'impact_');
   return tableBytes({ diagnostics, frames_info: info }, a);
 }
 
 function seriesOf(reports) {
+  const impacts = reports.map((r) => r.pairs.reduce((sum, p) => sum + (p.sweep?.impacts.length ?? 0), 0));
   const count = (test) => reports.map((r) => r.pairs.filter(test).length);
   const times = (name) => reports.map((r) => r.info.statistics[name]);
   return {
@@ -316,6 +343,7 @@ function seriesOf(reports) {
     inside: count((p) => p.inside === 'a_in_b' || p.inside === 'b_in_a'),
     crossing: count((p) => p.inside === 'crossing'),
     diagnostics: reports.map((r) => r.diagnostics.length),
+    ...(impacts.some((n) => n > 0) ? { impacts } : {}),
     read_ms: times('read_ms'), pairs_ms: times('pairs_ms'), refit_ms: times('refit_ms'), jobs_ms: times('jobs_ms'),
     publish_ms: times('publish_ms'), step_ms: times('step_ms'),
   };
@@ -443,7 +471,7 @@ export function makeReports(scene) {
     const frameNumber = f * scene.every;
     ages = { before: ages.now, now: new Map() };
     const positions = scene.objects.map((o) => (f >= o.first && f <= o.last ? worldPositions(o, f) : null));
-    const pairs = [];
+    const pairs = scene.answers ? scene.answers(f) : [];
     const touching = new Set();
     for (const [a, b] of scene.pairs) {
       const key = `${a},${b}`;
@@ -457,7 +485,7 @@ export function makeReports(scene) {
       const first = near[0] ?? { va: 0, vb: 0, distance: scene.range };
       const points = [0, 1, 2].map((k) => (pa ?? pb)[3 * first.va + k]).concat([0, 1, 2].map((k) => (pb ?? pa)[3 * first.vb + k]));
       pairs.push({
-        a, b, phase, ...scene.flags(f, a, b), inside: scene.inside(f, a, b), way_out: scene.wayOut(f, a, b),
+        a, b, phase, ...scene.flags(f, a, b), inside: scene.inside(f, a, b), way_out: scene.wayOut(f, a, b), sweep: scene.sweep(f, a, b),
         lower: first.distance, upper: first.distance * (1 + 2 ** -52),
         witness: { features: [0, first.va, 0, first.vb], points },
         contacts: list.map((n) => contactAt(scene, a, b, n, pa, pb, frameNumber, ages)),
@@ -516,7 +544,7 @@ function finish(scene) {
     o.last ??= scene.frames - 1;
     o.serial = o.serial ?? i + 3;
   });
-  return { every: 2, origin: [-4, -4, -1], flags: () => ({}), inside: () => 'none', wayOut: () => null, diagnostics: () => [], diverged: undefined, block: BLOCK,
+  return { every: 2, origin: [-4, -4, -1], flags: () => ({}), inside: () => 'none', wayOut: () => null, sweep: () => null, diagnostics: () => [], diverged: undefined, block: BLOCK,
            mostContacts: 400, linesPerLevel: 5, lineLevels: 3, ...scene };
 }
 
@@ -561,6 +589,9 @@ export function smallScene() {
       52: { direction: [0.6, 0, 0.8], point: [-0.7, 0.3, 1.2], fullness: 0.625, thickness: 0.75, extent: 1.25 },
       53: { direction: [0, 0, 0], point: [-0.7, 0.3, 1.2], fullness: 0.0625, thickness: 0, extent: 0 },
     }[f]) || null,
+    sweep: (f, a, b) => (a === 1 && b === 4 && f === 52
+      ? { time_of_impact: 0.5, time_of_gap: 0.25, impacts: [
+        { kind: 'VF', status: 'certain', features: [0, 400, 2, 300], lower: 0.5, upper: 0.5000001 }] } : null),
     diagnostics: (f) => (f >= 40 && f <= 42
       ? [{ object: 4, kind: 'not_finite', message: 'vertex 400 is not finite' }]
       : f === 44 ? [{ object: 4, kind: 'not_finite', message: 'vertex 0 is not finite' }]
@@ -606,7 +637,67 @@ export function largeScene() {
   });
 }
 
-export const SCENES = { small: smallScene, long: longScene, large: largeScene };
+/// A strip that is folded like a U, and whose free end comes to `height` over its bottom.
+export const STRIP_FACES = [[0, 2, 3, 1], [2, 4, 5, 3], [4, 6, 7, 5]];
+export const stripAt = (height) => [[2, 0, 0], [2, 1, 0], [3, 0, 0], [3, 1, 0], [3, 0.1, 0.6], [3, 0.9, 0.6], [2.4, 0.3, height], [2.4, 0.7, height]];
+
+/// A tetrahedron on its tip.
+export const dartMesh = () => makeMesh([[0.3, 0.4, 0], [-0.3, 0.4, 0.6], [0.9, 1, 0.6], [0.9, -0.2, 0.6]],
+  [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], 1);
+
+/// A dart that goes through a sheet between two steps, and a strip that goes through itself. Their numbers are known.
+export function sweptScene() {
+  const dart = dartMesh();
+  const sheet = gridMesh(2, 2, 1);
+  const strip = makeMesh(stripAt(0.4), STRIP_FACES, 1);
+  const edge = (mesh, v, w) => {
+    for (let e = 0; e < mesh.edges.length / 2; ++e) if (mesh.edges[2 * e] === v && mesh.edges[2 * e + 1] === w) return e;
+    throw new Error(`no edge ${v}-${w}`);
+  };
+  const flat = (points) => Float64Array.from(points.flat());
+  // The tip of the dart and the sheet, by frame. Both jump: the dart before 9 and 13, and the sheet before 12 and 13.
+  const tip = (f) => (f < 5 ? 1 : f < 9 ? -1 : f < 12 ? 1 : f < 13 ? 0.25 : f < 16 ? 1 : -1);
+  const level = (f) => (f === 12 ? 0.5 : 0);
+  const end = (f) => (f < 5 ? 0.4 : 0.2);
+  const through = (f) => (f === 7 ? -0.2 : end(f));
+  const tipAndFace = (time) => ({ kind: 'VF', status: 'certain', features: [2, 3, 0, 0], lower: time, upper: time + 2 ** -20 });
+  const edges = { kind: 'EE', status: 'possible', features: [1, edge(sheet, 4, 7), 1, edge(dart, 0, 1)], lower: 0.65, upper: 0.65 + 2 ** -20 };
+  const sweeps = {
+    5: { time_of_impact: 0.5, time_of_gap: 0.475, impacts: [tipAndFace(0.5), edges] },
+    12: { time_of_impact: 2 / 3, time_of_gap: 0.625, impacts: [tipAndFace(2 / 3)] },
+    14: { time_of_impact: 1, time_of_gap: 0.75, impacts: [] },
+    16: { time_of_impact: 0.5, time_of_gap: 0.475, impacts: [tipAndFace(0.5), edges] },
+  };
+  const ofItself = { time_of_impact: 0.5, time_of_gap: 0.375, impacts: [6, 7].map((vertex) => (
+    { kind: 'VF', status: 'certain', features: [0, vertex, 2, 0], lower: 0.5, upper: 0.5 + 2 ** -20 })) };
+  const answers = (f) => {
+    const away = Math.abs(tip(f) - level(f));
+    const witness = (features, points) => ({ features, points });
+    const base = { inside: 'none', way_out: null, contacts: [], regions: [] };
+    const found = [{
+      ...base, a: 0, b: 1, phase: 'near', lower: away, upper: away, sweep: sweeps[f] ?? null,
+      witness: witness([2, 3, 0, 0], [0.3, 0.4, level(f), 0.3, 0.4, tip(f)]) }];
+    if (f < 5) return found;
+    const height = through(f);
+    const contact = {
+      kind: 'VF', features: [0, 6, 2, 0], points: [2.4, 0.3, height, 2.4, 0.3, 0], normal: [0, 0, -Math.sign(height)],
+      distance: Math.abs(height), since: 5, side_a: 1, side_b: 1, sunk: false };
+    found.push({
+      ...base, a: 2, b: 2, phase: f === 5 ? 'began' : 'touching', lower: contact.distance, upper: contact.distance,
+      witness: witness([0, 6, 2, 0], contact.points), contacts: [contact], sweep: f === 7 ? ofItself : null });
+    return found;
+  };
+  return finish({
+    title: 'what meets between two steps', frames: 20, quantum: 2 ** -16, range: 3, contactDistance: 0.25, every: 1, pairs: [], answers,
+    objects: [
+      deformable('sheet', sheet, (f) => flat(sheet.points.map(([x, y]) => [x, y, level(f)]))),
+      posed('dart', 'rigid', dart, (f) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, tip(f)]),
+      deformable('strip', strip, (f) => flat(stripAt(through(f))), { solid: true }),
+    ],
+  });
+}
+
+export const SCENES = { small: smallScene, long: longScene, large: largeScene, swept: sweptScene };
 
 // ---- Pages ----
 

@@ -4,11 +4,7 @@
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { boxMesh, sphereMesh } from './make_page.mjs';
-
-const objText = (mesh) => [
-  ...mesh.points.map((point) => `v ${point.join(' ')}`),
-  ...mesh.faces.map((face) => `f ${face.map((corner) => corner + 1).join(' ')}`), ''].join('\n');
+import { boxMesh, objText, sphereMesh } from './make_page.mjs';
 
 const along = (from, to) => [{ frame: 0, translate: from }, { frame: 24, translate: to }];
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Drives the viewer's page in a browser: first with pages of its own, then with the page and the report of the
-# demonstration, whose numbers have to agree to the last digit, then with a recording of solids and its exported tables. It ends with 77 where there is no viewer or no browser.
+# demonstration, whose numbers have to agree to the last digit, then with a scene of impacts and a surface that meets itself, and
+# with a recording of solids and its exported tables. It ends with 77 where there is no viewer or no browser.
 # Usage: tests/viewer/run.sh GRAZE GRAZE_DEMO_SCENE VIEWER_FOLDER
 set -eu
 
@@ -25,6 +26,10 @@ TIMES=print node "$(dirname "$0")/viewer_test.mjs"
 node "$(dirname "$0")/viewer_test.mjs" "$folder/view.html" "$folder/report.jsonl"
 
 here=$(dirname "$0")
+node "$here/make_swept.mjs" "$folder"
+"$graze" run "$folder/swept.json" --report "$folder/swept.jsonl" --html "$folder/swept.html" >/dev/null
+node "$here/viewer_test.mjs" "$folder/swept.html" "$folder/swept.jsonl" swept
+
 node "$here/make_solids.mjs" "$folder"
 "$graze" run "$folder/solids.json" --record "$folder/solids.rec" >/dev/null
 "$graze" export "$folder/solids.rec" --csv "$folder/contacts.csv" --distances "$folder/rows.csv" >/dev/null

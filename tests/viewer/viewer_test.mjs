@@ -1,5 +1,5 @@
 // Drives the viewer in a browser, without a network and without a graphics card.
-//   node tests/viewer/viewer_test.mjs [PAGE.html REPORT.jsonl | PAGE.html CONTACTS.csv ROWS.csv]
+//   node tests/viewer/viewer_test.mjs [PAGE.html REPORT.jsonl [swept] | PAGE.html CONTACTS.csv ROWS.csv]
 // Without arguments it makes its own pages. With a page of `graze` it compares the page's numbers with those of a report, or
 // with the tables that `graze export` writes of the same recording.
 // CHROMIUM names the browser, and GRAZE_VIEWER_FOLDER the folder in which the viewer was built. Times are asserted unless the machine is busy or TIMES=print is set.
@@ -9,7 +9,7 @@ import { gzipSync } from 'node:zlib';
 import { availableParallelism, loadavg, tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { largeScene, longScene, makePage, pageHtml, smallScene, viewFile } from './make_page.mjs';
+import { largeScene, longScene, makePage, pageHtml, smallScene, sweptScene, viewFile } from './make_page.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const viewer = process.env.GRAZE_VIEWER_FOLDER ?? join(here, '../../tools/viewer');
@@ -399,12 +399,205 @@ async function checkOldData() {
   const { selection } = await inspect(page);
   const signs = await page.locator('[data-testid^=inside-]').count();
   same('older data says nothing of solids', [selection.listed, 'inside' in selection, signs, page.errors], [true, false, 0, []]);
-  same('nor of ways out', ['way_out' in selection, (await drawn(page)).ways], [false, 0]);
+  same('nor of ways out and of impacts', ['way_out' in selection, (await drawn(page)).ways, 'impacts' in selection,
+    (await drawn(page)).impacts, await page.locator('[data-testid=impacts]').count()], [false, 0, false, 0, 0]);
   const { pair, contact } = contactsOf(made.reports[52]).find((c) =>
     c.contact.kind === 'EE' && c.contact.side_a === 2 && c.contact.side_b === 2 && !c.contact.sunk);
   await page.evaluate((s) => window.graze.select(s), { type: 'contact', a: pair.a, b: pair.b, kind: 3, features: contact.features });
   same('there, edges behind each other are deep', (await inspect(page)).selection.separation, -contact.distance);
   await page.close();
+}
+
+/** What a page shows of what meets between two steps, and of an object with itself. */
+async function checkSwept() {
+  const scene = sweptScene();
+  const made = { scene, ...makePage(scene) };
+  const page = await open(write('swept.html', pageHtml(template, made.chunks)));
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await checkImpactNumbers(page, made);
+  await checkImpactWays(page);
+  await checkImpactSwitch(page);
+  await checkImpactsInTime(page);
+  await checkSelfPair(page, made);
+  same('no console error of what is swept', page.errors, []);
+  await page.close();
+  const thin = await open(write('thin.html', pageHtml(template, makePage({ ...scene, every: 2 }).chunks)));
+  await goTo(thin, 5);
+  await thin.evaluate(() => window.graze.select('pair:3:4'));
+  same('a page without the step before has the numbers alone', [(await inspect(thin)).selection.impacts.length,
+    (await drawn(thin)).impacts, await thin.evaluate(() => window.graze.impactWays())], [2, 0, []]);
+  await thin.close();
+}
+
+const FEATURE_NAMES = ['vertex', 'edge', 'face'];
+const serialOf = (made, object) => made.head.objects[object].serial;
+
+/** The impacts of a pair as the inspector has them. */
+function impactsOf(made, { a, b, sweep }) {
+  const feature = (object, kind, index) => {
+    const { edges } = made.scene.objects[object].mesh;
+    return [FEATURE_NAMES[kind], index, ...(kind === 1 ? [edges.slice(2 * index, 2 * index + 2)] : [])];
+  };
+  return sweep.impacts.map(({ kind, status, lower, upper, features: [ka, ia, kb, ib] }) => (
+    { kind, status, lower, upper, feature_a: feature(a, ka, ia), feature_b: feature(b, kb, ib) }));
+}
+
+async function checkImpactNumbers(page, made) {
+  const wrong = [];
+  for (let frame = 0; frame < made.scene.frames; ++frame) {
+    await goTo(page, frame);
+    for (const pair of made.reports[frame].pairs) {
+      await page.evaluate((s) => window.graze.select(s), `pair:${serialOf(made, pair.a)}:${serialOf(made, pair.b)}`);
+      const { time_of_impact, time_of_gap, impacts } = (await inspect(page)).selection;
+      const wanted = pair.sweep ? [pair.sweep.time_of_impact, pair.sweep.time_of_gap, impactsOf(made, pair)] : [];
+      const got = [time_of_impact, time_of_gap, impacts].filter((value) => value !== undefined);
+      if (JSON.stringify(got) !== JSON.stringify(wanted)) wrong.push([frame, got, wanted]);
+    }
+  }
+  same('the numbers of impacts', wrong, []);
+  await goTo(page, 5);
+  await page.evaluate(() => window.graze.select('pair:3:4'));
+  const facts = await shownFacts(page);
+  same('the inspector shows the times of a pair and of its impacts',
+    [facts.time_of_impact, facts.time_of_gap, facts['impacts.0.lower'], facts['impacts.0.upper'], facts['impacts.0.feature_a'],
+      facts['impacts.0.feature_b'], facts['impacts.1.lower']],
+    ['0.5', '0.475', '0.5', String(0.5 + 2 ** -20), 'face 3', 'vertex 0', '0.65']);
+  same('and their kinds and statuses', await page.$$eval('[data-testid^=impact-]', (heads) => heads.map((e) => e.textContent)),
+    ['impact 1 of 2: VF, certain', 'impact 2 of 2: EE, possible']);
+}
+
+/** Ways as sorted texts, with coordinates within the error of positions. */
+const wayTexts = (ways) => ways.map(({ from, to }) => [...from, ...to].map((x) => x.toFixed(3).replace('-0.000', '0.000')).join(' ')).sort();
+const away = (p, q) => Math.hypot(...p.map((x, k) => x - q[k]));
+
+async function checkImpactWays(page) {
+  await page.evaluate(() => window.graze.select(null));
+  const down = (x, y, from, to) => ({ from: [x, y, from], to: [x, y, to] });
+  const dart = [down(0.3, 0.4, 1, -1), down(-0.3, 0.4, 1.6, -0.4)];
+  const strip = [down(2.4, 0.3, 0.2, -0.2), down(2.4, 0.7, 0.2, -0.2)];
+  const wanted = {
+    4: [[], []], 5: [dart, [[0.3, 0.4, 0], [0, 0.4, 0]]], 7: [strip, [[2.4, 0.3, 0], [2.4, 0.7, 0]]],
+    12: [[down(0.3, 0.4, 1, 0.25)], [[0.3, 0.4, 0.5]]], 14: [[], []], 16: [dart, [[0.3, 0.4, 0], [0, 0.4, 0]]],
+  };
+  for (const [frame, [ways, places]] of Object.entries(wanted)) {
+    await goTo(page, Number(frame));
+    same(`ways of vertices that meet something, frame ${frame}`, wayTexts(await page.evaluate(() => window.graze.impactWays())), wayTexts(ways));
+    const found = await page.evaluate(() => window.graze.impactPlaces());
+    check(`and where they meet, frame ${frame}`, found.length === places.length && places.every((p, i) => away(p, found[i]) < 2e-5),
+      JSON.stringify(found));
+  }
+}
+
+async function checkImpactSwitch(page) {
+  await goTo(page, 5);
+  await page.keyboard.press('a');
+  await page.waitForTimeout(400);
+  const count = async () => [(await drawn(page)).impacts, (await page.evaluate(() => window.graze.impactWays())).length];
+  same('the legend counts impacts', await page.textContent('[data-testid=impacts]'), 'impact2');
+  const colour = [15, 125, 140];
+  const onWays = await page.evaluate(() => window.graze.impactWays());
+  const drawnThere = async () => {
+    const found = await page.evaluate(([places, [red, green, blue]]) => {
+      const { width, height, data } = window.graze.pixels();
+      const canvas = document.getElementById('view');
+      return places.map(({ x, y }) => {
+        const [px, py] = [Math.round((x * width) / canvas.clientWidth), Math.round(height - (y * height) / canvas.clientHeight)];
+        for (let dx = -3; dx <= 3; ++dx)
+          for (let dy = -3; dy <= 3; ++dy) {
+            const at = 4 * ((py + dy) * width + px + dx);
+            if (Math.abs(data[at] - red) + Math.abs(data[at + 1] - green) + Math.abs(data[at + 2] - blue) < 60) return true;
+          }
+        return false;
+      });
+    }, [onWays, colour]);
+    return found.filter((isThere) => isThere).length;
+  };
+  const on = [await count(), await drawnThere()];
+  await press(page, 'impacts');
+  const off = [await count(), await drawnThere()];
+  await press(page, 'impacts');
+  // The second impact is only possible, so that its way is fainter.
+  same('ways have their colour in the picture, and the legend switches them', [on, off, await count()], [[[2, 2], 1], [[0, 0], 0], [2, 2]]);
+  const eyes = async (...objects) => { for (const object of objects) await press(page, `eye-${object}`); };
+  await press(page, 'tab-objects');
+  await eyes(0, 1);
+  const hidden = await count();
+  await eyes(0, 1);
+  same('impacts of hidden objects are not drawn', [hidden, await count()], [[0, 0], [2, 2]]);
+  await press(page, 'pick-pair');
+  const box = await page.locator('[data-testid=view]').boundingBox();
+  await page.mouse.click(box.x + onWays[1].x, box.y + onWays[1].y);
+  same('a click on a way selects its pair', (await drawn(page)).selection, 'pair:3:4');
+  await press(page, 'pick-auto');
+}
+
+/** Plots and the time line say in which frames something meets. */
+async function checkImpactsInTime(page) {
+  await goTo(page, 0);
+  const lanes = await page.$$eval('.marks .key', (keys) => keys.map((e) => e.textContent));
+  const labels = await page.$$eval('[data-testid=plot-contacts] .u-label', (cells) => cells.map((e) => e.textContent));
+  check('the time line and a plot have impacts', lanes.includes('impacts') && labels.includes('impacts'), `${lanes} ${labels}`);
+  const marks = [];
+  for (const frame of [5, 7, 12, 16]) {
+    await page.keyboard.press('.');
+    await page.waitForFunction((f) => window.graze.frame === f, frame, { timeout: 5000 }).catch(() => {});
+    marks.push(await page.evaluate(() => window.graze.frame));
+  }
+  same('a key goes to the next impacts', marks, [5, 7, 12, 16]);
+}
+
+/** A pair of an object with itself. */
+async function checkSelfPair(page, made) {
+  await page.evaluate(() => window.graze.select(null));
+  await goTo(page, 8);
+  await press(page, 'tab-objects');
+  const cells = await page.$$eval('[data-key="o2"] b', (numbers) => numbers.map((e) => e.textContent));
+  same('an object counts a pair with itself once', cells, ['1', '1']);
+  await press(page, 'tab-contacts');
+  same('the contact names it', await page.textContent('[data-key^="c2-2"] .two'), 'VFstripwith itself');
+  await press(page, 'tab-pairs');
+  same('the list of pairs names it', await page.textContent('[data-key="p2-2"] .two'), 'stripwith itself');
+  await page.fill('[data-testid=search]', 'itself');
+  same('the search finds it', (await drawn(page)).rows, 1);
+  await page.fill('[data-testid=search]', '');
+  await page.keyboard.press('Escape');
+  await page.click('[data-key="p2-2"]');
+  await page.waitForTimeout(500);
+  const { selection } = await inspect(page);
+  const link = await page.evaluate(() => window.graze.link());
+  // A link has the camera relative to the middle of the first frame.
+  const target = /c=([^&]*)/.exec(link)[1].split(',').slice(3).map((x, k) => Number(x) + [1, 0, 0.8][k]);
+  check('a click frames the object', away(target, [2.4, 0.3, 0.1]) < 1e-3, target.join(' '));
+  same('its numbers', [selection.lower, selection.contacts, 'inside' in selection, await page.locator('[data-testid=inside-words]').count()],
+    [0.2, 1, false, 0]);
+  const section = '[data-testid=inspector] section:first-child';
+  same('the inspector names it, with one link to the object', [await page.textContent(`${section} h2 span`),
+    await page.$$eval(`${section} .links .link`, (links) => links.map((e) => e.textContent))], ['strip with itself', ['strip']]);
+  same('a link has it', /s=pair:5:5/.test(link), true);
+  await page.keyboard.press('i');
+  const alone = (await drawn(page)).surfaces;
+  await page.keyboard.press('i');
+  same('it can be shown alone', [alone, (await drawn(page)).surfaces], [1, 3]);
+  await page.evaluate((s) => window.graze.select(s), 'contact:5:5:VF:vertex.6:face.0');
+  same('the contact is named in the inspector', await page.textContent(`${section} h2 span`), 'VF · strip with itself');
+  await page.keyboard.press('f');
+  await page.waitForTimeout(500);
+  // The selected feature of a is blue, that of b orange. A face has four sides, and each side of the contact has a halo.
+  const { highlights } = await drawn(page);
+  const seen = await page.evaluate(() => {
+    const { data } = window.graze.pixels();
+    const count = (red, green, blue) => {
+      let found = 0;
+      for (let i = 0; i < data.length; i += 4)
+        if (Math.abs(data[i] - red) + Math.abs(data[i + 1] - green) + Math.abs(data[i + 2] - blue) < 12) ++found;
+      return found;
+    };
+    return [count(0, 114, 178), count(179, 89, 0)];
+  });
+  check('both features of the contact are seen', highlights === 7 && seen.every((n) => n > 30), `${highlights} marks, ${seen} pixels`);
+  await page.evaluate((s) => window.graze.select(s), `object:${serialOf(made, 2)}`);
+  same('the object leads to it', await page.$$eval(`${section} .links .link`, (links) => links.map((e) => e.textContent)), ['↔ itself']);
+  await page.evaluate(() => window.graze.select(null));
 }
 
 /** Faults of earlier pages: words that were cut off or hidden, and an empty picture. */
@@ -493,7 +686,7 @@ const OTHER_KEYS = [
   [' '], [' '], [','], ['.'], ['['], [']'], ['Shift+r'], ['Shift+r'], ['t'], ['t'],
   ['f', 'pair:4:90'], ['a'], ['Shift+ArrowLeft'], ['Shift+ArrowRight'], ['Shift+ArrowUp'], ['Shift+ArrowDown'],
   ['Alt+ArrowLeft'], ['Alt+ArrowRight'], ['Alt+ArrowUp'], ['Alt+ArrowDown'], ['+'], ['='], ['-'], ['_'], ['u'], ['u'], ['a'],
-  ['w'], ['w'], ['e'], ['e'], ['r'], ['r'], ['c'], ['Shift+c'], ['<'], ['>'], ['c'], ['k'], ['k'], ['m'], ['m'], ['s'], ['s'],
+  ['w'], ['w'], ['e'], ['e'], ['r'], ['r'], ['c'], ['Shift+c'], ['<'], ['>'], ['c'], ['k'], ['k'], ['m'], ['m'], ['s'], ['s'], ['q'], ['q'],
   ['o', 'pair:4:90'], ['x'], ['l'], ['l'], ...[1, 2, 3, 4, 9, 1, 2, 3, 4, 9].map((level) => [`Alt+${level}`]),
   ['d'], ['d'], ['b'], ['Shift+b'], ['b'], ['b'], ['n'], ['n'], ['i', 'object:4'], ['i'], ['h', 'object:4'], ['i'],
   ['1'], ['3'], ['2'], ['ArrowDown'], ['j'], ['j'], ['ArrowUp'], ['Shift+j'], ['Escape'], ['/'], ['Escape'], ['p'], ['v'], ['v'],
@@ -634,7 +827,11 @@ async function checkLarge(name, scene, level, limits) {
 
 // ---- A page of graze ----
 
-async function checkAgainstReport(path, reportPath) {
+/** An impact of a report as the inspector has it. */
+const impactIn = ({ kind, a, b, time: [lower, upper], status }) => ({ kind, status, lower, upper, feature_a: a, feature_b: b });
+
+/** With `isSwept` the report must have impacts, and an object with itself. */
+async function checkAgainstReport(path, reportPath, isSwept = false) {
   const [header, ...lines] = readFileSync(reportPath, 'utf8').trim().split('\n').map((line) => JSON.parse(line));
   const page = await open(path);
   const numbers = await page.evaluate(() => {
@@ -652,9 +849,9 @@ async function checkAgainstReport(path, reportPath) {
       const { selection } = await inspect(page);
       ++compared;
       const got = [selection.phase, selection.lower, selection.upper, selection.witness_a, selection.point_a, selection.point_b, selection.contacts,
-        selection.way_out];
+        selection.way_out, selection.time_of_impact ?? 1, selection.time_of_gap ?? 1, selection.impacts ?? []];
       const wanted = [pair.phase, ...pair.distance, pair.witness.a, pair.witness.point_a, pair.witness.point_b,
-        (pair.contacts ?? []).length, pair.way_out];
+        (pair.contacts ?? []).length, pair.way_out, pair.time_of_impact ?? 1, pair.time_of_gap ?? 1, (pair.impacts ?? []).map(impactIn)];
       if (JSON.stringify(got) !== JSON.stringify(wanted)) ++wrong;
       for (const c of (pair.contacts ?? []).slice(0, 20)) {
         const feature = ([kind, index]) => [['vertex', 'edge', 'face'].indexOf(kind), index];
@@ -669,10 +866,31 @@ async function checkAgainstReport(path, reportPath) {
       }
     }
   }
+  if (isSwept) {
+    const pairs = lines.flatMap((line) => line.pairs ?? []);
+    const meeting = pairs.filter((pair) => pair.impacts);
+    check('the report has impacts of two objects and of one with itself',
+      meeting.some((pair) => pair.a !== pair.b) && meeting.some((pair) => pair.a === pair.b) && pairs.some((pair) => pair.time_of_gap < 1));
+    await checkPlacesOfReport(page, lines);
+  }
   check(`numbers of ${path} are those of its report`, compared > 0 && wrong === 0,
     `${header.objects.length} objects, ${compared} compared, ${wrong} wrong`);
   same('no console error', page.errors, []);
   await page.close();
+}
+
+/** Each impact has a cross at the time that the report says: on both the sheet and the strip's bottom, z is 0. */
+async function checkPlacesOfReport(page, lines) {
+  let count = 0;
+  let wrong = 0;
+  for (const [frame, line] of lines.filter(({ pairs }) => pairs).entries()) {
+    await goTo(page, frame);
+    const places = await page.evaluate(() => window.graze.impactPlaces());
+    const impacts = line.pairs.flatMap((pair) => pair.impacts ?? []);
+    count += impacts.length;
+    wrong += Math.abs(places.length - impacts.length) + places.filter(([, , z]) => Math.abs(z) > 1e-4).length;
+  }
+  check('each impact has its cross where the features meet', count > 0 && wrong === 0, `${count} impacts, ${wrong} wrong`);
 }
 
 // ---- A page of a recording ----
@@ -765,7 +983,9 @@ async function checkAgainstTables(path, contactsPath, rowsPath) {
 
 try {
   const [givenPage, givenReport, givenRows] = process.argv.slice(2);
-  if (givenRows) {
+  if (givenRows === 'swept') {
+    await checkAgainstReport(givenPage, givenReport, true);
+  } else if (givenRows) {
     await checkAgainstTables(givenPage, givenReport, givenRows);
   } else if (givenPage) {
     await checkAgainstReport(givenPage, givenReport);
@@ -792,6 +1012,7 @@ try {
     await checkKeys(path);
     await checkFile(made);
     await checkOldData();
+    await checkSwept();
     await checkLarge('1,000 frames of 10,000 vertices', longScene(), 4, { size: 60, open: 2000, seek: 50, seeks: 15 });
     await checkLarge('2 × 100,000 vertices', largeScene(), 1, { size: 60, seeks: 4 });
   }

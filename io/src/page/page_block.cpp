@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint64_t pair_row_bytes = 110;
 constexpr std::uint64_t contact_row_bytes = 102;
 constexpr std::uint64_t region_row_bytes = 76;
+constexpr std::uint64_t impact_row_bytes = 34;
 constexpr std::uint64_t drawn_position_bytes = 12;
 
 /// A move of one object, in a frame of the page.
@@ -78,9 +79,9 @@ std::string report_table(const PageBlock& block, const PageObjects& objects, con
 }  // namespace
 
 std::uint64_t WaitingFrame::raw_bytes() const {
-  std::uint64_t bytes = pair_row_bytes * report.pairs().size() +
-                        contact_row_bytes * report.contacts().size() +
-                        region_row_bytes * report.region_distances().size();
+  std::uint64_t bytes =
+      pair_row_bytes * report.pairs().size() + contact_row_bytes * report.contacts().size() +
+      region_row_bytes * report.region_distances().size() + impact_row_bytes * report.impacts().size();
   for (const Move& move : moves)
     bytes +=
         move.shape.positions ? drawn_position_bytes * move.shape.positions->size() : sizeof move.shape.pose;

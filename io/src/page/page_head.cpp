@@ -1,5 +1,6 @@
 #include "page/page_head.hpp"
 
+#include <algorithm>
 #include <graze/scene_enumerators.hpp>
 
 #include "report/report_fields.hpp"
@@ -75,15 +76,22 @@ void PageSeries::add(const FrameReport& report, bool include_times) {
                                                              rows[4],
                                                              rows[5],
                                                              rows[6],
-                                                             report.diagnostics().size()};
+                                                             report.diagnostics().size(),
+                                                             report.impacts().size()};
   for (std::size_t i = 0; i < values.size(); ++i) counts_[i].push_back(values[i]);
   for (std::size_t i = 0; i < time_fields.size(); ++i)
     times_[i].push_back(include_times ? statistics.times.*time_fields[i].member : 0);
 }
 
+bool PageSeries::has_impacts() const {
+  static_assert(count_names.back() == "impacts");
+  return std::ranges::any_of(counts_.back(), [](std::uint64_t count) { return count > 0; });
+}
+
 void PageSeries::write(JsonText& json) const {
   json.open('{');
-  for (std::size_t i = 0; i < counts_.size(); ++i) write_whole_numbers(json, count_names[i], counts_[i]);
+  for (std::size_t i = 0; i < counts_.size(); ++i)
+    if (count_names[i] != "impacts" || has_impacts()) write_whole_numbers(json, count_names[i], counts_[i]);
   for (std::size_t i = 0; i < times_.size(); ++i) {
     json.key(time_fields[i].name).open('[');
     for (const double time : times_[i]) json.real(time);

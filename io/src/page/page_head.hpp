@@ -20,9 +20,11 @@ class PageSeries {
   void write(JsonText& json) const;
 
  private:
-  static constexpr std::array<std::string_view, 11> count_names{
-      "contacts", "near",         "in_contact", "began",    "ended",      "incomplete",
-      "stale",    "contacts_cut", "inside",     "crossing", "diagnostics"};
+  [[nodiscard]] bool has_impacts() const;
+
+  static constexpr std::array<std::string_view, 12> count_names{
+      "contacts", "near",         "in_contact", "began",    "ended",       "incomplete",
+      "stale",    "contacts_cut", "inside",     "crossing", "diagnostics", "impacts"};
 
   std::array<std::vector<std::uint64_t>, count_names.size()> counts_;
   std::array<std::vector<double>, 6> times_;

@@ -1,6 +1,7 @@
 #include "page/report_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "report/report_fields.hpp"
@@ -66,12 +67,17 @@ void add_way_out(PageColumns& ways, const WayOut& way) {
   ways.put(way.fullness).put(way.thickness).put(way.extent);
 }
 
-/// Whether the lists of some pairs have the same lengths. `begins` has where the list of each pair begins.
-bool have_same_lengths(const std::vector<std::uint32_t>& begins, std::size_t a, std::size_t b,
-                       std::size_t count) {
-  for (std::size_t i = 1; i <= count; ++i)
-    if (begins[a + i] - begins[a] != begins[b + i] - begins[b]) return false;
-  return true;
+/// Whether a pair met or came near between two steps.
+bool has_sweep(const PairReport& pair) {
+  return pair.time_of_impact < 1 || pair.time_of_gap < 1 || pair.impact_count > 0;
+}
+
+void add_impact(PageColumns& impacts, const Impact& impact) {
+  impacts.begin_row().put(static_cast<std::uint8_t>(impact.kind));
+  impacts.put(static_cast<std::uint8_t>(impact.status));
+  put_feature(impacts, impact.feature_a);
+  put_feature(impacts, impact.feature_b);
+  impacts.put(impact.lower).put(impact.upper);
 }
 
 }  // namespace
@@ -101,14 +107,29 @@ void PageColumns::add_to(PageTable& table) const {
     table.add_bytes(column.name, column.type, column.bytes, rows_ * column.row_numbers);
 }
 
+std::vector<std::uint32_t> PairLists::pairs() const {
+  Numbers pairs;
+  for (std::uint32_t pair = 0; pair + 1 < begins_.size(); ++pair)
+    if (begins_[pair] < begins_[pair + 1]) pairs.push_back(pair);
+  return pairs;
+}
+
+bool PairLists::are_same(std::size_t a, std::size_t b, std::size_t count) const {
+  for (std::size_t i = 1; i <= count; ++i)
+    if (begins_[a + i] - begins_[a] != begins_[b + i] - begins_[b]) return false;
+  return rows_.are_same(begins_[a], begins_[b], begins_[b + count] - begins_[b]);
+}
+
+void PairLists::truncate(std::size_t pairs) {
+  rows_.truncate(begins_[pairs]);
+  begins_.resize(pairs + 1);
+}
+
 ReportBlock::ReportBlock()
     : pairs_({words_column("pair_a", 1), words_column("pair_b", 1), bytes_column("pair_phase"),
               bytes_column("pair_flags"), bytes_column("pair_inside"), reals_column("pair_lower", 1),
               reals_column("pair_upper", 1), words_column("witness_features", 4),
               reals_column("witness_points", 6)}),
-      contact_begin_{0},
-      region_begin_{0},
-      way_begin_{0},
       contacts_({bytes_column("contact_kind"), bytes_column("contact_sides"),
                  words_column("contact_features", 4), reals_column("contact_points", 6),
                  reals_column("contact_normal", 3), reals_column("contact_distance", 1),
@@ -116,7 +137,10 @@ ReportBlock::ReportBlock()
       regions_({words_column("region_levels", 1), words_column("region_ids", 4),
                 reals_column("region_points", 6), reals_column("region_distance", 1)}),
       ways_({reals_column("way_direction", 3), reals_column("way_point", 3), reals_column("way_fullness", 1),
-             reals_column("way_thickness", 1), reals_column("way_extent", 1)}) {
+             reals_column("way_thickness", 1), reals_column("way_extent", 1)}),
+      sweeps_({reals_column("sweep_time_of_impact", 1), reals_column("sweep_time_of_gap", 1)}),
+      impacts_({bytes_column("impact_kind"), bytes_column("impact_status"),
+                words_column("impact_features", 4), reals_column("impact_times", 2)}) {
   diagnostics_.open('[');
   infos_.open('[');
 }
@@ -132,13 +156,13 @@ void ReportBlock::add_pair(std::uint64_t number, const FrameReport& report, cons
   put_point(pairs_, pair.witness.point_a);
   put_point(pairs_, pair.witness.point_b);
   for (const Contact& contact : report.contacts(pair))
-    add_contact(contacts_, contact, since_in_file(contact.since, number, report));
+    add_contact(contacts_.rows(), contact, since_in_file(contact.since, number, report));
   for (const RegionDistance& distance : report.region_distances(pair))
-    add_region_distance(regions_, distance);
-  if (is_written(pair.way_out)) add_way_out(ways_, pair.way_out);
-  contact_begin_.push_back(static_cast<std::uint32_t>(contacts_.size()));
-  region_begin_.push_back(static_cast<std::uint32_t>(regions_.size()));
-  way_begin_.push_back(static_cast<std::uint32_t>(ways_.size()));
+    add_region_distance(regions_.rows(), distance);
+  if (is_written(pair.way_out)) add_way_out(ways_.rows(), pair.way_out);
+  if (has_sweep(pair)) sweeps_.rows().begin_row().put(pair.time_of_impact).put(pair.time_of_gap);
+  for (const Impact& impact : report.impacts(pair)) add_impact(impacts_.rows(), impact);
+  for (PairLists* const lists : {&contacts_, &regions_, &ways_, &sweeps_, &impacts_}) lists->end_pair();
 }
 
 void ReportBlock::add_diagnostics(std::uint64_t page_frame, const FrameReport& report,
@@ -164,22 +188,16 @@ void ReportBlock::add_info(std::uint64_t number, const FrameReport& report, bool
 bool ReportBlock::repeat_last(const Range& rows) const {
   const std::size_t count = rows.end - rows.begin;
   if (frames_.empty() || last_.end - last_.begin != count) return false;
-  const auto lists_repeat = [&](const PageColumns& lists, const Numbers& begins) {
-    return have_same_lengths(begins, last_.begin, rows.begin, count) &&
-           lists.are_same(begins[last_.begin], begins[rows.begin], begins[rows.end] - begins[rows.begin]);
-  };
-  return pairs_.are_same(last_.begin, rows.begin, count) && lists_repeat(contacts_, contact_begin_) &&
-         lists_repeat(regions_, region_begin_) && lists_repeat(ways_, way_begin_);
+  const std::array all_lists{&contacts_, &regions_, &ways_, &sweeps_, &impacts_};
+  return pairs_.are_same(last_.begin, rows.begin, count) &&
+         std::ranges::all_of(all_lists, [&](const PairLists* lists) {
+           return lists->are_same(last_.begin, rows.begin, count);
+         });
 }
 
 void ReportBlock::truncate_pairs(std::size_t count) {
   pairs_.truncate(count);
-  contacts_.truncate(contact_begin_[count]);
-  regions_.truncate(region_begin_[count]);
-  ways_.truncate(way_begin_[count]);
-  contact_begin_.resize(count + 1);
-  region_begin_.resize(count + 1);
-  way_begin_.resize(count + 1);
+  for (PairLists* const lists : {&contacts_, &regions_, &ways_, &sweeps_, &impacts_}) lists->truncate(count);
 }
 
 void ReportBlock::add(std::uint64_t page_frame, std::uint64_t number, const FrameReport& report,
@@ -196,11 +214,19 @@ void ReportBlock::add(std::uint64_t page_frame, std::uint64_t number, const Fram
   add_info(number, report, include_times);
 }
 
-std::vector<std::uint32_t> ReportBlock::pairs_with_way_out() const {
-  Numbers pairs;
-  for (std::uint32_t pair = 0; pair < pairs_.size(); ++pair)
-    if (way_begin_[pair] < way_begin_[pair + 1]) pairs.push_back(pair);
-  return pairs;
+void ReportBlock::add_sweeps_to(PageTable& table) const {
+  const std::vector<std::uint32_t> pairs = sweeps_.pairs();
+  std::vector<std::uint32_t> begins;
+  std::vector<std::uint32_t> ends;
+  for (const std::uint32_t pair : pairs) {
+    begins.push_back(impacts_.begin(pair));
+    ends.push_back(impacts_.begin(pair + 1));
+  }
+  table.add("sweep_pair", std::span(pairs));
+  sweeps_.rows().add_to(table);
+  table.add("sweep_impact_begin", std::span<const std::uint32_t>(begins));
+  table.add("sweep_impact_end", std::span<const std::uint32_t>(ends));
+  impacts_.rows().add_to(table);
 }
 
 std::string ReportBlock::table() const {
@@ -208,8 +234,8 @@ std::string ReportBlock::table() const {
   const auto add_numbers = [&table](std::string_view name, std::span<const std::uint32_t> numbers) {
     table.add(name, numbers);
   };
-  Numbers frame_begin;
-  Numbers frame_end;
+  std::vector<std::uint32_t> frame_begin;
+  std::vector<std::uint32_t> frame_end;
   for (const Range& rows : frames_) {
     frame_begin.push_back(static_cast<std::uint32_t>(rows.begin));
     frame_end.push_back(static_cast<std::uint32_t>(rows.end));
@@ -217,17 +243,17 @@ std::string ReportBlock::table() const {
   add_numbers("frame_pair_begin", frame_begin);
   add_numbers("frame_pair_end", frame_end);
   pairs_.add_to(table);
-  const std::size_t count = pairs_.size();
-  add_numbers("pair_contact_begin", std::span(contact_begin_).first(count));
-  add_numbers("pair_contact_end", std::span(contact_begin_).subspan(1));
-  add_numbers("pair_region_begin", std::span(region_begin_).first(count));
-  add_numbers("pair_region_end", std::span(region_begin_).subspan(1));
-  contacts_.add_to(table);
-  regions_.add_to(table);
-  if (ways_.size() > 0) {
-    add_numbers("way_pair", pairs_with_way_out());
-    ways_.add_to(table);
+  add_numbers("pair_contact_begin", contacts_.begins());
+  add_numbers("pair_contact_end", contacts_.ends());
+  add_numbers("pair_region_begin", regions_.begins());
+  add_numbers("pair_region_end", regions_.ends());
+  contacts_.rows().add_to(table);
+  regions_.rows().add_to(table);
+  if (ways_.rows().size() > 0) {
+    add_numbers("way_pair", ways_.pairs());
+    ways_.rows().add_to(table);
   }
+  if (sweeps_.rows().size() > 0) add_sweeps_to(table);
   table.add_key("diagnostics", diagnostics_.line() + "]");
   table.add_key("frames_info", infos_.line() + "]");
   return table.bytes();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <graze/report.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,37 @@ class PageColumns {
   std::size_t filled_ = 0;  ///< how many numbers of its row it has
 };
 
+/// Rows that belong to pairs: each pair has a list of them.
+class PairLists {
+ public:
+  using Numbers = std::vector<std::uint32_t>;
+
+  explicit PairLists(std::vector<PageColumns::Column> columns) : rows_(std::move(columns)) {}
+
+  /// The rows, to which those of the next pair are added.
+  PageColumns& rows() { return rows_; }
+  [[nodiscard]] const PageColumns& rows() const { return rows_; }
+  /// Ends the list of a pair.
+  void end_pair() { begins_.push_back(static_cast<std::uint32_t>(rows_.size())); }
+  /// Where the list of a pair begins. For the number of pairs it is where the last one ends.
+  [[nodiscard]] std::uint32_t begin(std::size_t pair) const { return begins_[pair]; }
+  /// Where the list of each pair begins, and where it ends.
+  [[nodiscard]] std::span<const std::uint32_t> begins() const {
+    return std::span(begins_).first(begins_.size() - 1);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> ends() const { return std::span(begins_).subspan(1); }
+  /// The pairs that have rows.
+  [[nodiscard]] Numbers pairs() const;
+  /// Whether the lists of `count` pairs from `a` on have the same bits as those from `b` on.
+  [[nodiscard]] bool are_same(std::size_t a, std::size_t b, std::size_t count) const;
+  /// Keeps the lists of the first pairs alone.
+  void truncate(std::size_t pairs);
+
+ private:
+  PageColumns rows_;
+  Numbers begins_{0};
+};
+
 /// Collects the reports of a block.
 class ReportBlock {
  public:
@@ -68,7 +100,6 @@ class ReportBlock {
   [[nodiscard]] std::string table() const;
 
  private:
-  using Numbers = std::vector<std::uint32_t>;
   struct Range {
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -81,17 +112,16 @@ class ReportBlock {
   /// Whether the rows from `rows.begin` on say what those of the last frame say.
   [[nodiscard]] bool repeat_last(const Range& rows) const;
   void truncate_pairs(std::size_t count);
-  [[nodiscard]] Numbers pairs_with_way_out() const;
+  void add_sweeps_to(PageTable& table) const;
 
   std::vector<Range> frames_;  ///< of each, its pairs
   PageColumns pairs_;
-  Range last_;             ///< the pairs of the last frame
-  Numbers contact_begin_;  ///< by pair, and once more for the end
-  Numbers region_begin_;   ///< by pair, and once more for the end
-  Numbers way_begin_;      ///< by pair, and once more for the end
-  PageColumns contacts_;
-  PageColumns regions_;
-  PageColumns ways_;  ///< a row for each pair that has a way out
+  Range last_;  ///< the pairs of the last frame
+  PairLists contacts_;
+  PairLists regions_;
+  PairLists ways_;     ///< a row for each pair that has a way out
+  PairLists sweeps_;   ///< a row for each pair that met or came near between two steps
+  PairLists impacts_;  ///< only such pairs have any
   JsonText diagnostics_;
   JsonText infos_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "io/decoded_report.hpp"
 #include "support/catch.hpp"
@@ -70,6 +71,28 @@ void compare_way_out(Differences& differences, const DecodedReport& decoded, std
   differences.expect(decoded.real_bits("way_extent", *row) == bits(way.extent));
 }
 
+/// A pair has a row among the sweeps if it met or came near between two steps.
+void compare_sweep(Differences& differences, const DecodedReport& decoded, std::size_t pair,
+                   const PairReport& played, std::span<const Impact> impacts) {
+  const std::optional<std::size_t> row = decoded.sweep_of(pair);
+  differences.expect(row.has_value() ==
+                     (played.time_of_impact < 1 || played.time_of_gap < 1 || !impacts.empty()));
+  if (!row) return;
+  differences.expect(decoded.real_bits("sweep_time_of_impact", *row) == bits(played.time_of_impact));
+  differences.expect(decoded.real_bits("sweep_time_of_gap", *row) == bits(played.time_of_gap));
+  const std::size_t first = decoded.word("sweep_impact_begin", *row);
+  REQUIRE(decoded.word("sweep_impact_end", *row) - first == impacts.size());
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    const std::size_t at = first + i;
+    differences.expect(decoded.byte("impact_kind", at) == static_cast<int>(impacts[i].kind));
+    differences.expect(decoded.byte("impact_status", at) == static_cast<int>(impacts[i].status));
+    compare_feature(differences, decoded, "impact_features", 4 * at, impacts[i].feature_a);
+    compare_feature(differences, decoded, "impact_features", 4 * at + 2, impacts[i].feature_b);
+    differences.expect(decoded.real_bits("impact_times", 2 * at) == bits(impacts[i].lower));
+    differences.expect(decoded.real_bits("impact_times", 2 * at + 1) == bits(impacts[i].upper));
+  }
+}
+
 std::uint32_t index_of(const PagePlay& scene, ObjectId id) {
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (scene.objects[i].id == id) return i;
@@ -91,6 +114,7 @@ void compare_pair(Differences& differences, const DecodedReport& decoded, std::s
   compare_point(differences, decoded, "witness_points", 6 * row, pair.witness.point_a);
   compare_point(differences, decoded, "witness_points", 6 * row + 3, pair.witness.point_b);
   compare_way_out(differences, decoded, row, pair.way_out);
+  compare_sweep(differences, decoded, row, pair, report.impacts(pair));
   const std::size_t contacts = decoded.word("pair_contact_begin", row);
   REQUIRE(decoded.word("pair_contact_end", row) - contacts == pair.contact_count);
   for (std::size_t i = 0; i < pair.contact_count; ++i) {
@@ -208,6 +232,7 @@ void compare_series(const DecodedPage& page, const PagePlay& scene, std::uint64_
     CHECK(series.at("ended").at(frame) == ended);
     CHECK(series.at("crossing").at(frame) == crossing);
     CHECK(series.at("inside").at(frame) == 0);
+    CHECK(series.at("impacts").at(frame) == report.impacts().size());
     CHECK(series.at("diagnostics").at(frame) == report.diagnostics().size());
     CHECK(series.at("step_ms").at(frame) == report.statistics().times.step_ms);
   }

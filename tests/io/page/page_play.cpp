@@ -76,9 +76,12 @@ Eigen::Isometry3d box_at(double moment) {
 
 PlayedObject& add(PagePlay& played, Scene& scene, io::PageObject object, std::uint64_t frame) {
   PlayedObject added;
-  added.id = scene.add(
-      object.mesh,
-      {.name = object.name, .motion = object.motion, .solid = object.solid, .user_data = object.user_data});
+  added.id = scene.add(object.mesh, {.name = object.name,
+                                     .motion = object.motion,
+                                     .solid = object.solid,
+                                     .user_data = object.user_data,
+                                     .self = object.motion == Motion::deformable,
+                                     .swept = object.motion == Motion::rigid});
   added.page = std::move(object);
   added.added = frame;
   played.objects.push_back(std::move(added));
@@ -106,6 +109,7 @@ PagePlay play() {
   played.settings.contact_distance = 0.03;
   played.settings.range = std::numeric_limits<double>::infinity();
   played.settings.region_distances = 60;
+  played.settings.swept_gap = 0.02;
   played.settings.threads = 1;
   Scene scene(played.settings);
   const auto cloth_mesh = cloth();

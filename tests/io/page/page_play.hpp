@@ -23,7 +23,7 @@ struct PlayedObject {
 };
 
 /// A small scene of deformable, rigid and fixed objects that come and go, with all its reports, which
-/// mark_report() has marked.
+/// mark_report() has marked. Deformable objects are tested against themselves, and the rigid one is swept.
 struct PagePlay {
   SceneSettings settings;
   std::vector<PlayedObject> objects;

@@ -29,9 +29,17 @@ TEST_CASE("page: the played scene has what a page must show") {
   std::size_t regions = 0;
   std::size_t crossing = 0;
   std::size_t sunk = 0;
+  std::size_t of_self = 0;
+  std::size_t impacts = 0;
+  std::size_t near_on_the_way = 0;
   for (const graze::FrameReport& report : scene.reports) {
     sunk += sunk_count(report);
-    for (const graze::PairReport& pair : report.pairs()) crossing += pair.inside == graze::Inside::crossing;
+    impacts += report.impacts().size();
+    for (const graze::PairReport& pair : report.pairs()) {
+      crossing += pair.inside == graze::Inside::crossing;
+      of_self += pair.a == pair.b;
+      near_on_the_way += pair.time_of_gap < 1;
+    }
     contacts += report.contacts().size();
     regions += report.region_distances().size();
   }
@@ -39,6 +47,9 @@ TEST_CASE("page: the played scene has what a page must show") {
   CHECK(regions > 1000);
   CHECK(crossing > 10);
   CHECK(sunk > 10);
+  CHECK(of_self > 10);
+  CHECK(impacts > 100);
+  CHECK(near_on_the_way > 10);
   CHECK(scene.reports[5].diagnostics().size() == 1);
 }
 
@@ -160,6 +171,27 @@ TEST_CASE("page: a way out has numbers in its own frame alone, and none has no b
   CHECK(decoded.report(0).first->has("way_pair"));
   REQUIRE(decoded.report(decoded.frame_count() - 1).first != decoded.report(0).first);
   CHECK_FALSE(decoded.report(decoded.frame_count() - 1).first->has("way_pair"));
+}
+
+TEST_CASE("page: a step without impacts has no bytes of them, and a page without any has no series of them") {
+  const TemporaryFolder folder;
+  const PagePlay& scene = page_play();
+  io::PageWriter page(folder / "swept.grazeview", {}, options_of(scene));
+  write_page(scene, page);
+  const DecodedPage swept(folder / "swept.grazeview");
+  for (std::uint64_t frame = 21; frame <= 24; ++frame) {  // nothing moves
+    const DecodedReport report(swept, frame);
+    for (std::size_t row = report.pair_begin(); row < report.pair_end(); ++row)
+      CHECK_FALSE(report.sweep_of(row));
+  }
+  CHECK(swept.report(0).first->has("impact_kind"));
+  io::PageWriter waves(folder / "waves.grazeview", {}, {});
+  write_waves(waves, grid(3), 4);
+  waves.close();
+  const DecodedPage plain(folder / "waves.grazeview");
+  CHECK_FALSE(plain.head().at("series").contains("impacts"));
+  CHECK_FALSE(plain.report(0).first->has("sweep_pair"));
+  CHECK_FALSE(plain.report(0).first->has("impact_kind"));
 }
 
 TEST_CASE("page: a diagnostic has the frame of the page and the index of the object") {

@@ -29,12 +29,21 @@ export interface Hooks {
   waysOut(): { from: number[]; to: number[] }[];
   /** Where their middles stand on the screen, in pixels of the canvas. */
   wayPlaces(): { x: number; y: number }[];
+  /** The ways of vertices that meet something between two steps, in the coordinates of the scene, and a place on the screen a quarter of the way along. */
+  impactWays(): { from: number[]; to: number[]; x: number; y: number }[];
+  /** Where features meet between two steps, in the coordinates of the scene. */
+  impactPlaces(): number[][];
   pixels(): { width: number; height: number; data: Uint8Array };
   link(): string;
   stats(): Record<string, number>;
 }
 
 const inScene = (stage: Stage, point: readonly number[]): number[] => point.map((x, k) => x + stage.origin[k]!);
+/** Where a share of a line stands on the screen. */
+function onScreen(stage: Stage, { a, b }: { a: Vec3; b: Vec3 }, share: number): { x: number; y: number } {
+  const [x, y] = new Screen(stage).at(a.map((from, k) => from + share * (b[k]! - from)) as unknown as Vec3)!;
+  return { x, y };
+}
 const median = (values: number[]): number => [...values].sort((p, q) => p - q)[values.length >> 1] ?? 0;
 
 export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: Lists, link: Link, ready: Promise<void>): Hooks {
@@ -52,7 +61,7 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
     drawn() {
       stage.draw();
       return {
-        contacts: stage.contacts.shown.length, arrows: stage.contacts.arrows.filter((arrow) => arrow).length, ways: stage.ways.shown.length, warnings: stage.contacts.warningCount,
+        contacts: stage.contacts.shown.length, arrows: stage.contacts.arrows.filter((arrow) => arrow).length, ways: stage.ways.shown.length, impacts: stage.impacts.places.length, warnings: stage.contacts.warningCount,
         lines: stage.lines.counts(), hiddenLevels: [...viewer.display.hiddenLevels], bounds: stage.lines.boundCount, highlights: stage.highlight.count,
         ghosts: stage.surfaces.flatMap((s, i) => (s.isGhost ? [i] : [])),
         surfaces: stage.surfaces.filter((s) => s.object.visible).length, rows: lists.rows.length,
@@ -74,10 +83,10 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
       return { from, to, key: selectionKey(viewer.contactSelection(contact, pair)) };
     },
     waysOut: () => stage.ways.shown.map(({ a, b }) => ({ from: inScene(stage, a), to: inScene(stage, b) })),
-    wayPlaces: () => stage.ways.shown.map(({ a, b }) => {
-      const [x, y] = new Screen(stage).at(a.map((from, k) => (from + b[k]!) / 2) as unknown as Vec3)!;
-      return { x, y };
-    }),
+    wayPlaces: () => stage.ways.shown.map((line) => onScreen(stage, line, 0.5)),
+    impactWays: () => stage.impacts.shown.map((line) => ({
+      from: inScene(stage, line.a), to: inScene(stage, line.b), ...onScreen(stage, line, 0.25) })),
+    impactPlaces: () => stage.impacts.places.map((place) => inScene(stage, place)),
     pixels: () => stage.pixels(),
     link: () => link.text(),
     stats: () => ({

@@ -186,6 +186,7 @@ function viewCommands(): Command[] {
     { group, keys: ['k'], text: 'contacts', run: () => flip('contacts') },
     { group, keys: ['m'], text: 'push directions', run: () => flip('pushes') },
     { group, keys: ['s'], text: 'ways out of pairs', run: () => flip('ways') },
+    { group, keys: ['q'], text: 'impacts between steps', run: () => flip('impacts') },
     { group, keys: ['o'], text: 'only contacts of the selection', run: () => {
       viewer.filter.onlySelected = !viewer.filter.onlySelected;
       viewer.changed();

@@ -19,6 +19,8 @@ export interface Palette {
   warning: string;
   inside: string;
   crossing: string;
+  /** The ways of vertices between two steps. */
+  way: string;
   levels: string[];
 }
 
@@ -26,14 +28,14 @@ const LIGHT: Palette = {
   background: '#f4f5f7',
   objects: ['#c3cedb', '#dccdb6', '#bfd4c6', '#d6c4d6', '#d3d2b8', '#b9d2d6'],
   back: '#8d8f96', edge: '#39424e', selected: '#0072b2', second: '#b35900', outline: '#16191d', neutral: '#5a6470',
-  warning: '#d55e00', inside: '#0072b2', crossing: '#8a3ea8', levels: LEVELS,
+  warning: '#d55e00', inside: '#0072b2', crossing: '#8a3ea8', way: '#0f7d8c', levels: LEVELS,
 };
 
 const DARK: Palette = {
   background: '#14171b',
   objects: ['#6b7d92', '#8d7b62', '#64806e', '#816c87', '#7d7c60', '#5f7d82'],
   back: '#3b3f47', edge: '#0b0d10', selected: '#6cc3f5', second: '#ffb454', outline: '#08090b', neutral: '#a4afbb',
-  warning: '#ff7a2e', inside: '#6cc3f5', crossing: '#d39bea', levels: LEVELS_ON_DARK,
+  warning: '#ff7a2e', inside: '#6cc3f5', crossing: '#d39bea', way: '#4fd1e0', levels: LEVELS_ON_DARK,
 };
 
 export function isDark(): boolean {

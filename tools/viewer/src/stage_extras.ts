@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import { button, byId, h, short } from './panels/dom';
-import { INSIDE_MARKS } from './data/inside';
+import { pairNames, pairText } from './data/pair_names';
 import { KINDS, SIDES } from './data/report';
 import { pick, Screen } from './view3d/picking';
 import type { Stage } from './view3d/scene3d';
@@ -53,7 +53,7 @@ export class StageExtras {
     const report = this.viewer.report;
     const { block } = report;
     const row = report.rowOf(found.a, found.b);
-    const names = `${head.objects[found.a]!.name} ${INSIDE_MARKS[block.insideOf(row)]} ${head.objects[found.b]!.name}`;
+    const names = pairText(pairNames(head, found.a, found.b, block.insideOf(row)));
     let text = `${names} · ${short(block.lower[row]!)}`;
     if (found.type === 'contact') {
       const contact = report.contactOf(row, found.kind, found.features);

@@ -32,6 +32,8 @@ export interface Display {
   pushes: boolean;
   /** Ways out of pairs whose surfaces pass through each other. */
   ways: boolean;
+  /** What meets between two steps. */
+  impacts: boolean;
   arrowLength: number;
   pointSize: number;
   diagnostics: boolean;
@@ -68,7 +70,7 @@ function newDisplay(): Display {
   return {
     surfaces: true, edges: true, opacity: 1, clip: false, clipAxis: 'x', clipAt: 0.5, clipFlipped: false,
     lines: true, hiddenLevels: new Set(), witnesses: true, bounds: 'off', boundsLevel: 1, boundsOfAll: false,
-    contacts: true, pushes: true, ways: true, arrowLength: 1, pointSize: 9, diagnostics: true, insides: true, names: false,
+    contacts: true, pushes: true, ways: true, impacts: true, arrowLength: 1, pointSize: 9, diagnostics: true, insides: true, names: false,
     hiddenObjects: new Set(), up: 'z', pick: 'auto',
   };
 }
@@ -167,7 +169,8 @@ export class Viewer {
   selectedObjects(): number[] {
     const s = this.selection;
     if (!s) return [];
-    return s.type === 'object' || s.type === 'feature' ? [s.object] : [s.a, s.b];
+    if (s.type === 'object' || s.type === 'feature') return [s.object];
+    return s.a === s.b ? [s.a] : [s.a, s.b];
   }
 
   contactSelection(contact: number, pair: number): Selection {

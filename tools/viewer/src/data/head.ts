@@ -25,7 +25,7 @@ export interface MeshHead {
 export const STAGES = ['read_ms', 'pairs_ms', 'refit_ms', 'jobs_ms', 'publish_ms'] as const;
 export const COUNTS = [
   'contacts', 'near', 'in_contact', 'began', 'ended', 'incomplete', 'stale', 'contacts_cut', 'inside', 'crossing',
-  'diagnostics',
+  'diagnostics', 'impacts',
 ] as const;
 export type Stage = (typeof STAGES)[number];
 export type Count = (typeof COUNTS)[number];
@@ -43,6 +43,7 @@ export interface Head {
   block: number;
   objects: ObjectHead[];
   meshes: MeshHead[];
+  /** `impacts` is missing where no frame has any. */
   series: Partial<Record<Stage | Count | 'step_ms', number[]>>;
   diverged?: number[];
   /** Page frames, and how many frames of the source are missing before each. */

@@ -102,10 +102,29 @@ export class ObjectState {
   notFinite: number[] = [];
   low = [0, 0, 0];
   high = [0, 0, 0];
+  /**
+   * Where the vertices were when the step began. It is null where the page does not know it, and where nobody asked for it.
+   * It is `world` where the object stood.
+   */
+  before: Float64Array | null = null;
   private shown = '';
+  private earlier: Float64Array | null = null;
 
   constructor(readonly index: number, readonly mesh: Mesh) {
     this.world = new Float64Array(mesh.rest);
+  }
+
+  /** Shows where the step to a frame begins, from the block of the frame before; forgets it without one. Goes before show(). */
+  showStart(block: MotionBlock | null, frame: number, head: Head): void {
+    const { first, motion } = head.objects[this.index]!;
+    const track = block?.track(this.index);
+    this.before = null;
+    if (!block) return;
+    this.before = this.world;
+    // A fixed object stands where it is placed, and another one in its first step.
+    if (motion === 'fixed' || first >= frame || !track) return;
+    this.before = this.earlier ??= new Float64Array(this.world.length);
+    track.write(track.slot(frame - 1), this.mesh.rest, this.earlier);
   }
 
   show(block: MotionBlock, blockIndex: number, frame: number, head: Head): void {

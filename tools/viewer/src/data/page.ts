@@ -1,7 +1,7 @@
 // What is in the opened page, and what is in memory of it?
 
 import { BlockCache, readJson, readTable, type ChunkSource } from './chunks';
-import { checkHead, type Head } from './head';
+import { checkHead, droppedAt, type Head } from './head';
 import { Mesh } from './mesh';
 import { MotionBlock, ObjectState } from './motion';
 import { FrameReport, ReportBlock } from './report';
@@ -37,9 +37,20 @@ export class Page {
   async load(frame: number, isWanted: () => boolean): Promise<FrameReport | null> {
     const k = this.blockOf(frame);
     const [motion, report] = await Promise.all([this.motions.get(`motion/${k}`), this.reports.get(`report/${k}`)]);
+    const shown = new FrameReport(report, frame - k * this.head.block, frame, this.head.frame_numbers[frame] ?? frame);
+    const meeting = this.hasStepBefore(frame) ? objectsThatMeet(shown) : new Set<number>();
+    const before = meeting.size > 0 ? await this.motions.get(`motion/${this.blockOf(frame - 1)}`) : null;
     if (!isWanted()) return null;
-    for (const object of this.objects) object.show(motion, k, frame, this.head);
-    return new FrameReport(report, frame - k * this.head.block, frame, this.head.frame_numbers[frame] ?? frame);
+    for (const object of this.objects) {
+      object.showStart(meeting.has(object.index) ? before : null, frame, this.head);
+      object.show(motion, k, frame, this.head);
+    }
+    return shown;
+  }
+
+  /** Whether the frame before is the source's frame before. */
+  private hasStepBefore(frame: number): boolean {
+    return frame > 0 && this.head.every === 1 && droppedAt(this.head, frame).before === 0;
   }
 
   /** Reads a block of reports past the cache. */
@@ -52,4 +63,14 @@ export class Page {
     void this.motions.get(`motion/${block}`).catch(() => {});
     void this.reports.get(`report/${block}`).catch(() => {});
   }
+}
+
+/** The objects whose features meet between two steps. */
+function objectsThatMeet(report: FrameReport): Set<number> {
+  const found = new Set<number>();
+  for (const [, pair] of report.impacts()) {
+    found.add(report.block.pairA[pair]!);
+    found.add(report.block.pairB[pair]!);
+  }
+  return found;
 }

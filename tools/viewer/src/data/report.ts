@@ -6,6 +6,7 @@ export const PHASES = ['near', 'began', 'touching', 'ended'] as const;
 export const KINDS = ['VV', 'VE', 'VF', 'EE', 'EF', 'FF'] as const;
 export const SIDES = ['none', 'front', 'back'] as const;
 export const FEATURE_KINDS = ['vertex', 'edge', 'face'] as const;
+export const IMPACT_STATUSES = ['certain', 'possible', 'at_start'] as const;
 /** In the sides of a contact: two edges are sunk. */
 const SUNK = 16;
 
@@ -18,6 +19,8 @@ export interface WayOut {
   thickness: number;
   extent: number;
 }
+/** When the surfaces of a pair meet or come near between two steps, and its rows of impacts. */
+export interface Sweep { timeOfImpact: number; timeOfGap: number; begin: number; end: number }
 export interface FrameInfo { frame: number; tag: string; complete: boolean; statistics: Record<string, unknown> }
 
 /** The reports of a block of frames: columns, with one entry for each pair, contact and region distance. */
@@ -59,6 +62,12 @@ export class ReportBlock {
   private readonly wayFullness: Float64Array;
   private readonly wayThickness: Float64Array;
   private readonly wayExtent: Float64Array;
+  readonly impactKind: Uint8Array;
+  readonly impactStatus: Uint8Array;
+  readonly impactFeatures: Uint32Array;
+  readonly impactTimes: Float64Array;
+  /** The rows of sweeps by their pairs. */
+  private readonly sweepOfPair: Map<number, Sweep>;
 
   constructor(table: Table, private readonly saysSunk: boolean) {
     this.byteLength = table.byteLength;
@@ -96,6 +105,11 @@ export class ReportBlock {
     this.wayFullness = table.f64('way_fullness');
     this.wayThickness = table.f64('way_thickness');
     this.wayExtent = table.f64('way_extent');
+    this.impactKind = table.u8('impact_kind');
+    this.impactStatus = table.u8('impact_status');
+    this.impactFeatures = table.u32('impact_features');
+    this.impactTimes = table.f64('impact_times');
+    this.sweepOfPair = sweepsOf(table);
   }
 
   /** Whether an object of a pair is inside the other, as a number of INSIDES. */
@@ -121,12 +135,24 @@ export class ReportBlock {
     };
   }
 
+  /** What a pair met between two steps, or null where it met nothing and came near nothing. */
+  sweepOf(row: number): Sweep | null {
+    return this.sweepOfPair.get(row) ?? null;
+  }
+
   /** The row of a pair in the i-th frame of the block, or -1. */
   rowOf(i: number, a: number, b: number): number {
     for (let row = this.begin[i]!; row < this.end[i]!; ++row)
       if (this.pairA[row] === a && this.pairB[row] === b) return row;
     return -1;
   }
+}
+
+function sweepsOf(table: Table): Map<number, Sweep> {
+  const [impact, gap] = [table.f64('sweep_time_of_impact'), table.f64('sweep_time_of_gap')];
+  const [begin, end] = [table.u32('sweep_impact_begin'), table.u32('sweep_impact_end')];
+  return new Map([...table.u32('sweep_pair')].map((pair, i) =>
+    [pair, { timeOfImpact: impact[i]!, timeOfGap: gap[i]!, begin: begin[i]!, end: end[i]! }]));
 }
 
 /** One frame's part of a block. Pairs and contacts are named by their rows in the block. */
@@ -149,6 +175,13 @@ export class FrameReport {
   *contacts(): Generator<[contact: number, pair: number]> {
     for (const pair of this.pairs())
       for (let c = this.block.contactBegin[pair]!; c < this.block.contactEnd[pair]!; ++c) yield [c, pair];
+  }
+
+  *impacts(): Generator<[impact: number, pair: number]> {
+    for (const pair of this.pairs()) {
+      const sweep = this.block.sweepOf(pair);
+      for (let i = sweep?.begin ?? 0; i < (sweep?.end ?? 0); ++i) yield [i, pair];
+    }
   }
 
   rowOf(a: number, b: number): number {

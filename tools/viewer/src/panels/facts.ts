@@ -1,7 +1,7 @@
 // What are the numbers of what is selected?
 
 import { INSIDES } from '../data/inside';
-import { FEATURE_KINDS, KINDS, PHASES, SIDES } from '../data/report';
+import { FEATURE_KINDS, IMPACT_STATUSES, KINDS, PHASES, SIDES } from '../data/report';
 import type { Selection, Viewer } from '../viewer';
 
 export type Fact = string | number | boolean | null | readonly Fact[] | { readonly [key: string]: Fact };
@@ -44,8 +44,8 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
   if (row < 0) return { ...names, listed: false };
   const { block } = report;
   const flags = block.flags[row]!;
-  // Without a solid there is no inside, and `none` would say nothing of surfaces that pierce each other.
-  const hasSolid = head.objects[a]!.solid || head.objects[b]!.solid;
+  // Without a solid there is no inside, nor of an object with itself, and `none` would say nothing of surfaces that pierce each other.
+  const hasSolid = a !== b && (head.objects[a]!.solid || head.objects[b]!.solid);
   const way = block.wayOutOf(row);
   const features = block.witnessFeatures.subarray(4 * row, 4 * row + 4);
   const kinds: Record<string, number> = {};
@@ -68,7 +68,25 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
     contacts: block.contactEnd[row]! - block.contactBegin[row]!, contacts_by_kind: kinds,
     region_distances: block.regionEnd[row]! - block.regionBegin[row]!, region_distances_by_level: levels,
     ...(way ? { way_out: { ...way } } : {}),
+    ...sweepFacts(viewer, row, a, b),
   };
+}
+
+/** What the pair met between the step before and this one; nothing where it met nothing and came near nothing. */
+function sweepFacts(viewer: Viewer, row: number, a: number, b: number): Facts {
+  const { block } = viewer.report!;
+  const sweep = block.sweepOf(row);
+  if (!sweep) return {};
+  const impacts: Facts[] = [];
+  for (let i = sweep.begin; i < sweep.end; ++i) {
+    const features = block.impactFeatures.subarray(4 * i, 4 * i + 4);
+    impacts.push({
+      kind: KINDS[block.impactKind[i]!] ?? '?', status: IMPACT_STATUSES[block.impactStatus[i]!] ?? '?',
+      lower: block.impactTimes[2 * i]!, upper: block.impactTimes[2 * i + 1]!,
+      feature_a: feature(viewer, a, features[0]!, features[1]!), feature_b: feature(viewer, b, features[2]!, features[3]!),
+    });
+  }
+  return { time_of_impact: sweep.timeOfImpact, time_of_gap: sweep.timeOfGap, impacts };
 }
 
 export function contactFacts(viewer: Viewer, s: Selection & { type: 'contact' }): Facts {

@@ -3,6 +3,7 @@
 import { button, copy, h } from './dom';
 import { frameFacts, numberText, selectionFacts, type Fact, type Facts } from './facts';
 import { insideWords } from '../data/inside';
+import { pairText } from '../data/pair_names';
 import { KINDS } from '../data/report';
 import type { Selection, Viewer } from '../viewer';
 
@@ -11,6 +12,8 @@ const LABELS: Record<string, string> = { type: '', a: 'a', b: 'b' };
 const IN_HEADING = new Set(['type', 'kind', 'name', 'a', 'b', 'object', 'serial', 'serial_a', 'serial_b']);
 
 const LONG_TEXT = 60;
+/** Of more rows of one list the first are shown. A copy has all. */
+const MOST_ROWS = 50;
 
 export class Inspector {
   readonly element = h('div', { id: 'inspector', 'data-testid': 'inspector' });
@@ -46,7 +49,7 @@ export class Inspector {
     const pair = this.viewer.selectedPair();
     const row = pair ? this.viewer.report!.rowOf(pair.a, pair.b) : -1;
     const objects = pair ? [this.viewer.page!.head.objects[pair.a]!, this.viewer.page!.head.objects[pair.b]!] : [];
-    if (row < 0 || !objects.some((object) => object.solid)) return null;
+    if (row < 0 || pair!.a === pair!.b || !objects.some((object) => object.solid)) return null;
     const inside = this.viewer.report!.block.insideOf(row);
     return h('p', { class: `inside in${inside}`, 'data-testid': 'inside-words' }, insideWords(objects[0]!.name, objects[1]!.name, inside));
   }
@@ -72,7 +75,8 @@ export class Inspector {
         const [a, b] = [report.block.pairA[row]!, report.block.pairB[row]!];
         if (a !== selection.object && b !== selection.object) continue;
         if (bar.childElementCount >= 12) break;
-        link(`↔ ${viewer.page!.head.objects[a === selection.object ? b : a]!.name}`, { type: 'pair', a, b });
+        const other = a === b ? 'itself' : viewer.page!.head.objects[a === selection.object ? b : a]!.name;
+        link(`↔ ${other}`, { type: 'pair', a, b });
       }
     }
     bar.append(button('×', 'deselect', 'Select nothing (Esc)', () => viewer.select(null)));
@@ -87,9 +91,15 @@ function hint(): HTMLElement {
 
 function heading(facts: Facts): string {
   if (facts.type === 'object') return `${facts.name}`;
-  if (facts.type === 'pair') return `${facts.a} – ${facts.b}`;
-  if (facts.type === 'contact') return `${facts.kind} · ${facts.a} – ${facts.b}`;
+  if (facts.type === 'pair') return namesIn(facts);
+  if (facts.type === 'contact') return `${facts.kind} · ${namesIn(facts)}`;
   return `${facts.kind} ${facts.index} of ${facts.object}`;
+}
+
+/** Serials tell objects apart, where names may repeat. */
+function namesIn({ a, b, serial_a, serial_b }: Facts): string {
+  const isOfSelf = serial_a === serial_b;
+  return pairText({ a: String(a), sign: isOfSelf ? '' : '–', b: isOfSelf ? 'with itself' : String(b) });
 }
 
 function addFact(table: HTMLElement, key: string, fact: Fact, isFrame: boolean): void {
@@ -105,11 +115,30 @@ function addFact(table: HTMLElement, key: string, fact: Fact, isFrame: boolean):
     for (const [name, value] of entries) addFact(table, name, value, isFrame);
     return;
   }
+  if (isList(fact)) {
+    addList(table, key, fact);
+    return;
+  }
   if (isPoint(fact)) {
     fact.forEach((x, i) => addRow(table, i === 0 ? key : '', numberText(x), 'xyz'[i]!, `${key}.${'xyz'[i]}`));
     return;
   }
   addRow(table, key, text(fact), '', key);
+}
+
+const isList = (fact: Fact): fact is readonly Facts[] =>
+  Array.isArray(fact) && fact.length > 0 && fact.every((part) => part !== null && typeof part === 'object' && !Array.isArray(part));
+
+/** Each part has a heading, with its kind and status, and below it its numbers. */
+function addList(table: HTMLElement, key: string, list: readonly Facts[]): void {
+  const one = key.replace(/s$/, '');
+  list.slice(0, MOST_ROWS).forEach((part, i) => {
+    const { kind, status, ...numbers } = part;
+    table.append(h('h3', { 'data-testid': `${one}-${i}` }, `${one} ${i + 1} of ${list.length}: ${text(kind!)}, ${text(status!).replaceAll('_', ' ')}`));
+    for (const [name, value] of Object.entries(numbers)) addRow(table, name, text(value), '', `${key}.${i}.${name}`);
+  });
+  if (list.length > MOST_ROWS)
+    table.append(h('p', { class: 'quiet' }, `${list.length - MOST_ROWS} more are in what “Copy” copies.`));
 }
 
 function isPoint(fact: Fact): fact is readonly number[] {

@@ -45,11 +45,16 @@ export class Legend {
       ++classes[sideClass(report.sideA(contact), report.sideB(contact))]!;
     }
     const ways = [...report.pairs()].filter((row) => report.block.wayOutOf(row)?.direction.some((x) => x !== 0)).length;
+    const impacts = [...report.impacts()].length;
     this.element.replaceChildren(
       this.group('Contacts', KINDS.map((_, kind) => this.kindItem(kind, shown[kind]!, kinds[kind]!))),
       this.group('Sides', classes.map((n, i) => h('span', { class: 'key', title: `Contacts shown whose side is: ${CLASS_NAMES[i]}` },
         swatch(palette().neutral, CLASS_STYLES[i]!), CLASS_NAMES[i]!, h('small', {}, count(n))))),
-      ways > 0 ? this.group('Pairs', [this.waysItem(ways)]) : '',
+      ways + impacts > 0 ? this.group('Pairs', [
+        ...(ways > 0 ? [this.flagItem('ways', 'way out', ways, palette().crossing,
+          'Ways out of pairs whose surfaces pass through each other, as long as they are thick (S)')] : []),
+        ...(impacts > 0 ? [this.flagItem('impacts', 'impact', impacts, palette().way,
+          'What meets between the step before and this one, and the ways of its vertices (Q)')] : [])]) : '',
       // Only scenes that ask for region distances have any.
       report.block.regionLevels.length > 0 ? this.group('Lines', this.levelItems()) : '');
   }
@@ -70,15 +75,14 @@ export class Legend {
       } }, swatch(KIND_COLOURS[kind]!, 'disc'), KINDS[kind]!, h('small', {}, shown === all ? count(all) : `${count(shown)}/${count(all)}`));
   }
 
-  private waysItem(ways: number): HTMLElement {
+  private flagItem(name: 'ways' | 'impacts', text: string, n: number, colour: string, title: string): HTMLElement {
     const { display } = this.viewer;
     return h('button', {
-      type: 'button', class: 'key', 'aria-pressed': String(display.ways), 'data-testid': 'ways',
-      title: 'Ways out of pairs whose surfaces pass through each other, as long as they are thick (S)',
+      type: 'button', class: 'key', 'aria-pressed': String(display[name]), 'data-testid': name, title,
       click: () => {
-        display.ways = !display.ways;
+        display[name] = !display[name];
         this.viewer.changed();
-      } }, swatch(palette().crossing, 'line'), 'way out', h('small', {}, count(ways)));
+      } }, swatch(colour, 'line'), text, h('small', {}, count(n)));
   }
 
   private levelItems(): HTMLElement[] {

@@ -1,7 +1,8 @@
 // Which objects, pairs and contacts are there, and how does one find one of them?
 
 import { count, h, short, swatch } from './dom';
-import { groupOf, INSIDE_GROUPS, INSIDE_MARKS, INSIDES, insideWords, SHORT_GROUPS } from '../data/inside';
+import { groupOf, INSIDE_GROUPS, INSIDES, insideWords, SHORT_GROUPS } from '../data/inside';
+import { pairNames, pairText, type PairNames } from '../data/pair_names';
 import { KIND_COLOURS, palette, PHASE_COLOURS } from '../palette';
 import { KINDS, PHASES } from '../data/report';
 import type { Selection, Viewer } from '../viewer';
@@ -13,7 +14,7 @@ interface Row {
   names?: Names;
 }
 /** The names of a pair's objects, whether one is inside the other, and what stands before them. */
-interface Names { lead?: string; a: string; b: string; inside: number }
+interface Names extends PairNames { lead?: string; inside: number }
 interface ColumnHead { name: string; title: string; isNumber: boolean }
 
 const COLUMNS: Record<Tab, ColumnHead[]> = {
@@ -41,15 +42,15 @@ export function selectionKey(s: Selection): string {
   return `f${s.object}-${s.kind}-${s.index}`;
 }
 
-const joined = ({ lead, a, b, inside }: Names): string => `${lead ? `${lead}  ` : ''}${a} ${INSIDE_MARKS[inside]} ${b}`;
+const joined = (names: Names): string => `${names.lead ? `${names.lead}  ` : ''}${pairText(names)}`;
 
 function titleOf({ cells, names }: Row): string {
   return names?.inside ? `${cells[0]}\n${insideWords(names.a, names.b, names.inside)}` : String(cells[0]);
 }
 
 /** Each of two names gives way where both do not fit, so that the end of neither pushes the other out. */
-function twoNames({ lead, a, b, inside }: Names): HTMLElement {
-  return h('span', { class: 'two' }, lead && h('i', {}, lead), h('span', {}, a), h('i', { class: `mark in${inside}` }, INSIDE_MARKS[inside]), h('span', {}, b));
+function twoNames({ lead, a, sign, b, inside }: Names): HTMLElement {
+  return h('span', { class: 'two' }, lead && h('i', {}, lead), h('span', {}, a), sign && h('i', { class: `mark in${inside}` }, sign), h('span', {}, b));
 }
 
 export class Lists {
@@ -117,7 +118,7 @@ export class Lists {
     const pairs = new Uint32Array(objects.length);
     const contacts = new Uint32Array(objects.length);
     for (const row of report.pairs())
-      for (const object of [block.pairA[row]!, block.pairB[row]!]) {
+      for (const object of new Set([block.pairA[row]!, block.pairB[row]!])) {
         ++pairs[object]!;
         contacts[object]! += block.contactEnd[row]! - block.contactBegin[row]!;
       }
@@ -140,11 +141,12 @@ export class Lists {
       const [a, b] = [block.pairA[row]!, block.pairB[row]!];
       const flags = block.flags[row]!;
       const marks = (flags & 1 ? ' incomplete' : '') + (flags & 2 ? ' stale' : '') + (flags & 4 ? ' contacts_cut' : '');
-      const names = { a: head.objects[a]!.name, b: head.objects[b]!.name, inside };
+      const hasImpacts = (block.sweepOf(row)?.timeOfImpact ?? 1) < 1;
+      const names = { ...pairNames(head, a, b, inside), inside };
       const name = joined(names);
       rows.push({
         key: `p${a}-${b}`, selection: { type: 'pair', a, b }, colour: PHASE_COLOURS[phase]!, isFaint: phase === 3,
-        text: `${name} ${PHASES[phase]} ${inside ? `${INSIDES[inside]} ${INSIDE_GROUPS[groupOf(inside)]}` : ''}${marks} ${head.objects[a]!.serial} ${head.objects[b]!.serial}`.toLowerCase(),
+        text: `${name} ${PHASES[phase]} ${inside ? `${INSIDES[inside]} ${INSIDE_GROUPS[groupOf(inside)]}` : ''}${marks}${hasImpacts ? ' impact' : ''} ${head.objects[a]!.serial} ${head.objects[b]!.serial}`.toLowerCase(),
         names: { ...names, b: names.b + (flags ? ' ⚠' : '') },
         cells: [name, block.lower[row]!, block.contactEnd[row]! - block.contactBegin[row]!],
       });
@@ -162,10 +164,8 @@ export class Lists {
       if (!viewer.passes(contact, pair)) continue;
       const selection = viewer.contactSelection(contact, pair);
       const kind = block.kind[contact]!;
-      const names = {
-        lead: KINDS[kind] ?? '?', a: head.objects[block.pairA[pair]!]!.name, b: head.objects[block.pairB[pair]!]!.name,
-        inside: block.insideOf(pair),
-      };
+      const inside = block.insideOf(pair);
+      const names = { lead: KINDS[kind] ?? '?', ...pairNames(head, block.pairA[pair]!, block.pairB[pair]!, inside), inside };
       rows.push({
         key: selectionKey(selection), selection, colour: KIND_COLOURS[kind] ?? '#999999', isFaint: false,
         text: joined(names).toLowerCase(), names,

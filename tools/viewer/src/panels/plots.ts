@@ -33,7 +33,9 @@ export class Plots {
     const { neutral, selected, second } = palette();
     const green = isDark() ? '#19c795' : '#009e73';
     return [
-      { title: 'Contacts', id: 'contacts', lines: [{ label: 'contacts', colour: palette().warning, values: series('contacts') }] },
+      { title: 'Contacts', id: 'contacts', lines: [
+        { label: 'contacts', colour: palette().warning, values: series('contacts') },
+        ...(series('impacts').length > 0 ? [{ label: 'impacts', colour: palette().way, values: series('impacts') }] : [])] },
       { title: 'Pairs', id: 'pairs', lines: [
         { label: 'near', colour: neutral, values: series('near') },
         { label: 'in contact', colour: green, values: series('in_contact') },

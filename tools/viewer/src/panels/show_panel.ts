@@ -95,6 +95,7 @@ export class ShowPanel {
   private contacts(): HTMLElement {
     return this.group('Contacts', this.flag('contacts', 'Points', 'K'), this.flag('pushes', 'Push directions', 'M'),
       this.flag('ways', 'Ways out of pairs', 'S'),
+      this.flag('impacts', 'Impacts between steps', 'Q'),
       this.flag('diagnostics', 'Diagnostics'),
       this.slider('pointSize', 'Point size', 3, 20), this.slider('arrowLength', 'Arrow length', 0.1, 4));
   }

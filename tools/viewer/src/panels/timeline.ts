@@ -80,6 +80,7 @@ export class Timeline {
     return [
       { name: 'began', colour: () => PHASE_COLOURS[1]!, test: has('began') },
       { name: 'ended', colour: () => PHASE_COLOURS[3]!, test: has('ended') },
+      { name: 'impacts', colour: () => palette().way, test: has('impacts'), isState: true },
       { name: 'inside', colour: () => palette().inside, test: has('inside'), isState: true },
       { name: 'crossing', colour: () => palette().crossing, test: has('crossing'), isState: true },
       { name: 'incomplete', colour: () => '#cc79a7', test: (f) => has('incomplete')(f) || has('contacts_cut')(f) },

@@ -6,7 +6,7 @@ import { channels } from '../palette';
 export type Vec3 = readonly [number, number, number];
 
 /** Shapes of a point. What they mean is said where they are used. */
-export const SHAPE = { disc: 0, ring: 1, diamond: 2, small: 3, warning: 4, halo: 5 } as const;
+export const SHAPE = { disc: 0, ring: 1, diamond: 2, small: 3, warning: 4, halo: 5, cross: 6 } as const;
 
 /** Points and segments lie on surfaces. Drawn this little nearer to the eye, they are not cut by them. */
 const PULL = 0.996;
@@ -34,6 +34,7 @@ const POINT_FRAGMENT = /* glsl */ `
     float d = length(p) - r;
     if (vShape > 1.5 && vShape < 2.5) d = (abs(p.x) + abs(p.y)) * 0.8 - r * 0.9;
     if (vShape > 3.5 && vShape < 4.5) d = max(abs(p.x) * 0.87 - p.y * 0.5, p.y) - r * 0.55;
+    if (vShape > 5.5) d = max(min(abs(p.x - p.y), abs(p.x + p.y)) * 0.707 - 0.38 * r, max(abs(p.x), abs(p.y)) - 0.8 * r);
     float cover = clamp(0.5 - d, 0.0, 1.0);
     float border = min(1.2 * ratio, 0.09 * vSize);
     float inner = clamp(0.5 - (d + border), 0.0, 1.0);
@@ -46,7 +47,7 @@ const POINT_FRAGMENT = /* glsl */ `
       float mark = step(abs(p.x), 0.09 * r + 0.5) * step(abs(p.y + 0.02 * r), 0.3 * r);
       colour = mix(colour, outline, mark);
     }
-    if (vShape > 4.5) { cover *= 1.0 - clamp(0.5 - (d + 2.5 * ratio), 0.0, 1.0); colour = vTint.rgb; }
+    if (vShape > 4.5 && vShape < 5.5) { cover *= 1.0 - clamp(0.5 - (d + 2.5 * ratio), 0.0, 1.0); colour = vTint.rgb; }
     float alpha = cover * vTint.a * opacity;
     if (alpha < 0.02) discard;
     gl_FragColor = vec4(colour, alpha);

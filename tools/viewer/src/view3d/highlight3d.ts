@@ -3,6 +3,7 @@
 import { PointBatch, SegmentBatch, SHAPE } from './batches3d';
 import { Bounds } from './camera3d';
 import type { ObjectState } from '../data/motion';
+import { meetingOf } from './meetings';
 import { palette } from '../palette';
 import type { Layer, Stage } from './scene3d';
 import type { Viewer } from '../viewer';
@@ -121,6 +122,11 @@ function addPair(bounds: Bounds, viewer: Viewer, row: number): void {
   for (let c = block.contactBegin[row]!; c < block.contactEnd[row]!; ++c) {
     bounds.add(block.points.subarray(6 * c, 6 * c + 3));
     bounds.add(block.points.subarray(6 * c + 3, 6 * c + 6));
+  }
+  const sweep = block.sweepOf(row);
+  for (let i = sweep?.begin ?? 0; i < (sweep?.end ?? 0); ++i) {
+    const meeting = meetingOf(viewer.page!, viewer.report!, i, row);
+    if (meeting) bounds.add(meeting.place.toArray());
   }
   const sizes = [block.pairA[row]!, block.pairB[row]!].map((i) => {
     const object = viewer.page!.objects[i]!;

@@ -64,7 +64,7 @@ function pickPair(stage: Stage, x: number, y: number): Selection | null {
   const screen = new Screen(stage);
   let best = -1;
   let least = 6;
-  const lines = [...stage.lines.shown, ...stage.ways.shown];
+  const lines = [...stage.lines.shown, ...stage.ways.shown, ...stage.impacts.shown];
   lines.forEach((line, i) => {
     const [p, q] = [screen.at(line.a), screen.at(line.b)];
     if (!p || !q) return;

@@ -5,6 +5,7 @@ import { Bounds, Eye } from './camera3d';
 import { ContactsLayer } from './contacts3d';
 import { objectsInside } from '../data/inside';
 import { HighlightLayer } from './highlight3d';
+import { ImpactsLayer } from './impacts3d';
 import { LinesLayer } from './lines3d';
 import { channels, palette } from '../palette';
 import { SurfaceView } from './surfaces3d';
@@ -37,6 +38,7 @@ export class Stage {
   readonly contacts = new ContactsLayer();
   readonly lines = new LinesLayer();
   readonly ways = new WaysLayer();
+  readonly impacts = new ImpactsLayer();
   readonly highlight = new HighlightLayer();
   /** The middle of the scene in the first frame. Everything is drawn relative to it, so that floats do. */
   origin: [number, number, number] = [0, 0, 0];
@@ -47,7 +49,7 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly clip = new THREE.Vector4(0, 0, 0, 1e30);
-  private readonly layers: Layer[] = [this.lines, this.contacts, this.ways, this.highlight];
+  private readonly layers: Layer[] = [this.lines, this.contacts, this.ways, this.impacts, this.highlight];
   private isAsked = false;
   private isWanted = false;
   private isStale = true;
