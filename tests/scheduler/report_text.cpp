@@ -47,6 +47,21 @@ bool in_contact(const PairReport& pair) {
   return pair.phase == PairPhase::began || pair.phase == PairPhase::touching;
 }
 
+/// What a pair met on the way. It is empty where nothing meets or comes near.
+std::string sweep_text(const PairReport& pair, std::span<const Impact> impacts) {
+  std::ostringstream out;
+  out << std::hexfloat;
+  if (pair.time_of_impact != 1 || pair.time_of_gap != 1)
+    out << "\n  meets at " << pair.time_of_impact << " near at " << pair.time_of_gap;
+  for (const Impact& impact : impacts) {
+    out << "\n  impact " << to_string(impact.kind) << " " << to_string(impact.status) << " " << impact.lower
+        << ".." << impact.upper;
+    write(out, impact.feature_a);
+    write(out, impact.feature_b);
+  }
+  return out.str();
+}
+
 /// Whether the numbers of a way out go together. What passes through each other is not apart.
 bool is_consistent(const WayOut& way, const DistanceBounds& distance) {
   const bool has_direction = way.direction != Eigen::Vector3d::Zero();
@@ -62,16 +77,40 @@ bool is_sunk_edge_pair(const Contact& contact) {
          contact.side_b == Side::back;
 }
 
+std::string problem_of_sweep(const PairReport& pair, std::span<const Impact> impacts) {
+  if (!(pair.time_of_impact >= 0 && pair.time_of_impact <= 1 && pair.time_of_gap >= 0 &&
+        pair.time_of_gap <= 1))
+    return "times of a sweep";
+  if (!impacts.empty() && pair.time_of_impact != impacts[0].lower) return "time of impact";
+  const auto key = [](const Impact& i) { return std::tie(i.lower, i.kind, i.feature_a, i.feature_b); };
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    const Impact& impact = impacts[i];
+    if (!(impact.lower >= 0 && impact.lower <= impact.upper && impact.upper <= 1))
+      return "bounds of an impact";
+    if (impact.kind != ContactKind::VF && impact.kind != ContactKind::EE) return "kind of an impact";
+    if (impact.status == ImpactStatus::at_start && impact.upper != 0) return "an impact at the start";
+    if (i > 0 && !(key(impacts[i - 1]) < key(impact))) return "order of impacts";
+  }
+  return {};
+}
+
 std::string problem_of(const FrameReport& report, const PairReport& pair) {
+  // A surface may have no features that are tested against each other.
+  const bool may_be_infinite = pair.a == pair.b && !(in_contact(pair) && pair.complete);
   if (!(pair.distance.lower >= 0) || !(pair.distance.lower <= pair.distance.upper) ||
-      !std::isfinite(pair.distance.upper))
+      !(std::isfinite(pair.distance.upper) || may_be_infinite))
     return "bounds";
   if (!pair.witness.point_a.allFinite() || !pair.witness.point_b.allFinite()) return "witness";
   if (!is_consistent(pair.way_out, pair.distance)) return "way out";
   const auto contacts = report.contacts(pair);
-  if (!contacts.empty() && (!in_contact(pair) || (!pair.complete && !pair.contacts_cut)))
+  const bool is_sweep_undone = !pair.complete && pair.time_of_impact == 0 && pair.impact_count == 0;
+  if (!contacts.empty() && (!in_contact(pair) || (!pair.complete && !pair.contacts_cut && !is_sweep_undone)))
     return "contacts without being in contact";
-  if (pair.contacts_cut && (!in_contact(pair) || pair.complete)) return "cut, but not in contact or complete";
+  // A limit of contacts cuts impacts, too.
+  if (pair.contacts_cut && ((!in_contact(pair) && pair.impact_count == 0) || pair.complete))
+    return "cut, but not in contact or complete";
+  const std::string problem = problem_of_sweep(pair, report.impacts(pair));
+  if (!problem.empty()) return problem;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
     if (!std::isfinite(contact.distance) || !contact.point_a.allFinite() || !contact.point_b.allFinite() ||
@@ -87,7 +126,7 @@ std::string problem_of(const FrameReport& report, const PairReport& pair) {
 }  // namespace
 
 std::string text_of(const FrameReport& report, const PairReport& pair) {
-  return text_of(pair, report.contacts(pair));
+  return text_of(pair, report.contacts(pair)) + sweep_text(pair, report.impacts(pair));
 }
 
 std::string text_of(const PairReport& pair, std::span<const Contact> contacts) {
@@ -131,16 +170,22 @@ std::string difference_of(const FrameReport& left, const FrameReport& right) {
 
 std::string inconsistency_of(const FrameReport& report) {
   std::size_t next_contact = 0;
+  std::size_t impacts = 0;
   bool complete = true;
   for (const PairReport& pair : report.pairs()) {
     if (pair.first_contact != next_contact) return "the rows' contacts do not follow one another";
     next_contact += pair.contact_count;
     if (next_contact > report.contacts().size()) return "a row's contacts are beyond the report's";
+    if (pair.impact_count > 0 && pair.first_impact != impacts)
+      return "the rows' impacts do not follow one another";
+    impacts += pair.impact_count;
+    if (impacts > report.impacts().size()) return "a row's impacts are beyond the report's";
     complete = complete && pair.complete;
     const std::string problem = problem_of(report, pair);
     if (!problem.empty()) return problem + ": " + text_of(report, pair);
   }
   if (next_contact != report.contacts().size()) return "contacts of no row";
+  if (impacts != report.impacts().size()) return "impacts of no row";
   if (complete != report.complete()) return "complete() is not that of all rows";
   return {};
 }

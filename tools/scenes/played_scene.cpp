@@ -7,6 +7,7 @@
 
 #include "models/models.hpp"
 #include "scenes/grid.hpp"
+#include "scenes/passing_scenes.hpp"
 #include "scenes/random.hpp"
 #include "scenes/scene_parts.hpp"
 #include "scenes/seam_scene.hpp"
@@ -283,7 +284,7 @@ class CrowdScene : public PlayedScene {
 }  // namespace
 
 std::vector<std::string_view> played_scene_names() {
-  return {"paths", "pile", "pair", "skinned", "crowd", "nearest", "solids", "limits", "carrying", "seams"};
+  return {"paths", "pile", "pair", "skinned", "crowd", "nearest", "solids", "limits", "carrying", "seams", "self", "swept"};
 }
 
 std::unique_ptr<PlayedScene> make_played_scene(std::string_view name, PairSize pair_size) {
@@ -298,6 +299,8 @@ std::unique_ptr<PlayedScene> make_played_scene(std::string_view name, PairSize p
   if (name == "limits") return limits();
   if (name == "carrying") return carrying();
   if (name == "seams") return make_seam_scene();
+  if (name == "self") return make_self_scene();
+  if (name == "swept") return make_swept_scene();
   return nullptr;
 }
 

@@ -27,7 +27,8 @@ class PlayedScene {
 
 /// paths (the paper's first experiment), pile, pair (large ones), skinned, crowd (comes and goes). Then those
 /// with the detail `nearest`: nearest, solids (through and inside each other), limits (of contacts), carrying
-/// (contacts chosen to carry), and seams (groups of faces, and meshes that are replaced).
+/// (contacts chosen to carry), and seams (groups of faces, and meshes that are replaced). Then self (surfaces
+/// that are tested against themselves) and swept (impacts and jumps).
 std::vector<std::string_view> played_scene_names();
 
 /// How large the surfaces of the scene `pair` are.

@@ -45,16 +45,29 @@ void ReportHash::add(const WayOut& way) {
   add(way.extent);
 }
 
+void ReportHash::add(const Impact& impact) {
+  add(number_of(impact.kind) << 8U | number_of(impact.status));
+  add(impact.feature_a);
+  add(impact.feature_b);
+  add(impact.lower);
+  add(impact.upper);
+}
+
 void ReportHash::add(const PairReport& pair) {
   add(pair.a);
   add(pair.b);
   add(number_of(pair.phase) << 2U | (pair.complete ? 2U : 0U) | (pair.stale ? 1U : 0U));
   add_distance(pair);
   add(std::uint64_t{pair.contact_count});
-  // Rows without solids and limits have the hashes that they had before there were any.
+  // Rows without solids, limits and sweeps have the hashes that they had before there were any.
   if (pair.inside != Inside::none) add(number_of(pair.inside));
   if (pair.contacts_cut) add(std::uint64_t{1});
   if (pair.way_out.fullness != 0) add(pair.way_out);
+  if (pair.impact_count > 0 || pair.time_of_impact != 1 || pair.time_of_gap != 1) {
+    add(pair.time_of_impact);
+    add(pair.time_of_gap);
+    add(std::uint64_t{pair.impact_count});
+  }
 }
 
 void ReportHash::add(const Contact& contact) {
@@ -76,6 +89,7 @@ void ReportHash::add(const FrameReport& report) {
     add(contact);
     add(report.age(contact));
   }
+  for (const Impact& impact : report.impacts()) add(impact);
   for (const Diagnostic& diagnostic : report.diagnostics()) {
     add(diagnostic.object);
     add(number_of(diagnostic.kind));

@@ -7,7 +7,8 @@ namespace graze::scenes {
 
 /// A hash (FNV-1a over 64-bit words) of what reports say, bit for bit: frames, ids, phases, bounds,
 /// witnesses, contacts and the kinds of diagnostics. They also say where one is inside the other, and
-/// contacts that limits left out. Statistics and times play no part.
+/// contacts that limits left out. Where pairs were swept and something met, they say impacts, and when
+/// surfaces meet or come near. Statistics and times of the clock play no part.
 class ReportHash {
  public:
   void add(const FrameReport& report);
@@ -24,6 +25,7 @@ class ReportHash {
   void add(const Feature& feature);
   void add(ObjectId id);
   void add(const WayOut& way);
+  void add(const Impact& impact);
   void add(const PairReport& pair);
 
   std::uint64_t value_ = 0xcbf29ce484222325U;

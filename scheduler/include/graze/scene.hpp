@@ -305,8 +305,8 @@ class GRAZE_API Scene {
   /// Region distances (SceneSettings::region_distances) do not follow groups.
   ///
   /// This is for surfaces that are joined: give the faces at a seam a group, and ignore the groups of both
-  /// sides. `a` and `b` may be one object. That has no effect yet, since no object is tested against
-  /// itself. Calls about groups and calls about whole pairs do not undo each other. Any thread may call it.
+  /// sides. `a` and `b` may be one object, for ObjectSettings::self. The order of its two groups does not
+  /// matter. Calls about groups and calls about whole pairs do not undo each other. Any thread may call it.
   void ignore(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b);
   /// Puts faces back that ignore() took out by the same two groups. Any thread may call it.
   void watch(ObjectId a, std::uint8_t group_a, ObjectId b, std::uint8_t group_b);

@@ -34,8 +34,9 @@ struct Golden {
 /// `graze_studies stress --determinism --frames 20 --repeats 1` prints them all, for a change that is meant
 /// to answer otherwise. `nearest` has the pairs of that detail alone. `solids` also has sides by winding
 /// numbers, and what is inside. `limits` also has the order by which contacts are kept. `carrying` has those
-/// that are chosen to carry a pair. They depend on the frame before.
-constexpr std::array<Golden, 10> golden = {{
+/// that are chosen to carry a pair. They depend on the frame before. `self` has surfaces that are tested
+/// against themselves. `swept` has impacts, and objects that jump.
+constexpr std::array<Golden, 12> golden = {{
     {"paths", 0x2a460bba2118de22U},
     {"pile", 0xe8d81a16d3e3979fU},
     {"pair", 0xb5863d0d32c6cfbeU},
@@ -46,6 +47,8 @@ constexpr std::array<Golden, 10> golden = {{
     {"limits", 0xaa738c0ece2effacU},
     {"carrying", 0x75466a2b648c63a4U},
     {"seams", 0xe3de4efcb9dc092fU},
+    {"self", 0x1cc7903d709ce6dfU},
+    {"swept", 0x7873725bf8e603d7U},
 }};
 
 struct Played {
@@ -54,6 +57,9 @@ struct Played {
   std::set<PairPhase> phases;
   std::set<Inside> insides;
   std::size_t pairs_cut = 0;
+  std::size_t impacts = 0;
+  std::size_t contacts_of_self = 0;
+  std::size_t impacts_of_self = 0;
 };
 
 Played play(std::string_view name, unsigned threads) {
@@ -68,10 +74,14 @@ Played play(std::string_view name, unsigned threads) {
     const ReportHandle report = scene.step();
     hash.add(*report);
     result.contacts += report->contacts().size();
+    result.impacts += report->impacts().size();
     for (const PairReport& pair : report->pairs()) {
       result.phases.insert(pair.phase);
       result.insides.insert(pair.inside);
       result.pairs_cut += pair.contacts_cut ? 1U : 0U;
+      if (pair.a != pair.b) continue;
+      result.contacts_of_self += pair.contact_count;
+      result.impacts_of_self += pair.impact_count;
     }
   }
   result.hash = hash.value();
@@ -116,7 +126,7 @@ TEST_CASE("golden: the hash of all reports, for any number of threads and in eve
       }
 }
 
-TEST_CASE("golden: scenes reach every phase, every way to be inside, and limits") {
+TEST_CASE("golden: scenes reach every phase, every way to be inside, limits and impacts") {
   std::set<PairPhase> phases;
   std::set<Inside> insides;
   std::size_t pairs_cut = 0;
@@ -129,6 +139,10 @@ TEST_CASE("golden: scenes reach every phase, every way to be inside, and limits"
   CHECK(phases.size() == enumerators<PairPhase>.size());
   CHECK(insides.size() == enumerators<Inside>.size());
   CHECK(pairs_cut > 100);
+  CHECK(play("self", 2).contacts_of_self > 1000);
+  const Played swept = play("swept", 2);
+  CHECK(swept.impacts_of_self > 100);
+  CHECK(swept.impacts > swept.impacts_of_self + 100);
 }
 
 }  // namespace graze::tests
