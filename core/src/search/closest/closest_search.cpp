@@ -294,10 +294,12 @@ void ClosestSearch::raise_bounds_of_front() {
 }
 
 /// Bounds the distance in the front. Nothing is nearer than the closest points found, or pairs left out. The
-/// upper bound is good to 2^-40.
+/// upper bound is good to 2^-40. Of a surface with itself nothing is known: neighbours may pierce each other,
+/// and how far apart they are is not asked.
 void ClosestSearch::set_apart() {
   const double apart = std::min(closest_.closest.upper * (1 - 0x1p-38), closest_.lower);
-  const bool is_known = apart > 0 && !about_vertices();
+  const bool is_of_self = pair_.query.groups != nullptr && pair_.query.groups->is_of_self();
+  const bool is_known = apart > 0 && !about_vertices() && !is_of_self;
   LeafFront& front = *pair_.front;
   front.apart = is_known ? rounded_down((apart + front.motion_now(*pair_.a, *pair_.b)) * round_down) : 0;
 }
