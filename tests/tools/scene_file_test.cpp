@@ -170,6 +170,12 @@ const std::vector<BadScene> bad_scenes = {
      "objects[0].hidden_groups: expected an array, got 3; write the groups that are hidden"},
     {scene_with("", R"("hidden_groups": [7, 256])"),
      "objects[0].hidden_groups[1]: expected a whole number from 0 to 255, got 256"},
+    {scene_with("", R"("self": 1)"), "objects[0].self: expected true or false, got 1"},
+    {scene_with("", R"("self_rings": 9)"),
+     "objects[0].self_rings: expected a whole number from 0 to 8, got 9"},
+    {scene_with(R"("swept_gap": -1)", ""), "swept_gap: expected a number that is not negative, got -1"},
+    {scene_with(R"("sweep_tolerance": 0)", ""), "sweep_tolerance: expected a part of a step, got 0"},
+    {scene_with(R"("sweep_tolerance": 1.5)", ""), "sweep_tolerance: expected a part of a step, got 1.5"},
 };
 
 }  // namespace
@@ -192,14 +198,14 @@ TEST_CASE("a scene file with every key is read as it says") {
   const TemporaryFolder folder;
   const auto path = folder.write("scene.json", R"({
     "graze": 1, "contact_distance": 0.02, "range": "infinity", "detail": "regions",
-    "accuracy": {"paper": [24, 14, 8.5]}, "ways_out": true, "carrying": 4, "carrying_band": 0.01, "frames": 300, "frames_per_second": 60,
+    "accuracy": {"paper": [24, 14, 8.5]}, "ways_out": true, "carrying": 4, "carrying_band": 0.01, "sweep_tolerance": 1e-9, "swept_gap": 0.125, "frames": 300, "frames_per_second": 60,
     "objects": [
       {"name": "liver", "mesh": "meshes/liver.obj", "node": 2, "positions": "liver_####.ply",
        "transform": {"translate": [1, 2, 3], "rotate_degrees": [10, 20, 30], "scale": 0.5}},
       {"name": "tool", "mesh": "/tools/tool.stl", "node": "blade", "motion": "rigid", "layer": 4,
        "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "hidden_groups": [7, 255], "queries": true, "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
        "poses": [{"frame": 0}, {"frame": 100, "translate": [0, 0, 0]}, {"frame": 101, "rotate_degrees": [1, 2, 3]}]},
-      {"mesh": "fox.glb", "animation": "Run"},
+      {"mesh": "fox.glb", "animation": "Run", "self": true, "self_rings": 8, "self_at_rest": true, "swept": true},
       {"mesh": "floor.obj", "motion": "fixed"}],
     "rules": [{"kinds": [0, 255], "contact_distance": 0.5, "range": "infinity", "epsilon": [3, 2]}, {"kinds": [1, 1]}],
     "ignore": [["liver", "tool"], ["liver", 0, "tool", 255]]})");
@@ -211,6 +217,7 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(scene.settings.accuracy.mode() == graze::AccuracyMode::paper);
   CHECK(scene.settings.accuracy.epsilon() == std::vector<double>{24, 14, 8.5});
   CHECK((scene.settings.ways_out && scene.settings.carrying == 4 && scene.settings.carrying_band == 0.01));
+  CHECK((scene.settings.sweep_tolerance == 1e-9 && scene.settings.swept_gap == 0.125));
   CHECK(scene.frames == 300U);
   CHECK(scene.frames_per_second == 60);
 
@@ -244,6 +251,9 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK(tool.poses[2].rotation == rotation_from_degrees({1, 2, 3}));
 
   CHECK(std::get<std::string>(scene.objects[2].animation.value()) == "Run");
+  const graze::ObjectSettings& fox = scene.objects[2].settings;
+  CHECK((fox.self && fox.self_rings == 8 && fox.self_at_rest && fox.swept));
+  CHECK((!tool.settings.self && !tool.settings.self_at_rest && !tool.settings.swept));
   CHECK(scene.objects[3].settings.motion == graze::Motion::fixed);
   REQUIRE(scene.rules.size() == 2);
   CHECK(scene.rules[0].kinds == std::array<std::uint32_t, 2>{0, 255});
@@ -272,7 +282,9 @@ TEST_CASE("what a scene file leaves out has its default") {
   CHECK(scene.settings.detail == graze::ContactDetail::features);
   CHECK(scene.settings.accuracy.mode() == graze::AccuracyMode::exact);
   CHECK((!scene.settings.ways_out && scene.settings.carrying == 0 && !scene.settings.carrying_band));
+  CHECK((scene.settings.sweep_tolerance == 1e-6 && scene.settings.swept_gap == 0));
   CHECK(scene.objects[0].settings.hidden_groups.empty());
+  CHECK(scene.objects[0].settings.self_rings == 1);
   CHECK((!scene.frames && scene.frames_per_second == 30));
   CHECK(scene.objects[0].settings.motion == graze::Motion::rigid);
   CHECK((scene.objects[0].settings.name.empty() && !scene.objects[0].node &&

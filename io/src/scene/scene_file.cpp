@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint32_t any_number = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t largest_kind = 255;
 constexpr std::uint32_t largest_face_group = 255;
+constexpr std::uint32_t most_self_rings = 8;
 
 /// An enumerator by its name. `expected` says what stands there, such as "a motion".
 template <NamedEnumeration Enum>
@@ -117,7 +118,8 @@ void read_field(const JsonPath& json, Motion& motion) {
 }
 void read_field(const JsonPath& json, std::uint32_t& number) {
   const bool is_kind = json.key() == field_name<ObjectSettings, &ObjectSettings::kind>();
-  number = json.whole_number(0, is_kind ? largest_kind : any_number);
+  const bool are_rings = json.key() == field_name<ObjectSettings, &ObjectSettings::self_rings>();
+  number = json.whole_number(0, is_kind ? largest_kind : are_rings ? most_self_rings : any_number);
 }
 void read_field(const JsonPath& json, std::uint64_t& number) {
   number = json.whole_number(0, any_number);
@@ -199,6 +201,9 @@ IgnoreDescription read_ignore(const JsonPath& json) {
 void read_setting(const JsonPath& json, double& length) {
   const bool may_be_infinite = json.key() == field_name<SceneSettings, &SceneSettings::range>();
   length = may_be_infinite ? read_range(json) : json.number_not_negative();
+  const bool is_part_of_step = json.key() == field_name<SceneSettings, &SceneSettings::sweep_tolerance>();
+  if (is_part_of_step && (length < 0x1p-52 || length > 1))
+    json.fail("a part of a step", "write at least 2.3e-16 and at most 1");
 }
 void read_setting(const JsonPath& json, ContactDetail& detail) {
   detail = read_enumerator<ContactDetail>(json, "a contact detail");
