@@ -96,8 +96,9 @@ TEST_CASE("a moving scene's reports are the same bit for bit with every instruct
 }
 
 TEST_CASE(
-    "reports about solids, groups, limits and replaced meshes are the same with every instruction set") {
-  for (const std::string_view name : {"solids", "limits", "seams"})
+    "reports about solids, groups, limits, replaced meshes and sweeps are the same with every instruction "
+    "set") {
+  for (const std::string_view name : {"solids", "limits", "seams", "self", "swept"})
     CHECK(compare_instruction_sets([&] {
             const auto played = scenes::make_played_scene(name);
             SceneSettings settings = played->settings();
