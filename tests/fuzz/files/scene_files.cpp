@@ -87,6 +87,11 @@ std::vector<std::string> scene_file_seeds() {
  {"name": "b", "mesh": "solid.obj", "solid": true, "transform": {"translate": [0.1, 0.1, 0.1], "scale": 0.25}},
  {"name": "c", "mesh": "tent.ply", "face_groups": [0, 1], "hidden_groups": [1], "queries": true}, {"name": "d", "mesh": "pair.obj", "node": "left",
  "face_groups": [255]}], "ignore": [["c", 1, "d", 255]]})",
+      R"({"graze": 1, "contact_distance": 0.125, "sweep_tolerance": 1e-9, "swept_gap": 0.25,
+ "objects": [{"name": "a", "mesh": "plate.obj", "positions": "plate_#.off", "self": true, "self_rings": 0,
+ "self_at_rest": true, "swept": true}, {"name": "b", "mesh": "tent.ply", "face_groups": [0, 1], "self": true,
+ "self_rings": 8, "swept": true, "poses": [{"frame": 0}, {"frame": 2, "translate": [0, 0, 1]}]}],
+ "ignore": [["b", 0, "b", 1]]})",
       R"({"graze": 1, "detail": "regions", "outside_files": true, "objects": [{"mesh": "tent.ply", "transform": {"scale": 1e300}}]})"};
 }
 

@@ -90,7 +90,14 @@ ObjectSettings read_object_settings(ByteReader& reader) {
     settings.kind = reader.below(300) % 3 + (reader.once_in(64) ? 255 : 0);
   }
   settings.solid = reader.once_in(3);
-  settings.queries = reader.once_in(4);
+  const std::uint32_t asks = reader.below(8);
+  settings.queries = asks >= 6;
+  settings.self = asks % 3 == 1;
+  settings.swept = asks == 2 || asks >= 4;
+  if (settings.self) {
+    settings.self_rings = reader.below(3) + (reader.once_in(64) ? 8 : 0);
+    settings.self_at_rest = reader.flag();
+  }
   return settings;
 }
 
@@ -123,6 +130,7 @@ Positions next_positions(ByteReader& reader, const ModelBody& body) {
 Promise read_promise(ByteReader& reader) {
   const std::uint32_t promise = reader.below(16);
   if (promise == 15) return Promise::senseless;
+  if (promise == 14) return Promise::jump;
   return promise % 2 == 0 ? Promise::none : Promise::kept;
 }
 
@@ -142,7 +150,7 @@ void set_pose(ByteReader& reader, SceneModel& model, std::size_t body) {
   for (Eigen::Index row = 0; row < 3; ++row)
     for (Eigen::Index column = 0; column < 4; ++column)
       rows[static_cast<std::size_t>(row * 4 + column)] = column == 3 ? place[row] : turn(row, column);
-  model.set_pose(body, rows, fault < 29);
+  model.set_pose(body, rows, fault < 29, fault % 8 == 2);
 }
 
 void add(ByteReader& reader, SceneModel& model) {
@@ -191,6 +199,8 @@ SceneSettings read_scene_settings(ByteReader& reader) {
   settings.ways_out = reader.flag();
   if (reader.once_in(4)) settings.carrying = 1 + reader.below(6);
   if (reader.once_in(8)) settings.carrying_band = reader.below(64) / 64.0;
+  if (reader.once_in(4)) settings.swept_gap = reader.below(64) / 64.0;
+  if (reader.once_in(4)) settings.sweep_tolerance = std::ldexp(1.0, -static_cast<int>(reader.below(53)));
   if (reader.once_in(16)) settings.work_budget = reader.below(64);
   if (reader.once_in(32)) settings.time_budget = std::chrono::microseconds(0);
   return settings;

@@ -26,6 +26,10 @@ struct ModelBody {
   bool is_frozen = false;
   Positions seen;                ///< where the last step saw it
   std::optional<PoseRows> pose;  ///< the last that was taken
+  bool stands = true;            ///< it is new, jumps or has another mesh: the next step sweeps nothing of it
+  bool is_start_known = true;    ///< whether the contract says from where the last step swept it
+  Positions start;               ///< the last step swept it from there
+  std::optional<PoseRows> start_pose;
 
   // The state that the next step takes up.
   std::optional<Positions> copied;
@@ -43,8 +47,8 @@ struct ModelBody {
   [[nodiscard]] bool can_take(const Positions& positions) const;
 };
 
-/// A promise of how far vertices move: none, one that is kept, or none that makes sense.
-enum class Promise { none, kept, senseless };
+/// A promise of how far vertices move: none, one that is kept, or none that makes sense. Or the object jumps.
+enum class Promise { none, kept, senseless, jump };
 
 /// The faces of one group of a body.
 struct BodyGroup {
@@ -69,7 +73,7 @@ class SceneModel {
   void bind(std::size_t body, const Positions& positions, bool as_floats, BindPolicy policy);
   void write(std::size_t body, const Positions& positions, bool tell, Promise promise);
   void unbind(std::size_t body);
-  void set_pose(std::size_t body, const PoseRows& rows, bool is_rotation);
+  void set_pose(std::size_t body, const PoseRows& rows, bool is_rotation, bool jumps);
   void set_ignored(std::size_t a, std::size_t b, bool ignored);
   void set_ignored_groups(const BodyGroup& a, const BodyGroup& b, bool ignored);
   void replace_mesh(std::size_t body, const std::shared_ptr<const Mesh>& mesh,
@@ -96,12 +100,21 @@ class SceneModel {
   double promise_of(const ModelBody& body, const Positions& positions, Promise promise);
   void read(ModelBody& body);
   void read_bound(ModelBody& body);
+  /// Reads a body, and notes from where the step sweeps it.
+  void read_and_sweep(ModelBody& body);
 
   [[nodiscard]] PairRule rule_of(const BodyPair& pair) const;
   /// Below which distance the pair is listed.
   [[nodiscard]] double range_of(const BodyPair& pair) const;
   [[nodiscard]] double threshold_of(const BodyPair& pair) const;
   [[nodiscard]] std::map<BodyPair, Fresh> build_afresh() const;
+  /// Where something is swept, the scene built afresh makes a step before: everything is where the sweep
+  /// begins.
+  [[nodiscard]] bool sweeps() const;
+  /// Whether the contract says from where both objects of a pair were swept.
+  [[nodiscard]] bool is_sweep_known(const BodyPair& pair) const;
+  /// What queries of the report say, against the model and against each other.
+  void check_queries(const ReportHandle& report) const;
   void check_diagnostics(const FrameReport& report);
   void check_limits(const FrameReport& report) const;
   /// Whether contacts are left to other pairs than in a scene built afresh. Rows of frozen objects and rows
@@ -130,6 +143,7 @@ class SceneModel {
   std::set<std::pair<BodyGroup, BodyGroup>> ignored_groups_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, PairRule> rules_;
   std::set<BodyPair> in_contact_;  ///< of the last step
+  bool is_swept_added_ = false;    ///< since the last step, so that others may have been out of sight before
   std::uint64_t frame_ = 0;
 };
 

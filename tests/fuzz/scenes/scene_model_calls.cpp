@@ -88,7 +88,8 @@ SceneModel::SceneModel(const SceneSettings& settings) : scene_(settings) {}
 void SceneModel::add(std::shared_ptr<const Mesh> mesh, ObjectSettings settings) {
   settings.user_data = bodies_.size() + 1;
   const bool is_good = settings.margin >= 0 && std::isfinite(settings.margin) && settings.kind <= 255 &&
-                       (!settings.solid || is_closed(*mesh)) && have_good_groups(*mesh, settings.face_groups);
+                       (!settings.solid || is_closed(*mesh)) &&
+                       have_good_groups(*mesh, settings.face_groups) && settings.self_rings <= 8;
   ModelBody body;
   try {
     body.id = scene_.add(mesh, settings);
@@ -100,6 +101,7 @@ void SceneModel::add(std::shared_ptr<const Mesh> mesh, ObjectSettings settings) 
   body.mesh = std::move(mesh);
   body.settings = settings;
   body.seen.assign(body.mesh->rest().begin(), body.mesh->rest().end());
+  is_swept_added_ = is_swept_added_ || settings.swept;
   bodies_.push_back(std::move(body));
 }
 
@@ -120,7 +122,7 @@ ModelBody* SceneModel::deformable(std::size_t index) {
 }
 
 double SceneModel::promise_of(const ModelBody& body, const Positions& positions, Promise promise) {
-  if (promise == Promise::none) return Scene::any_displacement;
+  if (promise == Promise::none || promise == Promise::jump) return Scene::any_displacement;
   if (promise == Promise::senseless) {
     expect_diagnostic(body.id, DiagnosticKind::broken_promise);
     return std::numeric_limits<double>::quiet_NaN();
@@ -138,7 +140,12 @@ void SceneModel::set_positions(std::size_t index, const Positions& positions, Pr
   if (deformable(index) == nullptr) return scene_.set_positions(body.id, positions);
   const bool is_good = body.can_take(positions);
   const double most = is_good ? promise_of(body, positions, promise) : Scene::any_displacement;
-  scene_.set_positions(body.id, positions, most);
+  if (is_good && promise == Promise::jump) {
+    scene_.set_positions(body.id, positions, teleport);
+    body.stands = true;
+  } else {
+    scene_.set_positions(body.id, positions, most);
+  }
   if (!is_good) return expect_diagnostic(body.id, problem_of(*body.mesh, positions));
   body.copied = positions;
   body.is_bound = false;
@@ -167,8 +174,13 @@ void SceneModel::write(std::size_t index, const Positions& positions, bool tell,
   if (!tell && !body.is_promised) return;
   if (deformable(index) == nullptr) return scene_.positions_changed(body.id);
   const bool is_good = has_memory && body.can_take(body.memory());
-  scene_.positions_changed(body.id,
-                           is_good ? promise_of(body, body.memory(), promise) : Scene::any_displacement);
+  if (is_good && promise == Promise::jump) {
+    scene_.positions_changed(body.id, teleport);
+    body.stands = true;
+  } else {
+    scene_.positions_changed(body.id,
+                             is_good ? promise_of(body, body.memory(), promise) : Scene::any_displacement);
+  }
   body.is_told = true;
   body.is_promised = is_good && promise == Promise::kept;
 }
@@ -190,9 +202,14 @@ void SceneModel::unbind(std::size_t index) {
   body.floats.reset();
 }
 
-void SceneModel::set_pose(std::size_t index, const PoseRows& rows, bool is_rotation) {
+void SceneModel::set_pose(std::size_t index, const PoseRows& rows, bool is_rotation, bool jumps) {
   ModelBody& body = bodies_[index];
-  scene_.set_pose_rows(body.id, rows);
+  if (jumps) {
+    scene_.set_pose_rows(body.id, rows, teleport);
+    body.stands = true;
+  } else {
+    scene_.set_pose_rows(body.id, rows);
+  }
   if (!body.is_alive)
     expect_diagnostic(body.id, DiagnosticKind::stale_id);
   else if (body.settings.motion == Motion::deformable)
@@ -231,7 +248,6 @@ void SceneModel::set_ignored_groups(const BodyGroup& a, const BodyGroup& b, bool
     scene_.watch(id_a, a.group, id_b, b.group);
   for (const std::size_t body : {a.body, b.body})
     if (!bodies_[body].is_alive) return expect_diagnostic(bodies_[body].id, DiagnosticKind::stale_id);
-  if (a.body == b.body) return;  // no object is looked at against itself
   if (ignored)
     ignored_groups_.insert(std::minmax(a, b));
   else
@@ -258,6 +274,7 @@ void SceneModel::replace_mesh(std::size_t index, const std::shared_ptr<const Mes
   body.mesh = mesh;
   body.settings.face_groups = face_groups;
   body.seen.assign(mesh->rest().begin(), mesh->rest().end());
+  body.stands = true;
   if (body.settings.motion != Motion::deformable) return;
   body.copied.reset();
   body.doubles.reset();
@@ -310,6 +327,21 @@ void SceneModel::read(ModelBody& body) {
     body.staged_pose.reset();
   }
   body.is_promised = false;
+}
+
+/// What a frozen object passes when it can be read again is not asked: the contract names no such way.
+void SceneModel::read_and_sweep(ModelBody& body) {
+  const bool stood_before = body.stands;
+  const bool was_frozen = body.is_frozen;
+  body.start = body.seen;
+  body.start_pose = body.pose;
+  read(body);
+  if (body.stands || body.settings.motion == Motion::fixed) {
+    body.start = body.seen;
+    body.start_pose = body.pose;
+  }
+  body.is_start_known = !body.is_frozen && !was_frozen;
+  body.stands = stood_before && body.is_frozen;
 }
 
 }  // namespace graze::fuzz
