@@ -106,13 +106,14 @@ bool decide_closer_than(const SurfacePair& pair, const FeaturePairKey& key, doub
 
 double upper_distance(const SurfacePair& pair, const FeaturePairKey& key) {
   const Ratio<Ball> square = squared<Ball>(pair, key);
-  const double top = (square.numerator.value + square.numerator.radius) * Ball::slack;
-  const double bottom = (square.denominator.value - square.denominator.radius) / Ball::slack;
+  // Only radii need the slack of balls: a distance that is 2^-20 too large would be no bound from below.
+  const double top = (square.numerator.value + square.numerator.radius * Ball::slack) * round_up;
+  const double bottom = (square.denominator.value - square.denominator.radius * Ball::slack) * round_down;
   const bool is_tight = square.numerator.radius <= square.numerator.value * 0x1p-42 &&
                         square.denominator.radius <= square.denominator.value * 0x1p-42;
   if (is_tight && std::isfinite(top) && bottom > 0) {
     const double root = std::sqrt(top / bottom);
-    if (root > 0x1p-500 && std::isfinite(root)) return root * Ball::slack;
+    if (root > 0x1p-500 && std::isfinite(root)) return root * round_up;
   }
   return rounded_distance(pair, key).upper;
 }

@@ -122,6 +122,25 @@ TEST_CASE("last witness: it is never nearer than its points are, and hardly furt
   CHECK(inner > 1000);
 }
 
+TEST_CASE("upper distances: they are above the distance of features, by 2^-40 of it at most") {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Random random(seed);
+    const Surface a = surface_of(random_shape(seed));
+    const Surface b = surface_of(random_shape(seed + 4));
+    DecisionCount count;
+    const SurfacePair pair{a, b, count};
+    for (int i = 0; i < 20; ++i) {
+      const FeaturePiece vertex = vertex_piece(a.mesh().edge(random.below(a.mesh().edge_count()))[0]);
+      const auto key = FeaturePairKey::of(vertex, random_piece(b.mesh(), random));
+      const DistanceBounds known = rounded_distance(pair, key);
+      const double upper = upper_distance(pair, key);
+      INFO("seed " << seed << ", " << upper << " above " << known.upper);
+      REQUIRE(upper >= known.lower);
+      REQUIRE(upper <= known.upper * (1 + 0x1p-40));
+    }
+  }
+}
+
 TEST_CASE("last witness: a point of a feature is found again where it was, and moves with it") {
   const Shape corner = triangle({0, 0, 0}, {4, 0, 0}, {0, 2, 0});
   Surface a = surface_of(corner);
