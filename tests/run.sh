@@ -57,7 +57,7 @@ run_lint() {
 #   a tenth to a fifth longer. The address sanitizer sees what such accesses do, and the preset `fuzz` has them.
 # - The contract's programs are left out, since they build libraries of their own. So are the checks of pages and
 #   of includes, which run nothing of graze.
-# - The longest examples of rigid bodies are left out. They step small scenes many thousand times.
+# - The longest examples are left out. They step small scenes many thousand times.
 # - An allocation is remembered with two of its callers. With thirty, what the exact oracles allocate takes a third of
 #   all tests' time.
 # - The libraries' sources are compiled in batches, as those of the demonstration are.
@@ -65,9 +65,10 @@ run_lint() {
 #   preset `fuzz` is for long runs: there comparisons guide them too (docs/fuzzing.md). Tests and programs count nothing:
 #   with counters their compilation takes a third longer.
 run_sanitizers() {
+  long_examples='^example_(bowl|cloth_on_sphere|pile|rigid|safe_step|self_cloth|shots|soft_ball)$'
   build_preset asan-ubsan
   test_preset asan-ubsan \
-    --exclude-regex '^contract_|^docs_pages|^docs_reference|^lint_|^example_(pile|rigid)$'
+    --exclude-regex "^contract_|^docs_pages|^docs_reference|^lint_|$long_examples"
   # The tests with threads once more under the thread sanitizer.
   tests/tsan_tbb.sh build/tsan-tbb
   build_preset tsan

@@ -436,7 +436,7 @@ TEST_CASE("solids: what crosses follows groups of faces, and rows that ended say
   std::array<std::size_t, 4> seen{};
   std::size_t ended = 0;
   std::size_t ended_where_pierced = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+  for (std::uint64_t seed = 0; seed < 80 + repeats(320); ++seed) {
     const RandomSolids given = oracle::random_solids(2 * seed + 1);
     oracle::Random random(seed);
     const auto groups_of = [&](const Shape& shape) {
@@ -483,9 +483,9 @@ TEST_CASE("solids: what crosses follows groups of faces, and rows that ended say
       }
     }
   }
-  for (const std::size_t count : seen) CHECK(count > 20);
-  CHECK(ended > 10);
-  CHECK(ended_where_pierced > 5);
+  for (const std::size_t count : seen) CHECK(count > repeats(20));
+  CHECK(ended > repeats(10));
+  CHECK(ended_where_pierced > repeats(5));
 }
 
 TEST_CASE("solids: the push of an edge that pierces leads out, also of what is wound inside out") {
