@@ -81,7 +81,7 @@ TEST_CASE("stress: a short soak equals scenes built afresh and does not grow") {
 
 TEST_CASE("stress: scenes play the same with any number of threads") {
   const nlohmann::json figures = figures_of({"--determinism", "--frames", "3", "--repeats", "1"});
-  REQUIRE(figures.at("scenes").size() == 10);
+  REQUIRE(figures.at("scenes").size() == 12);
   for (const auto& scene : figures.at("scenes")) CHECK(scene.at("contacts") > 0);
 }
 

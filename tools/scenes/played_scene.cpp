@@ -284,7 +284,8 @@ class CrowdScene : public PlayedScene {
 }  // namespace
 
 std::vector<std::string_view> played_scene_names() {
-  return {"paths", "pile", "pair", "skinned", "crowd", "nearest", "solids", "limits", "carrying", "seams", "self", "swept"};
+  return {"paths",  "pile",   "pair",     "skinned", "crowd", "nearest",
+          "solids", "limits", "carrying", "seams",   "self",  "swept"};
 }
 
 std::unique_ptr<PlayedScene> make_played_scene(std::string_view name, PairSize pair_size) {
