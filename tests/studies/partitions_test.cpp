@@ -286,7 +286,7 @@ TEST_CASE("Near vertices: as every pair tells, with vertices that no face uses")
       for (std::uint32_t j = 0; j + 1 < b.size(); ++j)
         if ((b[j] - a[i]).norm() < distance) expected.emplace(i, j);
     const auto pairs = near_vertices({mesh, a}, {mesh, b}, distance);
-    for (const VertexPair& pair : pairs) found.emplace(pair.a, pair.b);
+    for (const NearVertexPair& pair : pairs) found.emplace(pair.a, pair.b);
     CHECK(found.size() == pairs.size());
     CHECK(found == expected);
   }
@@ -302,7 +302,7 @@ TEST_CASE("Region bounds: no near vertex is lost on the way down") {
     const RegionHierarchy tree_a(pawn, divide(pawn, partition));
     const RegionHierarchy tree_b(ring, divide(ring, partition));
     LeafPairs near;
-    for (const VertexPair& pair : near_vertices({pawn, a}, {ring, b}, distance))
+    for (const NearVertexPair& pair : near_vertices({pawn, a}, {ring, b}, distance))
       near.emplace(tree_a.leaf_of_vertex()[pair.a], tree_b.leaf_of_vertex()[pair.b]);
     REQUIRE(near.size() > 5);
     with_all_volumes([&](auto volume) {

@@ -17,6 +17,8 @@ struct Series {
   std::vector<std::string> labels = {};  ///< none, or one a point, written beside it where there is room
   bool marked = true;                    ///< a mark at each point, where they are few
   std::optional<std::size_t> look = {};  ///< which of the looks it has, by default that of its index
+  bool drawn = true;                     ///< false: only in the CSV of the figure
+  bool light = false;                    ///< small points in a light tone, without a name
 
   void add(double at_x, double at_y) {
     x.push_back(at_x);
@@ -32,6 +34,10 @@ struct Figure {
   bool log_x = false, log_y = false;
   bool timed = false;
   std::vector<Series> series;
+  /// Above 1, each line is the running median over so many points, and the points are drawn in a light tone.
+  std::size_t median_of = 0;
+  /// The name of each series stands beside the end of its line, otherwise all names stand below the plot.
+  bool named_at_ends = false;
 };
 
 }  // namespace graze::tools

@@ -1,15 +1,13 @@
 #include "figures/figure_plot.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <graze/io/error.hpp>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "figures/figure_layout.hpp"
 #include "output/text.hpp"
 
 namespace graze::tools {
@@ -30,87 +28,16 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// An axis, and where 0 is drawn on it.
-struct Axis {
-  char letter = 'x';
-  bool is_log = false;
-  double low = std::numeric_limits<double>::infinity();  ///< positive, or finite if not log
-  double high = -std::numeric_limits<double>::infinity();
-  bool has_zero = false;
-
-  void add(double value) {
-    if (is_log && value <= 0) {
-      has_zero = true;
-    } else if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  [[nodiscard]] double zero() const {
-    return std::isfinite(low) ? std::pow(10, std::floor(std::log10(low) + 1e-9) - 1) : 1e-3;
-  }
-  [[nodiscard]] double place(double value) const { return is_log && value <= 0 ? zero() : value; }
-  /// The first value on the axis. The axis has some room on both sides of the values shown.
-  [[nodiscard]] double first() const {
-    if (is_log) return bottom() / room();
-    return low >= 0 && low < 0.5 * high ? 0 : low - 0.05 * (high - low);
-  }
-  [[nodiscard]] double last() const {
-    if (is_log) return top() * room();
-    return high > first() ? high + 0.07 * (high - first()) : first() + 1;
-  }
-  /// 0 where the axis begins, 1 where it ends.
-  [[nodiscard]] double part(double value) const {
-    if (is_log) return std::log(place(value) / first()) / std::log(last() / first());
-    return (value - first()) / (last() - first());
-  }
-
- private:
-  [[nodiscard]] double bottom() const { return has_zero ? zero() : low; }
-  [[nodiscard]] double top() const { return std::isfinite(high) ? high : zero(); }
-  [[nodiscard]] double room() const { return std::max(1.3, std::pow(top() / bottom(), 0.07)); }
-};
-
-Axis axis_of(const Figure& figure, char letter, bool is_log) {
-  Axis axis;
-  axis.letter = letter;
-  axis.is_log = is_log;
-  for (const Series& series : figure.series)
-    for (const double value : letter == 'x' ? series.x : series.y) axis.add(value);
-  return axis;
-}
-
 std::string set_axis(const Axis& axis, const std::string& title) {
-  std::string text = format("set %clabel ", axis.letter) + quoted(title) + "\n";
-  text += format("%s logscale %c\nset %ctics auto\nset format %c '%%g'\n", axis.is_log ? "set" : "unset",
-                 axis.letter, axis.letter, axis.letter);
-  if (axis.has_zero) text += format("set %ctics add ('0' %.9g)\n", axis.letter, axis.zero());
-  return text + format("set %crange [%.9g:%.9g]\n", axis.letter, axis.first(), axis.last());
+  const char letter = axis.letter();
+  std::string text = format("set %clabel ", letter) + quoted(title) + "\n";
+  text += format("%s logscale %c\nset format %c '%%.12g'\n", axis.is_log() ? "set" : "unset", letter, letter);
+  std::string ticks;
+  for (const double tick : axis.ticks()) ticks += format("%s%.9g", ticks.empty() ? "" : ", ", tick);
+  text += format("set %ctics ", letter) + (ticks.empty() ? "auto" : "(" + ticks + ")") + "\n";
+  if (axis.has_zero()) text += format("set %ctics add ('0' %.9g)\n", letter, axis.zero());
+  return text + format("set %crange [%.9g:%.9g]\n", letter, axis.first(), axis.last());
 }
-
-/// Keeps labels from being written over each other: where a later point's label is, none of an earlier one.
-class LabelRoom {
- public:
-  LabelRoom(const Axis& x, const Axis& y) : x_(x), y_(y) {}
-
-  bool take(double x, double y, const std::string& label) {
-    const Box box{x_.part(x), y_.part(y), x_.part(x) + 0.02 + 0.0075 * static_cast<double>(label.size()),
-                  y_.part(y) + 0.04};
-    const bool is_free = std::ranges::none_of(taken_, [&](const Box& other) {
-      return box.left < other.right && other.left < box.right && box.low < other.high && other.low < box.high;
-    });
-    if (is_free) taken_.push_back(box);
-    return is_free;
-  }
-
- private:
-  struct Box {
-    double left, low, right, high;
-  };
-  const Axis& x_;
-  const Axis& y_;
-  std::vector<Box> taken_;
-};
 
 std::string data_of(const Series& series, std::size_t index, const Axis& x, const Axis& y) {
   std::string text = format("$series%zu << EOD\n", index);
@@ -119,72 +46,108 @@ std::string data_of(const Series& series, std::size_t index, const Axis& x, cons
   return text + "EOD\n";
 }
 
-std::string labels_of(const Series& series, const Axis& x, const Axis& y, LabelRoom& room) {
-  std::string text;
-  for (std::size_t i = series.labels.size(); i-- > 0;)
-    if (!series.labels[i].empty() && room.take(series.x[i], series.y[i], series.labels[i]))
-      text += "set label " + quoted(series.labels[i]) +
-              format(" at %.9g,%.9g left offset 0.6,0.5 font ',9' front\n", x.place(series.x[i]),
-                     y.place(series.y[i]));
-  return text;
+/// The colour, or a light tone of it: most of it white.
+std::string colour_of(const Series& series) {
+  const std::string colour = colours[*series.look % colours.size()];
+  if (!series.light) return colour;
+  std::string light = "#";
+  for (const std::size_t part : {1U, 3U, 5U})
+    light += format("%02x", (std::stoi(colour.substr(part, 2), nullptr, 16) + 2 * 255) / 3);
+  return light;
 }
 
-std::string style_of(const Series& series, std::size_t index) {
-  const std::size_t look = series.look.value_or(index);
-  const std::size_t turn = look / colours.size();
-  const std::string colour = std::string(" linecolor rgb '") + colours[look % colours.size()] + "'";
+std::string dashes_of(const Series& series) {
+  return format(" dashtype %zu linewidth 1.8", *series.look / colours.size() + 1);
+}
+
+std::string style_of(const Series& series) {
+  const std::string colour = " linecolor rgb '" + colour_of(series) + "'";
+  if (series.light) return "with points pointtype 7 pointsize 0.3" + colour;
+  const std::size_t turn = *series.look / colours.size();
   const std::string marks =
-      format(" pointtype %d pointsize 1.1", point_types[(look + turn) % point_types.size()]);
+      format(" pointtype %d pointsize 1.1", point_types[(*series.look + turn) % point_types.size()]);
   if (!series.joined) return "with points" + colour + marks;
-  const std::string dashes = format(" dashtype %zu linewidth 1.6", turn + 1);
-  if (!series.marked || series.x.size() > most_marks) return "with lines" + colour + dashes;
-  return "with linespoints" + colour + marks + dashes;
+  if (!series.marked || series.x.size() > most_marks) return "with lines" + colour + dashes_of(series);
+  return "with linespoints" + colour + marks + dashes_of(series);
 }
 
-std::string plot_of(const Figure& figure) {
-  const Axis x = axis_of(figure, 'x', figure.log_x);
-  const Axis y = axis_of(figure, 'y', figure.log_y);
-  std::string text =
-      "set title " + quoted(figure.title) + "\n" + set_axis(x, figure.x_title) + set_axis(y, figure.y_title);
+/// One of the figures of a drawing. The whole image is 1 wide and 1 high for gnuplot.
+struct Panel {
+  double left;  ///< in pixels
+  double image_width;
+  Canvas canvas;
+
+  [[nodiscard]] std::string at(double x, double y) const {
+    return format("screen %.6f, screen %.6f", (left + x) / image_width, y / canvas.height);
+  }
+  /// The plot's place, and that of the names in two columns below it.
+  [[nodiscard]] std::string frame(const PixelBox& plot, std::size_t rows) const {
+    std::string text = "set grid linetype 1 linecolor rgb '#e6e6e6'\n";
+    text += format("set lmargin at screen %.6f\nset rmargin at screen %.6f\n",
+                   (left + plot.left) / image_width, (left + plot.right) / image_width);
+    text += format("set bmargin at screen %.6f\nset tmargin at screen %.6f\n", plot.low / canvas.height,
+                   plot.high / canvas.height);
+    if (rows == 0) return text + "unset key\n";
+    return text + "set key at " + at(0.08 * canvas.width, 0.015 * canvas.height) +
+           format(" left bottom Left reverse maxrows %zu samplen 2 width 2\n", rows);
+  }
+};
+
+std::string text_at(const PlacedText& placed, const Panel& panel) {
+  return "set label " + quoted(placed.text) + " at " +
+         panel.at(placed.box.left, (placed.box.low + placed.box.high) / 2) + " left front\n";
+}
+
+/// A line's name, and a thin line from there to its end.
+std::string name_at(const PlacedText& name, const Series& series, const Panel& panel) {
+  return text_at(name, panel) + "set arrow from " + panel.at(name.from_x, name.from_y) + " to " +
+         panel.at(name.box.left - 4, (name.box.low + name.box.high) / 2) + " nohead linecolor rgb '" +
+         colour_of(series) + "'\n";
+}
+
+std::string plot_of(const Figure& shown, const Panel& panel) {
+  const FigureLayout layout = layout_of(shown, panel.canvas);
+  std::string text = panel.frame(layout.plot, name_rows(shown)) + "set title " + quoted(shown.title) + "\n" +
+                     set_axis(layout.x, shown.x_title) + set_axis(layout.y, shown.y_title);
+  for (const PlacedText& label : layout.labels) text += text_at(label, panel);
+  for (const PlacedText& name : layout.names) text += name_at(name, shown.series[name.series], panel);
   std::string plots;
-  LabelRoom room(x, y);
-  for (std::size_t i = 0; i < figure.series.size(); ++i) {
-    const Series& series = figure.series[i];
-    if (series.x.empty()) continue;
-    text += data_of(series, i, x, y) + labels_of(series, x, y, room);
-    plots += (plots.empty() ? "plot " : ", ") + format("$series%zu using 1:2 ", i) + style_of(series, i) +
-             " title " + quoted(series.name);
+  for (std::size_t i = 0; i < shown.series.size(); ++i) {
+    const Series& series = shown.series[i];
+    text += data_of(series, i, layout.x, layout.y);
+    plots += (plots.empty() ? "plot " : ", ") + format("$series%zu using 1:2 ", i) + style_of(series) +
+             (series.light ? " notitle" : " title " + quoted(series.name));
   }
   return plots.empty() ? "" : text + plots + "\n";
 }
 
-std::string terminal_of(const Drawing& drawing) {
-  const std::size_t panels = drawing.panels.size();
-  if (drawing.path.extension() == ".svg")
-    return format("set terminal svg noenhanced size %zu,600 font 'DejaVu Sans,13' background rgb 'white'\n",
-                  900 * panels);
-  return format("set terminal pngcairo noenhanced size %zu,520 font 'DejaVu Sans,9'\n", 760 * panels);
+bool is_svg(const Drawing& drawing) {
+  return drawing.path.extension() == ".svg";
 }
 
-/// The names of the series in two columns below the plot, however long they are. `left` is where the panel
-/// begins, and `width` how wide it is. The whole image is 1 wide.
-std::string layout_of(const Figure& figure, double left, double width) {
-  const std::size_t rows = (figure.series.size() + 1) / 2;
-  return "set grid linecolor rgb '#dddddd'\nset lmargin 10\nset rmargin 3\n" +
-         format(
-             "set bmargin %zu\nset key at screen %g,0.015 left bottom Left reverse maxrows %zu samplen 2 "
-             "width 2\n",
-             rows + 5, left + 0.08 * width, rows);
+/// gnuplot takes a PNG's font in points.
+Canvas canvas_of(const Drawing& drawing) {
+  return is_svg(drawing) ? Canvas{900, 600, 13} : Canvas{760, 520, 12};
+}
+
+std::string terminal_of(const Drawing& drawing) {
+  const Canvas canvas = canvas_of(drawing);
+  const std::string size =
+      format("%g,%g", canvas.width * static_cast<double>(drawing.panels.size()), canvas.height);
+  if (is_svg(drawing))
+    return "set terminal svg noenhanced size " + size + " font 'DejaVu Sans,13' background rgb 'white'\n";
+  return "set terminal pngcairo noenhanced size " + size + " font 'DejaVu Sans,9'\n";
 }
 
 std::string script_of(const Drawing& drawing) {
   const std::size_t panels = drawing.panels.size();
+  const Canvas canvas = canvas_of(drawing);
   std::string script = terminal_of(drawing) + "set output " + quoted(drawing.path.string()) + "\n";
-  if (panels > 1) script += format("set multiplot layout 1,%zu\n", panels);
+  if (panels > 1) script += "set multiplot\n";
   for (std::size_t i = 0; i < panels; ++i) {
-    const double width = 1 / static_cast<double>(panels);
-    const double left = static_cast<double>(i) * width;
-    script += layout_of(drawing.panels[i], left, width) + plot_of(drawing.panels[i]);
+    const double left = static_cast<double>(i) * canvas.width;
+    script +=
+        plot_of(shown_figure(drawing.panels[i]), {left, static_cast<double>(panels) * canvas.width, canvas});
     if (i + 1 < panels) script += "reset\n";
   }
   return script + (panels > 1 ? "unset multiplot\n" : "") + "unset output\nreset\n";

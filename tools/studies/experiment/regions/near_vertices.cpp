@@ -58,10 +58,10 @@ class Grid {
 
 }  // namespace
 
-std::vector<VertexPair> near_vertices(const PlacedMesh& a, const PlacedMesh& b, double distance) {
+std::vector<NearVertexPair> near_vertices(const PlacedMesh& a, const PlacedMesh& b, double distance) {
   constexpr double wider = 1 + 0x1p-20;  // a quotient at a cell's border may round to either side
   Grid grid(a, distance * wider);
-  std::vector<VertexPair> pairs;
+  std::vector<NearVertexPair> pairs;
   for (std::uint32_t vertex = 0; vertex < b.positions.size(); ++vertex)
     if (b.mesh.is_used(vertex))
       grid.around(b.positions[vertex], [&](std::uint32_t other) {

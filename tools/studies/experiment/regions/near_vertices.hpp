@@ -8,7 +8,7 @@
 
 namespace graze::tools {
 
-struct VertexPair {
+struct NearVertexPair {
   std::uint32_t a, b;
 };
 
@@ -25,6 +25,6 @@ struct PlacedMesh {
 
 /// All pairs of vertices of two meshes that `is_near`, found by sorting one mesh's vertices into the cells of
 /// a grid: without any hierarchy. Ordered by b, then a.
-std::vector<VertexPair> near_vertices(const PlacedMesh& a, const PlacedMesh& b, double distance);
+std::vector<NearVertexPair> near_vertices(const PlacedMesh& a, const PlacedMesh& b, double distance);
 
 }  // namespace graze::tools

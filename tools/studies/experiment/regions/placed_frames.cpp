@@ -16,8 +16,8 @@ std::vector<Eigen::Vector3d> as_points(const std::vector<float>& coordinates) {
 void add_near_pairs(const PlacedFrames& scene, PlacedFrames::Frame& frame) {
   for (std::uint32_t b = 1; b < scene.meshes.size(); ++b)
     for (std::uint32_t a = 0; a < b; ++a)
-      for (const VertexPair& pair : near_vertices({*scene.meshes[a], frame.positions[a]},
-                                                  {*scene.meshes[b], frame.positions[b]}, scene.distance))
+      for (const NearVertexPair& pair : near_vertices({*scene.meshes[a], frame.positions[a]},
+                                                      {*scene.meshes[b], frame.positions[b]}, scene.distance))
         frame.near_pairs.push_back({a, b, pair});
 }
 

@@ -17,7 +17,7 @@ struct PlacedFrames {
   /// Vertices of two objects that are nearer than the scene's distance.
   struct NearPair {
     std::uint32_t object_a, object_b;  ///< a < b
-    VertexPair vertices;
+    NearVertexPair vertices;
   };
   struct Frame {
     std::vector<std::vector<Eigen::Vector3d>> positions;  ///< of each object

@@ -53,8 +53,10 @@ std::vector<Point> points_of(std::span<const SpeedMean> means, SpeedQuestion que
   return points;
 }
 
-constexpr const char* relative_time = "time a step, of exact mode's (geometric mean over the scenes)";
+constexpr const char* relative_time = "time of a step ÷ time of exact mode (geometric mean over the scenes)";
 constexpr const char* missing_or_wrong = "share of contacts missing or wrong";
+constexpr const char* recall_title = "recall (share of the true contacts that are reported)";
+constexpr const char* precision_title = "precision (share of the reported contacts that are true)";
 constexpr const char* too_far = "distance given − true distance, mean (edge lengths)";
 
 std::vector<Figure> mean_figures(std::span<const SpeedMean> means) {
@@ -63,10 +65,10 @@ std::vector<Figure> mean_figures(std::span<const SpeedMean> means) {
   };
   return {{"contacts", "All scenes: time against contacts that are missing or wrong", relative_time,
            missing_or_wrong, true, true, true, series_of(contacts(&SpeedMean::contact_error), true)},
-          {"recall", "All scenes: time against recall of contacts", relative_time, "recall", true, false,
+          {"recall", "All scenes: time against recall of contacts", relative_time, recall_title, true, false,
            true, series_of(contacts(&SpeedMean::recall), false)},
-          {"precision", "All scenes: time against precision of contacts", relative_time, "precision", true,
-           false, true, series_of(contacts(&SpeedMean::precision), false)},
+          {"precision", "All scenes: time against precision of contacts", relative_time, precision_title,
+           true, false, true, series_of(contacts(&SpeedMean::precision), false)},
           {"distances", "All scenes: time against error of distance", relative_time, too_far, true, true,
            true, series_of(points_of(means, SpeedQuestion::distances, &SpeedMean::distance_error), true)}};
 }
@@ -82,11 +84,11 @@ std::vector<Series> scene_series(const SpeedResults& scene, SpeedQuestion questi
 }
 
 void add_scene_figures(const SpeedResults& scene, std::vector<Figure>& figures) {
-  figures.push_back({scene.name + "_contacts", scene.title + ": contacts", "time a step (ms)",
+  figures.push_back({scene.name + "_contacts", scene.title + ": contacts", "time of a step (ms)",
                      missing_or_wrong, true, true, true,
                      scene_series(scene, SpeedQuestion::contacts,
                                   [](const SpeedMeasure& measure) { return measure.contact_error(); })});
-  figures.push_back({scene.name + "_distances", scene.title + ": distances", "time a step (ms)", too_far,
+  figures.push_back({scene.name + "_distances", scene.title + ": distances", "time of a step (ms)", too_far,
                      true, true, true,
                      scene_series(scene, SpeedQuestion::distances,
                                   [](const SpeedMeasure& measure) { return measure.distance_error(); })});
