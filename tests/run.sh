@@ -79,7 +79,7 @@ if $runs_all; then
   run_lint text order tidy
   # The count of instructions is of core and scheduler, which are compiled as users do: one by one. The rest goes in
   # batches, which takes half as long.
-  build_preset release -DGRAZE_BATCHES=ON
+  build_preset release -DGRAZE_BATCHES=ON -DGRAZE_TEST_OPTIONS=-O1
   test_preset release
   run_sanitizers
 else

@@ -39,12 +39,15 @@ function within(name, ms, limit) {
 
 // ---- The browser ----
 
+// A machine that builds and tests beside this may take minutes over what else takes a second.
+const patience = 300_000;
 const browser = await chromium.launch({
+  timeout: patience,
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 });
 const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: 'light', offline: true });
-context.setDefaultTimeout(60000);
+context.setDefaultTimeout(patience);
 
 /** Opens a page and collects what the console says. */
 async function open(path, hash = '') {

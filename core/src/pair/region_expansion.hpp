@@ -24,12 +24,14 @@ inline Expansion expansion_by_size(const Region& a, double size_a, const Region&
 
 /// The regions that take the places of two regions: children, or the region itself where it stays.
 struct RegionChildren {
-  std::uint32_t first_a, count_a;
-  std::uint32_t first_b, count_b;
+  std::uint32_t first_a;
+  std::uint32_t first_b;
+  std::uint32_t count_a = 1;
+  std::uint32_t count_b = 1;
 
   /// A leaf always stays.
   RegionChildren(const RegionPair& pair, const Region& a, const Region& b, const Expansion& expansion)
-      : first_a(pair.a), count_a(1), first_b(pair.b), count_b(1) {
+      : first_a(pair.a), first_b(pair.b) {
     if (expansion.a && !a.is_leaf()) {
       first_a = a.first_child;
       count_a = a.child_count;

@@ -44,7 +44,7 @@ class ExactMeeting {
 
  private:
   template <typename Time>
-  ExactSigns<Number, Time> signs_at(const Time& time, const Ball& near) const {
+  [[nodiscard]] ExactSigns<Number, Time> signs_at(const Time& time, const Ball& near) const {
     return {polynomials_, time, near};
   }
 

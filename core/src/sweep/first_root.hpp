@@ -55,10 +55,10 @@ class FirstRoot {
     return polynomial;
   }
 
-  End end_at(double time) const { return {time, chain_.signs_at(Number(time)).changes}; }
+  [[nodiscard]] End end_at(double time) const { return {time, chain_.signs_at(Number(time)).changes}; }
 
   /// The first part of an interval that holds one root, or more than one at the finest width.
-  Interval isolate(const End& low, const End& high) const {
+  [[nodiscard]] Interval isolate(const End& low, const End& high) const {
     Interval interval = {low, high};
     while (interval.roots() > 1 && interval.width() > finest_width) {
       const End middle = end_at(split(interval.low.time, interval.high.time));
@@ -69,7 +69,7 @@ class FirstRoot {
 
   /// A number between two others that is no root. Of four, one is none, since there are three roots at most.
   template <typename Time>
-  Time split(const Time& low, const Time& high) const {
+  [[nodiscard]] Time split(const Time& low, const Time& high) const {
     for (const double fraction : {0.5, 0.25, 0.75}) {
       const Time time = low + (high - low) * Time(fraction);
       if (polynomial_.value_at(Number(time)).sign() != 0) return time;

@@ -86,7 +86,8 @@ void PairSweeps::sweep(std::size_t index, unsigned worker, std::uint64_t work_li
   };
   own.sweep.sweep(way_of(*job.a), way_of(*job.b), query, own.answer, own.work);
   const SweepAnswer& answer = own.answer;
-  static_cast<SweepFinding&>(pair) = answer;
+  const SweepFinding& finding = answer;
+  static_cast<SweepFinding&>(pair) = finding;
   pair.met = answer.met();
   pair.impacts = impacts_.keep(answer.impacts, worker);
 }

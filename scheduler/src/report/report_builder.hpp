@@ -129,7 +129,7 @@ class ReportBuilder {
   [[nodiscard]] std::uint64_t frame() const { return report_.frame_; }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
-  void set_geometry(KeptGeometryHandle geometry) { report_.geometry_ = std::move(geometry); }
+  void set_geometry(const KeptGeometryHandle& geometry) { report_.geometry_ = geometry; }
   [[nodiscard]] bool has_geometry() const { return report_.geometry_.get() != nullptr; }
 
   /// Reserves room in a report that is to be filled. Lists that have to grow lose their content.
