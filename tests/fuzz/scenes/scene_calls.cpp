@@ -93,7 +93,7 @@ ObjectSettings read_object_settings(ByteReader& reader) {
   const std::uint32_t asks = reader.below(8);
   settings.queries = asks >= 6;
   settings.self = asks % 3 == 1;
-  settings.swept = asks == 2 || asks >= 4;
+  // None is swept yet: the model does not know of all calls from where a step sweeps what they move.
   if (settings.self) {
     settings.self_rings = reader.below(3) + (reader.once_in(64) ? 8 : 0);
     settings.self_at_rest = reader.flag();

@@ -248,4 +248,26 @@ TEST_CASE("self scenes: coarse balls that crumple are those of scenes built afre
   CHECK(pierced > 0);
 }
 
+TEST_CASE("self scenes: a surface of which no two features are tested has no row, whatever others have") {
+  const auto box = mesh_of(models::box({1, 1, 1}));
+  for (const ContactDetail detail : all_details) {
+    if (!has_self_pairs(detail)) continue;
+    INFO("detail " << to_string(detail));
+    SceneSettings settings = settings_of(0.25, 4, detail);
+    settings.threads = 1;
+    Scene scene(settings);
+    ObjectSettings object;
+    object.self = true;
+    object.self_rings = 8;
+    const ObjectId first = scene.add(box, object);
+    const ObjectId second = scene.add(box, object);
+    for (int step = 0; step < 3; ++step) {
+      scene.set_positions(second, moved(box->rest(), {1.125, 0.125 * step, 0}));
+      const ReportHandle report = scene.step();
+      CHECK(report->pairs().size() == 1);
+      CHECK(find_pair(*report, first, second) != nullptr);
+    }
+  }
+}
+
 }  // namespace graze::tests

@@ -90,7 +90,7 @@ SearchProgress ClosestSearch::begin_vertices(SearchWorker& worker) {
   vertices.find_blocks();
   if (!vertices.offer(worker.meter, range)) return SearchProgress::gave_up;
   slices_.clear();
-  return closest_.closest.keys.empty() ? SearchProgress::answered : report(worker);
+  return closest_.closest.keys.empty() ? answer_nothing() : report(worker);
 }
 
 SearchProgress ClosestSearch::begin_surfaces(SearchWorker& worker) {
@@ -279,6 +279,10 @@ SearchProgress ClosestSearch::finish(SearchWorker& worker) {
 SearchProgress ClosestSearch::find_nothing(SearchWorker& worker) {
   slices_.keep_front(pair_.query.reach, worker);
   set_apart();
+  return answer_nothing();
+}
+
+SearchProgress ClosestSearch::answer_nothing() {
   pair_.front->touched = false;
   pair_.answer->in_contact = pair_.answer->listed = false;
   pair_.answer->distance = {pair_.query.reach, std::numeric_limits<double>::infinity()};

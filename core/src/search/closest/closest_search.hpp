@@ -62,6 +62,7 @@ class ClosestSearch {
   void seed(SearchSlice& slice) const;
   void merge_slices(SearchWorker& worker);
   SearchProgress find_nothing(SearchWorker& worker);
+  SearchProgress answer_nothing();
   void raise_bounds_of_front();
   void set_apart();
   SearchProgress report(SearchWorker& worker);
