@@ -47,7 +47,7 @@ bool in_contact(const PairReport& pair) {
   return pair.phase == PairPhase::began || pair.phase == PairPhase::touching;
 }
 
-/// What a pair met on the way. It is empty where nothing meets or comes near.
+/// The times and impacts of a pair in words. They are empty if nothing meets or comes near.
 std::string sweep_text(const PairReport& pair, std::span<const Impact> impacts) {
   std::ostringstream out;
   out << std::hexfloat;

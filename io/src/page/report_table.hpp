@@ -65,12 +65,13 @@ class PairLists {
   [[nodiscard]] const PageColumns& rows() const { return rows_; }
   /// Ends the list of a pair.
   void end_pair() { begins_.push_back(static_cast<std::uint32_t>(rows_.size())); }
-  /// Where the list of a pair begins. For the number of pairs it is where the last one ends.
+  /// The row at which the list of a pair begins. For the number of pairs it is the end of the last list.
   [[nodiscard]] std::uint32_t begin(std::size_t pair) const { return begins_[pair]; }
-  /// Where the list of each pair begins, and where it ends.
+  /// The rows at which the lists of all pairs begin.
   [[nodiscard]] std::span<const std::uint32_t> begins() const {
     return std::span(begins_).first(begins_.size() - 1);
   }
+  /// The rows after the lists of all pairs.
   [[nodiscard]] std::span<const std::uint32_t> ends() const { return std::span(begins_).subspan(1); }
   /// The pairs that have rows.
   [[nodiscard]] Numbers pairs() const;

@@ -83,6 +83,19 @@ Shape random_shape(std::uint64_t seed) {
   }
 }
 
+/// Calls `check(pair, random)` often, with surfaces of all sizes and places.
+template <typename Check>
+void check_random_pairs(const Check& check) {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    const Surface a = surface_of(random_shape(seed));
+    const Surface b = surface_of(random_shape(seed + 4));
+    DecisionCount count;
+    for (int i = 0; i < 20; ++i) check(SurfacePair{a, b, count}, random);
+  }
+}
+
 struct Moves {
   const char* name;
   Shape a;
@@ -93,52 +106,41 @@ struct Moves {
 
 TEST_CASE("last witness: it is never nearer than its points are, and hardly further") {
   std::size_t inner = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    Random random(seed);
-    const Surface a = surface_of(random_shape(seed));
-    const Surface b = surface_of(random_shape(seed + 4));
-    DecisionCount count;
-    const SurfacePair pair{a, b, count};
-    for (int i = 0; i < 20; ++i) {
-      const FeaturePiece piece = random_piece(a.mesh(), random);
-      const auto name = FeaturePairKey::of(piece, random_piece(b.mesh(), random));
-      // Any points will do: near the features or not.
-      const auto point_of = [&](const Surface& surface) -> Vector3d {
-        const Vector3d size = surface.box().max - surface.box().min;
-        return surface.box().min + size.cwiseProduct(random.vector(0, 1));
-      };
-      const Vector3d point = point_of(a);
-      const LastWitness witness = last_witness_of(pair, name, point, point_of(b));
-      const Real truth = distance_of(a, witness.on_a, b, witness.on_b);
-      const auto upper = static_cast<Real>(upper_distance(pair, witness, false));
-      const Real size = (a.box().max - a.box().min).norm() + (b.box().max - b.box().min).norm();
-      REQUIRE(upper >= truth);
-      REQUIRE(upper <= truth * (1 + 0x1p-40L) + size * 0x1p-18L);
-      const bool are_vertices = witness.on_a.size == 1 && witness.on_b.size == 1;
-      REQUIRE((upper_distance(pair, witness, true) == infinity) != are_vertices);
-      inner += witness.on_a.share[0] > 0 && witness.on_a.share[0] < 1 ? 1U : 0U;
-    }
-  }
+  check_random_pairs([&](const SurfacePair& pair, Random& random) {
+    const Surface& a = pair.a;
+    const Surface& b = pair.b;
+    const FeaturePiece piece = random_piece(a.mesh(), random);
+    const auto name = FeaturePairKey::of(piece, random_piece(b.mesh(), random));
+    // Any points will do: near the features or not.
+    const auto point_of = [&](const Surface& surface) -> Vector3d {
+      const Vector3d size = surface.box().max - surface.box().min;
+      return surface.box().min + size.cwiseProduct(random.vector(0, 1));
+    };
+    const Vector3d point = point_of(a);
+    const LastWitness witness = last_witness_of(pair, name, point, point_of(b));
+    const Real truth = distance_of(a, witness.on_a, b, witness.on_b);
+    const auto upper = static_cast<Real>(upper_distance(pair, witness, false));
+    const Real size = (a.box().max - a.box().min).norm() + (b.box().max - b.box().min).norm();
+    REQUIRE(upper >= truth);
+    REQUIRE(upper <= truth * (1 + 0x1p-40L) + size * 0x1p-18L);
+    const bool are_vertices = witness.on_a.size == 1 && witness.on_b.size == 1;
+    REQUIRE((upper_distance(pair, witness, true) == infinity) != are_vertices);
+    inner += witness.on_a.share[0] > 0 && witness.on_a.share[0] < 1 ? 1U : 0U;
+  });
   CHECK(inner > 1000);
 }
 
 TEST_CASE("upper distances: they are above the distance of features, by 2^-40 of it at most") {
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    Random random(seed);
-    const Surface a = surface_of(random_shape(seed));
-    const Surface b = surface_of(random_shape(seed + 4));
-    DecisionCount count;
-    const SurfacePair pair{a, b, count};
-    for (int i = 0; i < 20; ++i) {
-      const FeaturePiece vertex = vertex_piece(a.mesh().edge(random.below(a.mesh().edge_count()))[0]);
-      const auto key = FeaturePairKey::of(vertex, random_piece(b.mesh(), random));
-      const DistanceBounds known = rounded_distance(pair, key);
-      const double upper = upper_distance(pair, key);
-      INFO("seed " << seed << ", " << upper << " above " << known.upper);
-      REQUIRE(upper >= known.lower);
-      REQUIRE(upper <= known.upper * (1 + 0x1p-40));
-    }
-  }
+  check_random_pairs([](const SurfacePair& pair, Random& random) {
+    const IndexedMesh& mesh = pair.a.mesh();
+    const FeaturePiece vertex = vertex_piece(mesh.edge(random.below(mesh.edge_count()))[0]);
+    const auto key = FeaturePairKey::of(vertex, random_piece(pair.b.mesh(), random));
+    const DistanceBounds known = rounded_distance(pair, key);
+    const double upper = upper_distance(pair, key);
+    INFO(upper << " above " << known.upper);
+    REQUIRE(upper >= known.lower);
+    REQUIRE(upper <= known.upper * (1 + 0x1p-40));
+  });
 }
 
 TEST_CASE("last witness: a point of a feature is found again where it was, and moves with it") {

@@ -108,12 +108,12 @@ class SceneModel {
   [[nodiscard]] double range_of(const BodyPair& pair) const;
   [[nodiscard]] double threshold_of(const BodyPair& pair) const;
   [[nodiscard]] std::map<BodyPair, Fresh> build_afresh() const;
-  /// Where something is swept, the scene built afresh makes a step before: everything is where the sweep
-  /// begins.
+  /// Whether any body is swept. The scene built afresh then makes two steps, of which the first has
+  /// everything where the sweep begins.
   [[nodiscard]] bool sweeps() const;
   /// Whether the contract says from where both objects of a pair were swept.
   [[nodiscard]] bool is_sweep_known(const BodyPair& pair) const;
-  /// What queries of the report say, against the model and against each other.
+  /// Compares queries of the report with the model and with each other.
   void check_queries(const ReportHandle& report) const;
   void check_diagnostics(const FrameReport& report);
   void check_limits(const FrameReport& report) const;

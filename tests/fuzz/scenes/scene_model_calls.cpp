@@ -329,7 +329,8 @@ void SceneModel::read(ModelBody& body) {
   body.is_promised = false;
 }
 
-/// What a frozen object passes when it can be read again is not asked: the contract names no such way.
+/// Notes no start for an object that was frozen: the contract does not say from where it is swept when it
+/// can be read again.
 void SceneModel::read_and_sweep(ModelBody& body) {
   const bool stood_before = body.stands;
   const bool was_frozen = body.is_frozen;

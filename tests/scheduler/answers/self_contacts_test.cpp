@@ -1,5 +1,5 @@
-// What a scene does with the contacts of a surface with itself: their age, limits, other meshes, other
-// motions, the end of a pair, and where they are at other positions.
+// Contacts of a surface with itself in a scene. The tests are about their age, limits, other meshes, other
+// motions, the end of a pair, and contacts at other positions.
 
 #include <algorithm>
 #include <cstdint>
@@ -64,7 +64,7 @@ Shape folded_strip(Random& random, double gap) {
   return shape;
 }
 
-/// What brute force says of a strip and itself, with one ring of neighbours.
+/// The answer of brute force for a strip with itself, with one ring of neighbours.
 Expected expected_of_strip(const Shape& now, const Shape& rest, ContactDetail detail, bool self_at_rest) {
   const oracle::SelfPairs self(rest, 1, self_at_rest ? 0 : distance_of_folds);
   Expected expected = expected_of(now, now, distance_of_folds, detail, rest, rest, self.pairs());

@@ -31,11 +31,14 @@ struct Golden {
 /// changed answer. One thing is not fixed: the witness of surfaces that touch, where distances alone are
 /// asked for. It follows the order of leaf pairs (docs/method.md, section 2).
 ///
-/// `graze_studies stress --determinism --frames 20 --repeats 1` prints them all, for a change that is meant
-/// to answer otherwise. `nearest` has the pairs of that detail alone. `solids` also has sides by winding
-/// numbers, and what is inside. `limits` also has the order by which contacts are kept. `carrying` has those
-/// that are chosen to carry a pair. They depend on the frame before. `self` has surfaces that are tested
-/// against themselves. `swept` has impacts, and objects that jump.
+/// A change may be meant to answer otherwise. Then the program prints all hashes anew, by the command
+/// `graze_studies stress --determinism --frames 20 --repeats 1`.
+///
+/// The scene `nearest` has the pairs of that detail alone. The scene `solids` also has sides by winding
+/// numbers, and what is inside. The scene `limits` also has the order by which contacts are kept. The scene
+/// `carrying` has contacts that are chosen to carry a pair, which depend on the frame before. The scene
+/// `self` has surfaces that are tested against themselves. The scene `swept` has impacts, and objects that
+/// jump.
 constexpr std::array<Golden, 12> golden = {{
     {"paths", 0x2a460bba2118de22U},
     {"pile", 0xe8d81a16d3e3979fU},

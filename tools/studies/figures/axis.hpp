@@ -15,7 +15,7 @@ class Axis {
   [[nodiscard]] char letter() const { return letter_; }
   [[nodiscard]] bool is_log() const { return is_log_; }
   [[nodiscard]] bool has_zero() const { return has_zero_; }
-  /// Where 0 is drawn on a logarithmic axis.
+  /// The value in whose place 0 is drawn on a logarithmic axis.
   [[nodiscard]] double zero() const;
   [[nodiscard]] double place(double value) const { return is_log_ && value <= 0 ? zero() : value; }
   /// The ends of the axis. It has some room on both sides of the values shown.

@@ -30,7 +30,7 @@ struct PlacedText {
   double from_x = 0, from_y = 0;  ///< that point, or the end of that line
 };
 
-/// Where a figure's plot and texts are drawn. No two texts overlap.
+/// The places of a figure's plot and texts. No two texts overlap.
 ///
 ///     +--------------------------------------------------+
 ///     |                      title                       |
