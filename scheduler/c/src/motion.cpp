@@ -88,13 +88,16 @@ graze_status graze_scene_set_poses(graze_scene* scene, const graze_id* objects, 
 }
 
 graze_status graze_scene_set_pose_matrices(graze_scene* scene, const graze_id* objects, size_t count,
-                                           const double* rows, bool teleport) {
+                                           const double* rows) {
   return guarded([&] {
-    const Few<Eigen::Isometry3d> poses(
-        rows, count, "rows", 16, [](const double* from, Eigen::Isometry3d& pose) {
-          pose.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(from);
-        });
-    set_poses(scene, objects, poses.all(), teleport);
+    graze::Scene& moved = scene_of(scene);
+    static_cast<void>(array(rows, count, "rows"));
+    for (const ObjectId id : ids_of(objects, count)) {
+      std::array<double, 16> matrix{};
+      std::copy_n(rows, matrix.size(), matrix.data());
+      moved.set_pose_matrix(id, matrix);
+      rows += matrix.size();
+    }
   });
 }
 

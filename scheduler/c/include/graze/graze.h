@@ -517,10 +517,10 @@ GRAZE_C_API graze_status graze_scene_name(const graze_scene* scene, graze_id obj
 /// matrix, row by row. With `teleport` the objects jump.
 GRAZE_C_API graze_status graze_scene_set_poses(graze_scene* scene, const graze_id* objects, size_t count,
                                                const double* rows, bool teleport);
-/// Scene::set_pose_matrix() of one or many objects. There are 16 doubles for each: all rows of its matrix for
-/// column vectors, row by row.
+/// Scene::set_pose_matrix() of each object, one after the other. There are 16 doubles for each: all rows of
+/// its matrix for column vectors, row by row.
 GRAZE_C_API graze_status graze_scene_set_pose_matrices(graze_scene* scene, const graze_id* objects,
-                                                       size_t count, const double* rows, bool teleport);
+                                                       size_t count, const double* rows);
 /// Scene::set_positions() of one or many objects. `max_displacement` is INFINITY where nothing is promised.
 GRAZE_C_API graze_status graze_scene_set_positions(graze_scene* scene, const graze_id* objects, size_t count,
                                                    const graze_positions* positions, double max_displacement);
