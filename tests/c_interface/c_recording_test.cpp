@@ -189,6 +189,7 @@ TEST_CASE("c: a scheduler of the caller's") {
   SceneSettings settings;
   settings.threads = 3;
   settings.range = 10;
+  settings.detail = ContactDetail::none;
   const graze_scene_settings given = c_settings(settings);
   graze_scene* scene = nullptr;
   expect_ok(graze_scene_new(&given, &functions, &scene));

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-// What every function of the C interface is made of: no exception leaves it, and null does no harm.
+// Every function of the C interface is made of these, so no exception leaves it, and null does no harm.
 
 namespace graze::c {
 

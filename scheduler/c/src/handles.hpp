@@ -7,7 +7,7 @@
 #include <graze/recording.hpp>
 #include <memory>
 
-// What the handles of the C interface point at.
+// The structs that the handles of the C interface point at.
 
 struct graze_mesh {
   std::shared_ptr<const graze::Mesh> mesh;

@@ -25,7 +25,7 @@ std::span<const ObjectId> ids_of(const graze_id* objects, std::size_t count) {
   return {graze::c::cpp_rows(array(objects, count, "objects").data()), count};
 }
 
-/// What the C++ interface takes in place of a caller's array. Up to a few of them need no memory.
+/// An array of the C++ interface, made of a caller's array. Up to four elements need no memory.
 template <typename Made>
 class Few {
  public:

@@ -9,8 +9,8 @@
 
 namespace graze::c {
 
-/// Where a report goes that a function gives: into the caller's handle, or into a new one. A new one is made
-/// before the function does anything, so that a step is not lost for lack of memory.
+/// Puts a report into the caller's handle, or into a new one. A new handle is made before the function does
+/// anything, so that no step is lost for lack of memory.
 class ReportRoom {
  public:
   /// `room` may be null, and then nobody wants the report.

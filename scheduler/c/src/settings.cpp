@@ -25,8 +25,10 @@ std::optional<Number> limit_from_c(std::uint64_t limit) {
 /// effect.
 Accuracy accuracy_from_c(std::uint8_t mode, double tolerance, const double* epsilon, std::size_t count) {
   const auto numbers = array(epsilon, count, "epsilon");
-  if (mode != GRAZE_WITHIN && tolerance != 0) throw BadArgument("a tolerance goes with GRAZE_WITHIN only");
-  if (mode != GRAZE_PAPER && count != 0) throw BadArgument("epsilon goes with GRAZE_PAPER only");
+  if (mode != GRAZE_WITHIN && tolerance != 0)
+    throw BadArgument("settings: a tolerance goes with the accuracy within only");
+  if (mode != GRAZE_PAPER && count != 0)
+    throw BadArgument("settings: numbers of levels go with the paper's accuracy only");
   switch (mode) {
     case GRAZE_EXACT:
       return Accuracy::exact();
@@ -73,8 +75,8 @@ static_assert(
 
 void check_struct_size(std::size_t struct_size, const char* name) {
   if (struct_size < sizeof(std::size_t) || struct_size > most_struct_bytes)
-    throw BadArgument(std::string(name) + " has a struct_size of " + std::to_string(struct_size) +
-                      "; fill it with its init function first");
+    throw BadArgument(std::string(name) + ": a size of " + std::to_string(struct_size) +
+                      " bytes; fill it with its init function first");
 }
 
 graze_scene_settings to_c(const SceneSettings& settings) {
