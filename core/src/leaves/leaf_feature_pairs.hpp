@@ -59,6 +59,7 @@ class LeafFeaturePairs {
   /// work.
   void add_selected() {
     use_frame();
+    use_leaves();
     const SelectedLeaf& a = scratch_.a;
     const SelectedLeaf& b = scratch_.b;
     if (const kernels::Block faces = boxes_of(b.triangles); faces.count > 0) {
@@ -113,6 +114,12 @@ class LeafFeaturePairs {
     finish_batches();
     batches_.frame = scratch_.frame;
     limit_ = -1;
+  }
+  /// Goes on with segments of one leaf, or of two. A batch has no mixture, since its pairs do not tell.
+  void use_leaves() {
+    if (batches_.is_of_one_leaf == scratch_.is_one_leaf) return;
+    bound(batches_.segments, handle_segments());
+    batches_.is_of_one_leaf = scratch_.is_one_leaf;
   }
 
   // ---- By a list
@@ -345,7 +352,7 @@ class LeafFeaturePairs {
   }
   auto handle_segments() {
     return [this](const FeatureRef& a, const FeatureRef& b, const KnownInFloat& known) {
-      if (scratch_.is_one_leaf && b.index < a.index && a.kind == b.kind) return;
+      if (batches_.is_of_one_leaf && b.index < a.index && a.kind == b.kind) return;
       if (!pair_.may(a, b)) return;
       range_.found(a, b);
       const bool are_edges = a.kind == FeatureRefKind::edge && b.kind == FeatureRefKind::edge;

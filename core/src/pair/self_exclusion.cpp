@@ -31,7 +31,8 @@ SelfExclusion::SelfExclusion(std::shared_ptr<const IndexedMesh> mesh, std::uint3
 }
 
 std::size_t SelfExclusion::byte_count() const {
-  return sizeof(SelfExclusion) + bytes_of(rest_gaps_.of_contacts) + bytes_of(rest_gaps_.of_piercings);
+  return sizeof(SelfExclusion) + bytes_of(rest_gaps_.of_contacts) + bytes_of(rest_gaps_.of_piercings) +
+         bytes_of(rest_gaps_.boxes);
 }
 
 bool SelfExclusion::share_vertex(const FeatureRef& a, const FeatureRef& b) const {

@@ -45,6 +45,14 @@ std::vector<float> gaps_of(const Surface& rest, const SelfExclusion& exclusion) 
   return gaps;
 }
 
+std::vector<Box> boxes_of(const Surface& rest) {
+  const RegionTree& tree = rest.mesh().regions();
+  std::vector<Box> boxes(tree.region_count());
+  for (std::uint32_t index = 0; index < tree.region_count(); ++index)
+    if (tree.region(index).is_leaf()) boxes[index] = rest.box_now(tree.region(index), RefitOf::faces);
+  return boxes;
+}
+
 }  // namespace
 
 std::shared_ptr<const SelfExclusion> make_self_exclusion(std::shared_ptr<const IndexedMesh> mesh,
@@ -55,7 +63,8 @@ std::shared_ptr<const SelfExclusion> make_self_exclusion(std::shared_ptr<const I
   const SelfExclusion of_contacts(mesh, rings);
   const SelfExclusion of_piercings(mesh, 0);
   return std::make_shared<const SelfExclusion>(
-      std::move(mesh), rings, RestGaps{gaps_of(rest, of_contacts), gaps_of(rest, of_piercings)});
+      std::move(mesh), rings,
+      RestGaps{gaps_of(rest, of_contacts), gaps_of(rest, of_piercings), boxes_of(rest)});
 }
 
 }  // namespace graze

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/mesh/region_tree.hpp"
 
@@ -27,9 +28,30 @@ bool is_rotation(const Eigen::Matrix3d& turn) {
   return ((turn.transpose() * turn - Eigen::Matrix3d::Identity()).array().abs() < 0x1p-48).all();
 }
 
+/// The greatest coordinate of a box, by its size.
+double greatest(const Box& box) {
+  return std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+}
+
+/// At least how far two motions take any point of a box apart.
+double parting(const LeafMotion& a, const LeafMotion& b, const Box& box) {
+  const Eigen::Matrix3d turn = b.turn - a.turn;
+  const Eigen::Vector3d middle = turn * ((box.min + box.max) / 2) + (b.shift - a.shift);
+  const Eigen::Vector3d half = (box.max - box.min) / 2;
+  double most = 0;
+  for (const double x : {-half.x(), half.x()})
+    for (const double y : {-half.y(), half.y()}) {
+      const Eigen::Vector3d on_line = middle + turn.col(0) * x + turn.col(1) * y;
+      const Eigen::Vector3d along = turn.col(2) * half.z();
+      most = std::max({most, (on_line + along).squaredNorm(), (on_line - along).squaredNorm()});
+    }
+  const double size = greatest(box) + a.shift.cwiseAbs().maxCoeff() + b.shift.cwiseAbs().maxCoeff();
+  return std::sqrt(most) * (1 + of_rounding) + size * of_rounding;
+}
+
 }  // namespace
 
-LeafMotion motion_of_leaf(const Surface& surface, const Region& leaf) {
+LeafMotion motion_of_leaf(const Surface& surface, const Region& leaf, const Box& rest_box) {
   const IndexedMesh& mesh = surface.mesh();
   const auto& spread = mesh.regions().spread(leaf);
   std::array<Eigen::Vector3d, 3> rest;
@@ -41,37 +63,37 @@ LeafMotion motion_of_leaf(const Surface& surface, const Region& leaf) {
   LeafMotion motion;
   motion.turn = frame_along(now) * frame_along(rest).transpose();
   if (!is_rotation(motion.turn)) return {};
-  motion.middle = rest[0];
-  motion.shift = (now[0] + now[1] + now[2]) / 3 - motion.turn * ((rest[0] + rest[1] + rest[2]) / 3);
-  double off = 0;
-  double radius = 0;
-  double size = 0;
+  motion.shift = now[0] - motion.turn * rest[0];
+  Box off;
   const auto add = [&](std::uint32_t vertex) {
-    const Eigen::Vector3d& at_rest = mesh.rest()[vertex];
-    const Eigen::Vector3d at = surface.position(vertex);
-    off = std::max(off, (at - motion.turn * at_rest - motion.shift).squaredNorm());
-    radius = std::max(radius, (at_rest - motion.middle).squaredNorm());
-    size = std::max({size, at.cwiseAbs().maxCoeff(), at_rest.cwiseAbs().maxCoeff()});
+    const Eigen::Vector3d at = surface.position(vertex) - motion.turn * mesh.rest()[vertex] - motion.shift;
+    off.min = off.min.cwiseMin(at);
+    off.max = off.max.cwiseMax(at);
   };
   for (const std::uint32_t vertex : mesh.regions().vertices(leaf)) add(vertex);
   for (const std::uint32_t vertex : mesh.regions().border(leaf)) add(vertex);
-  motion.off = std::sqrt(off) * (1 + of_rounding) + size * of_rounding;
-  motion.radius = std::sqrt(radius) * (1 + of_rounding);
+  motion.shift += (off.min + off.max) / 2;
+  const double size = 2 * greatest(rest_box) + motion.shift.cwiseAbs().maxCoeff() + greatest(off);
+  motion.off = (off.max - off.min).norm() / 2 * (1 + of_rounding) + size * of_rounding;
   return motion;
 }
 
-// Let p be a point of a, and q one of b at rest. At rest they are |p − q| apart, and so are their images
-// under the motion of a. The image of q under the motion of b is elsewhere by (turn_b − turn_a) q + shift_b −
-// shift_a. That is what it is at b's middle, and not more than the difference of the turns times b's radius
-// beside it.
-double approach_since_rest(const LeafMotion& a, const LeafMotion& b) {
+// Let p be a point of a, and q one of b, at least `gap` apart at rest. Their images under the motion of a are
+// as far apart. The image of q under the motion of b is elsewhere, by the parting of both motions at q. Both
+// points are off their images by what the leaves are off.
+//
+// The parting is greatest at a corner of a box that holds q. Where the turns differ by no more than 1/2, only
+// the part of b's box counts that is within the gap of a's box. Let q be beyond that part, and q' the point
+// of the part that is closest to it. Along one axis q is at least |q − q'| / √3 further from a's box than the
+// gap. So p and q are that much more than the gap apart at rest, and the parting at q is at most |q − q'| / 2
+// more than that at q'.
+double approach_since_rest(const LeafMotion& a, const Box& rest_box_a, const LeafMotion& b,
+                           const Box& rest_box_b, double gap) {
   const double off = a.off + b.off;
   if (!(off < std::numeric_limits<double>::infinity())) return off;
-  const Eigen::Matrix3d turn = b.turn - a.turn;
-  const Eigen::Vector3d at_middle = turn * b.middle + (b.shift - a.shift);
-  const double size = b.middle.cwiseAbs().maxCoeff() + b.shift.cwiseAbs().maxCoeff() +
-                      a.shift.cwiseAbs().maxCoeff() + b.radius;
-  return (off + at_middle.norm() + turn.norm() * b.radius) * (1 + of_rounding) + size * of_rounding;
+  Box part = common(rest_box_b, grown(rest_box_a, gap));
+  if (part.empty() || !((b.turn - a.turn).squaredNorm() <= 0.24)) part = rest_box_b;
+  return off * (1 + of_rounding) + parting(a, b, part);
 }
 
 }  // namespace graze

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <limits>
 
+#include "core/base/box.hpp"
 #include "core/surface/surface.hpp"
 
 namespace graze {
@@ -15,15 +16,16 @@ struct LeafMotion {
   /// At least how far any corner of the leaf's features is from where `turn · rest + shift` has it. Infinite
   /// where nothing is known.
   double off = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the leaf at rest: one of its corners
-  double radius = 0;  ///< at least how far any of its corners is from there at rest
 };
 
-/// The motion of a leaf's features, by three of their corners that are far apart at rest.
-LeafMotion motion_of_leaf(const Surface& surface, const Region& leaf);
+/// The motion of a leaf's features. It turns as three of their corners do that are far apart at rest, and
+/// lies in the middle of all of them. `rest_box` holds the corners at rest.
+LeafMotion motion_of_leaf(const Surface& surface, const Region& leaf, const Box& rest_box);
 
-/// At most how much nearer to each other any point of one leaf and any of the other have come since rest,
-/// as a difference of distances. Infinite where nothing is known.
-double approach_since_rest(const LeafMotion& a, const LeafMotion& b);
+/// Features of two leaves that were at least `gap` apart at rest have come nearer to each other by at most
+/// so much: they are now at least `gap` less this number apart. Infinite where nothing is known. The boxes
+/// hold the corners of the leaves at rest.
+double approach_since_rest(const LeafMotion& a, const Box& rest_box_a, const LeafMotion& b,
+                           const Box& rest_box_b, double gap);
 
 }  // namespace graze

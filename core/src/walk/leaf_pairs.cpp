@@ -25,14 +25,19 @@ double LeafPairs::lower_of_self(const RegionPair& leaves, double pierced) {
   if (gaps.of_contacts.empty()) return 0;
   scratch_.motions.begin(pair_.a);
   const auto motion_of = [&](std::uint32_t leaf) -> const LeafMotion& {
-    return scratch_.motions.of(
-        leaf, [&] { return motion_of_leaf(pair_.a, pair_.a.mesh().regions().region(leaf)); });
+    return scratch_.motions.of(leaf, [&] {
+      return motion_of_leaf(pair_.a, pair_.a.mesh().regions().region(leaf), gaps.boxes[leaf]);
+    });
   };
-  const double approach = approach_since_rest(motion_of(leaves.a), motion_of(leaves.b));
-  const auto lower = [&](const std::vector<float>& gap) {
-    return static_cast<double>(std::max(gap[leaves.a], gap[leaves.b])) * round_down - approach;
+  const auto gap_of = [&](const std::vector<float>& gap) {
+    return static_cast<double>(std::max(gap[leaves.a], gap[leaves.b]));
   };
-  return lower(gaps.of_piercings) > pierced ? std::max(0.0, lower(gaps.of_contacts) * round_down) : 0;
+  const double of_contacts = gap_of(gaps.of_contacts);
+  const double of_piercings = gap_of(gaps.of_piercings);
+  const double approach = approach_since_rest(motion_of(leaves.a), gaps.boxes[leaves.a], motion_of(leaves.b),
+                                              gaps.boxes[leaves.b], std::max(of_contacts, of_piercings));
+  if (of_piercings * round_down - approach <= pierced) return 0;
+  return std::max(0.0, (of_contacts * round_down - approach) * round_down);
 }
 
 }  // namespace graze

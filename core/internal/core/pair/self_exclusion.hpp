@@ -18,6 +18,7 @@ namespace graze {
 struct RestGaps {
   std::vector<float> of_contacts;   ///< features that may be in contact
   std::vector<float> of_piercings;  ///< edges and faces, where it counts that they pierce each other
+  std::vector<Box> boxes;           ///< of the corners of a leaf's features at rest
 };
 
 /// Says which features of one surface are not tested against each other: those that share a vertex or belong

@@ -161,18 +161,20 @@ class FloatBatch {
 /// The pairs of features of two surfaces that are near by their boxes.
 struct FloatBatches {
   FloatFilterScratch lists;
-  FilterFrame frame;           ///< that all of them are in
-  FloatBatch<1, 3> vertex_a;   ///< a vertex of a, a triangle of b
-  FloatBatch<1, 3> vertex_b;   ///< a vertex of b, a triangle of a
-  FloatBatch<2, 2> segments;   ///< one of a, one of b
-  FloatBatch<2, 3> through_b;  ///< a segment of a, a triangle of b
-  FloatBatch<2, 3> through_a;  ///< a segment of b, a triangle of a
+  FilterFrame frame;            ///< that all of them are in
+  FloatBatch<1, 3> vertex_a;    ///< a vertex of a, a triangle of b
+  FloatBatch<1, 3> vertex_b;    ///< a vertex of b, a triangle of a
+  FloatBatch<2, 2> segments;    ///< one of a, one of b
+  bool is_of_one_leaf = false;  ///< whether the segments are of one leaf with itself: each two are met twice
+  FloatBatch<2, 3> through_b;   ///< a segment of a, a triangle of b
+  FloatBatch<2, 3> through_a;   ///< a segment of b, a triangle of a
 
   /// Before the first of a query or slice.
   void begin() {
     vertex_a.begin();
     vertex_b.begin();
     segments.begin();
+    is_of_one_leaf = false;
     through_b.begin();
     through_a.begin();
   }
