@@ -48,14 +48,15 @@ struct FollowedContact {
 /// - A vertex, if the walk came to its end. If the sign has changed, no point of the walk was on a border. A
 ///   border here is an edge that does not join two faces wound the same way. If the report has two vertices
 ///   and the walk left the other one, the kept one is in front of the surface.
-/// - Two edges that are apart, if `nearest` would list them, or if the walk came to its end. Whether they are
-///   sunk because one of them pierces a face by now is not asked.
+/// - Two edges that are apart, if `nearest` would list them, or if the walk came to its end and not at the
+/// fold
+///   of a quad. Whether they are sunk because one of them pierces a face by now is not asked.
 /// - Two edges with a negative separation, if both are creases and lie in each other's normal cones, as
 ///   `nearest` asks for.
 /// - An edge that pierced a face, if it pierces that face, or another one that shares a vertex with it.
 ///
 /// It is false for all others: for an edge or a face that is closest to a face at a distance, and after 32
-/// steps. Then the answer is that of evaluate().
+/// steps of a vertex or 8 of two edges. Then the answer is that of evaluate().
 ///
 /// The call knows nothing of surfaces beyond the triangles around the contact. Another part of a folded
 /// surface may be nearer, and new contacts are in no report. The closest point is that of the whole surface

@@ -128,7 +128,8 @@ FollowedContact follow_vertex(const ContactNow& now, bool is_of_a) {
   const Eigen::Vector3d point = kept.of.point(kept.vertex);
   const SurfaceWalk walk = walk_to_closest(kept.surface, kept.start, point);
   if (!walk.has_arrived) return unmoved(now, false);
-  if (!(walk.end.squared > 0)) return touching(now, kept, walk);
+  if (walk.end.squared == 0) return touching(now, kept, walk);
+  if (!(walk.end.squared > 0)) return unmoved(now, false);
   const auto sign = sign_now(kept, walk);
   if (!sign) return unmoved(now, false);
   SurfacePoint vertex;
@@ -156,7 +157,11 @@ FollowedContact follow_edges(const ContactNow& now) {
   }
   if (!(separation > 0)) return stays;
   const PairWalk walk = walk_together(now.a, edge_a, now.b, edge_b, at);
-  if (!walk.has_arrived) return stays;
+  // A report lists the fold of a quad only where there is nothing else.
+  const auto is_face = [](const SurfacePoint& on) { return on.feature.kind == FeatureKind::face; };
+  const auto is_vertex = [](const SurfacePoint& on) { return on.feature.kind == FeatureKind::vertex; };
+  const bool is_at_fold = (is_face(walk.a) && !is_vertex(walk.b)) || (is_face(walk.b) && !is_vertex(walk.a));
+  if (!walk.has_arrived || is_at_fold) return stays;
   return moved(now, walk.a, walk.b, walk.a.gap, {false, now.contact.separation() < 0}, walk.steps);
 }
 

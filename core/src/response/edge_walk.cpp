@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <cstdint>
+#include <limits>
 
 #include "closest_features/lean.hpp"
 
@@ -34,61 +35,75 @@ bool has_in_cone(const PlacedMesh& placed, std::uint32_t edge, const Eigen::Vect
   });
 }
 
-struct PointPair {
-  SurfacePoint a;
-  SurfacePoint b;
+/// Which points of two triangles are closest: a corner and a triangle, or two sides.
+struct ClosestOfTriangles {
+  enum class Kind : std::uint8_t { none, corner_of_a, corner_of_b, sides };
+  Kind kind = Kind::none;
+  std::uint8_t i = 0;  ///< the corner, or the side of a
+  std::uint8_t j = 0;  ///< the side of b
+  double squared = std::numeric_limits<double>::infinity();
+  ClosestPoints at{};  ///< of sides
+
+  void take_corner(Kind of, std::uint8_t corner, const Eigen::Vector3d& point, const TrianglePoints& other) {
+    const double found = closest_on_triangle(point, other).gap.squaredNorm();
+    if (!(found < squared)) return;
+    kind = of;
+    i = corner;
+    squared = found;
+  }
+  void take_sides(std::uint8_t side_a, const Segment& a, std::uint8_t side_b, const Segment& b) {
+    const ClosestPoints found = closest_of_segments(a, b);
+    if (!found.are_interior || !(found.gap.squaredNorm() < squared)) return;
+    kind = Kind::sides;
+    i = side_a;
+    j = side_b;
+    at = found;
+    squared = found.gap.squaredNorm();
+  }
 };
 
-/// The closest points of two triangles that do not pass through each other.
-class TrianglePair {
- public:
-  TrianglePair(const PlacedMesh& a, const SurfacePoint& on_a, const PlacedMesh& b, const SurfacePoint& on_b)
-      : a_(a), b_(b), on_a_(on_a), on_b_(on_b) {}
-
-  [[nodiscard]] PointPair closest() {
-    const TrianglePoints points_a = triangle_of(a_, on_a_.face, on_a_.triangle);
-    const TrianglePoints points_b = triangle_of(b_, on_b_.face, on_b_.triangle);
-    for (std::size_t i = 0; i < 3; ++i) {
-      take({point_at_corner(a_, on_a_.face, on_a_.triangle, i, points_a[i]),
-            closest_on_triangle_of(b_, on_b_.face, on_b_.triangle, points_a[i])},
-           false);
-      take({closest_on_triangle_of(a_, on_a_.face, on_a_.triangle, points_b[i]),
-            point_at_corner(b_, on_b_.face, on_b_.triangle, i, points_b[i])},
-           true);
-    }
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        take_sides(i, {points_a[i], points_a[(i + 1) % 3]}, j, {points_b[j], points_b[(j + 1) % 3]});
-    return best_;
+/// Moves the points of a walk to the closest points of the two triangles that hold `on_a` and `on_b`. These
+/// do not pass through each other. Leaves the walk as it is and returns false if that is no nearer.
+bool move_to_closest(const PlacedMesh& a, const SurfacePoint& on_a, const PlacedMesh& b,
+                     const SurfacePoint& on_b, PairWalk& walk) {
+  using Kind = ClosestOfTriangles::Kind;
+  const TrianglePoints points_a = triangle_of(a, on_a.face, on_a.triangle);
+  const TrianglePoints points_b = triangle_of(b, on_b.face, on_b.triangle);
+  ClosestOfTriangles best;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    best.take_corner(Kind::corner_of_a, i, points_a[i], points_b);
+    best.take_corner(Kind::corner_of_b, i, points_b[i], points_a);
   }
-
- private:
-  /// `is_gap_of_a` says whose gap is the right one.
-  void take(PointPair found, bool is_gap_of_a) {
-    if (is_gap_of_a) {
-      found.b.gap = -found.a.gap;
-      found.b.squared = found.a.squared;
-    } else {
-      found.a.gap = -found.b.gap;
-      found.a.squared = found.b.squared;
-    }
-    if (is_first_ || found.a.squared < best_.a.squared) best_ = found;
-    is_first_ = false;
+  for (std::uint8_t i = 0; i < 3; ++i)
+    for (std::uint8_t j = 0; j < 3; ++j)
+      best.take_sides(i, {points_a[i], points_a[(i + 1U) % 3]}, j, {points_b[j], points_b[(j + 1U) % 3]});
+  if (!(best.squared < walk.a.squared)) return false;
+  if (best.kind == Kind::sides) {
+    walk.a = point_on_side(a, on_a.face, on_a.triangle, best.i, best.at.a, best.at.gap);
+    walk.b = point_on_side(b, on_b.face, on_b.triangle, best.j, best.at.b, -best.at.gap);
+  } else if (best.kind == Kind::corner_of_a) {
+    walk.a = point_at_corner(a, on_a.face, on_a.triangle, best.i, points_a[best.i]);
+    walk.b = closest_on_triangle_of(b, on_b.face, on_b.triangle, points_a[best.i]);
+    walk.a.gap = -walk.b.gap;
+    walk.a.squared = walk.b.squared;
+  } else {
+    walk.b = point_at_corner(b, on_b.face, on_b.triangle, best.i, points_b[best.i]);
+    walk.a = closest_on_triangle_of(a, on_a.face, on_a.triangle, points_b[best.i]);
+    walk.b.gap = -walk.a.gap;
+    walk.b.squared = walk.a.squared;
   }
-  void take_sides(std::size_t side_a, const Segment& a, std::size_t side_b, const Segment& b) {
-    const ClosestPoints at = closest_of_segments(a, b);
-    if (!at.are_interior || !(at.gap.squaredNorm() < best_.a.squared)) return;
-    best_ = {point_on_side(a_, on_a_.face, on_a_.triangle, side_a, at.a, at.gap),
-             point_on_side(b_, on_b_.face, on_b_.triangle, side_b, at.b, -at.gap)};
-  }
+  return true;
+}
 
-  const PlacedMesh& a_;
-  const PlacedMesh& b_;
-  const SurfacePoint& on_a_;
-  const SurfacePoint& on_b_;
-  PointPair best_;
-  bool is_first_ = true;
-};
+/// The closest point of an edge to `to`, with a triangle at the edge.
+SurfacePoint point_of_edge(const PlacedMesh& placed, std::uint32_t edge, const Eigen::Vector3d& to) {
+  SurfacePoint found = closest_on_feature(placed, {FeatureKind::edge, edge}, to);
+  found.face = placed.mesh.edge_faces(edge)[0];
+  // The sides of a quad's first triangle are its first two edges.
+  const auto edges = placed.mesh.face_edges(found.face);
+  found.triangle = edges.size() == 4 && edges[0] != edge && edges[1] != edge ? 1 : 0;
+  return found;
+}
 
 }  // namespace
 
@@ -108,8 +123,8 @@ bool bound_patch(const PlacedMesh& a, std::uint32_t edge_a, const PlacedMesh& b,
 PairWalk walk_together(const PlacedMesh& a, std::uint32_t edge_a, const PlacedMesh& b, std::uint32_t edge_b,
                        const ClosestPoints& at) {
   PairWalk walk;
-  walk.a = closest_on_feature(a, {FeatureKind::edge, edge_a}, at.b);
-  walk.b = closest_on_feature(b, {FeatureKind::edge, edge_b}, at.a);
+  walk.a = point_of_edge(a, edge_a, at.b);
+  walk.b = point_of_edge(b, edge_b, at.a);
   std::array<Feature, 2> last{Feature{FeatureKind::edge, edge_a}, Feature{FeatureKind::edge, edge_b}};
   const auto count_step = [&] {
     const std::array now{walk.a.feature, walk.b.feature};
@@ -117,17 +132,18 @@ PairWalk walk_together(const PlacedMesh& a, std::uint32_t edge_a, const PlacedMe
     last = now;
   };
   count_step();
-  while (may_lead_nearer(a, walk.a) || may_lead_nearer(b, walk.b)) {
-    const SurfacePoint on_a = nearest_around(a, walk.a, walk.b.point);
-    const SurfacePoint on_b = nearest_around(b, walk.b, walk.a.point);
-    if (!(std::min(on_a.squared, on_b.squared) < walk.a.squared)) break;
-    const PointPair found = TrianglePair(a, on_a, b, on_b).closest();
-    if (!(found.a.squared < walk.a.squared) || walk.steps == most_steps) return walk;
-    walk.a = found.a;
-    walk.b = found.b;
+  for (unsigned round = 0; round <= most_steps_together; ++round) {
+    SurfacePoint on_a = walk.a;
+    SurfacePoint on_b = walk.b;
+    const bool leads_nearer_a = find_nearer(a, walk.a, walk.b.point, on_a);
+    const bool leads_nearer_b = find_nearer(b, walk.b, walk.a.point, on_b);
+    if (!leads_nearer_a && !leads_nearer_b) {
+      walk.has_arrived = walk.a.squared > 0;
+      return walk;
+    }
+    if (!move_to_closest(a, on_a, b, on_b, walk)) return walk;
     count_step();
   }
-  walk.has_arrived = walk.a.squared > 0;
   return walk;
 }
 

@@ -18,6 +18,9 @@ bool are_locally_closest(const PlacedMesh& a, std::uint32_t edge_a, const Placed
 bool bound_patch(const PlacedMesh& a, std::uint32_t edge_a, const PlacedMesh& b, std::uint32_t edge_b,
                  const ClosestPoints& at, bool are_sunk);
 
+/// A walk over two surfaces takes no more steps than this. One takes about half a microsecond.
+inline constexpr unsigned most_steps_together = 8;
+
 /// A walk over two surfaces to where they are locally closest.
 struct PairWalk {
   SurfacePoint a;
@@ -28,8 +31,8 @@ struct PairWalk {
 
 /// Walks from the closest points of two edges to where the surfaces are locally closest: where no triangle
 /// that shares a vertex with the simplex of a point is nearer to the other point. Two triangles are convex,
-/// so this holds for the two points together. The distance decreases with each step. Where the surfaces pass
-/// through each other, the walk does not arrive.
+/// so this holds for the two points together. The distance decreases with each step. The walk does not arrive
+/// where the surfaces pass through each other, nor after most_steps_together.
 PairWalk walk_together(const PlacedMesh& a, std::uint32_t edge_a, const PlacedMesh& b, std::uint32_t edge_b,
                        const ClosestPoints& at);
 

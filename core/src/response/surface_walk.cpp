@@ -1,7 +1,6 @@
 #include "response/surface_walk.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "response/closest_points.hpp"
 
@@ -86,17 +85,6 @@ void offer(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle, 
   if (on.gap.squaredNorm() < best.squared) best = named(placed, face, triangle, points, on, to);
 }
 
-void offer_face(const PlacedMesh& placed, std::uint32_t face, const Eigen::Vector3d& to, SurfacePoint& best) {
-  offer(placed, face, 0, to, best);
-  if (placed.mesh.face(face).size() == 4) offer(placed, face, 1, to, best);
-}
-
-SurfacePoint infinitely_far() {
-  SurfacePoint far;
-  far.squared = std::numeric_limits<double>::infinity();
-  return far;
-}
-
 /// Whether a way from the point of a surface leads nearer to the other point. A slope of 2^-27 shortens the
 /// gap by no more than its rounding.
 bool leads_nearer(const Eigen::Vector3d& way, const Eigen::Vector3d& gap, double squared_gap) {
@@ -104,12 +92,71 @@ bool leads_nearer(const Eigen::Vector3d& way, const Eigen::Vector3d& gap, double
   return along > 0 && along * along > 0x1p-54 * squared_gap * way.squaredNorm();
 }
 
-bool may_lead_nearer_around(const PlacedMesh& placed, const SurfacePoint& at, std::uint32_t vertex) {
-  const auto fan = placed.mesh.vertex_fans(vertex);
-  return std::any_of(fan.begin(), fan.end(), [&](std::uint32_t corner) {
-    return leads_nearer(placed.point(corner) - at.point, at.gap, at.squared);
-  });
+/// The triangle of a face at `vertex` that has two other corners, too.
+struct TriangleRef {
+  std::uint32_t face;
+  std::uint8_t triangle;
+};
+TriangleRef triangle_at(const PlacedMesh& placed, std::uint32_t vertex, std::uint32_t second,
+                        std::uint32_t third) {
+  const auto faces = placed.mesh.vertex_faces(vertex);
+  for (const std::uint32_t face : faces)
+    for (std::uint8_t triangle = 0; triangle + 2U < placed.mesh.face(face).size(); ++triangle) {
+      const auto corners = corners_of(placed, face, triangle);
+      const auto has = [&](std::uint32_t corner) {
+        return std::find(corners.begin(), corners.end(), corner) != corners.end();
+      };
+      if (has(vertex) && has(second) && has(third)) return {face, triangle};
+    }
+  return {faces[0], 0};  // not reached: the fans are made of these triangles
 }
+
+/// Looks for nearer points in the triangles around one vertex.
+class FanSearch {
+ public:
+  /// Writes to `nearer` if there is a nearer point.
+  FanSearch(const PlacedMesh& placed, const SurfacePoint& at, const Eigen::Vector3d& to, SurfacePoint& nearer)
+      : placed_(placed), at_(at), to_(to), nearer_(nearer), squared_(at.squared) {}
+
+  [[nodiscard]] bool has_found() const { return squared_ < at_.squared; }
+  void look_around(std::uint32_t vertex) {
+    const Eigen::Vector3d middle = placed_.point(vertex);
+    Eigen::Vector3d last = middle;
+    std::uint32_t last_corner = vertex;
+    bool last_is_nearer = false;
+    for (const std::uint32_t corner : placed_.mesh.vertex_fans(vertex)) {
+      const Eigen::Vector3d point = placed_.point(corner);
+      const bool is_nearer = leads_nearer(point - at_.point, at_.gap, at_.squared);
+      // A triangle with all corners behind the plane through the point, square to the gap, is not nearer.
+      if ((is_nearer || last_is_nearer) && corner != vertex && last_corner != vertex)
+        look_at(vertex, last_corner, corner, {middle, last, point});
+      last = point;
+      last_corner = corner;
+      last_is_nearer = is_nearer;
+    }
+  }
+
+ private:
+  void look_at(std::uint32_t vertex, std::uint32_t second, std::uint32_t third,
+               const TrianglePoints& points) {
+    const Eigen::Vector3d normal = area_normal(points);
+    const double height = normal.dot(to_ - points[0]);
+    // The plane of a nearer triangle is nearer, too, but for rounding.
+    if (height * height > squared_ * normal.squaredNorm() * (1 + 0x1p-40)) return;
+    if (!(closest_on_triangle(to_, points).gap.squaredNorm() < squared_)) return;
+    const TriangleRef found = triangle_at(placed_, vertex, second, third);
+    const SurfacePoint nearer = closest_on_triangle_of(placed_, found.face, found.triangle, to_);
+    if (!(nearer.squared < squared_)) return;
+    nearer_ = nearer;
+    squared_ = nearer.squared;
+  }
+
+  const PlacedMesh& placed_;
+  const SurfacePoint& at_;
+  const Eigen::Vector3d& to_;
+  SurfacePoint& nearer_;
+  double squared_;
+};
 
 /// Whether a face leads along an edge from its lower vertex to the other one.
 bool leads_upward(const PlacedMesh& placed, std::uint32_t face, std::uint32_t edge) {
@@ -164,17 +211,11 @@ SurfacePoint closest_on_feature(const PlacedMesh& placed, const Feature& feature
   return best;
 }
 
-bool may_lead_nearer(const PlacedMesh& placed, const SurfacePoint& at) {
-  const auto corners = at.corners();
-  return std::any_of(corners.begin(), corners.end(),
-                     [&](std::uint32_t vertex) { return may_lead_nearer_around(placed, at, vertex); });
-}
-
-SurfacePoint nearest_around(const PlacedMesh& placed, const SurfacePoint& at, const Eigen::Vector3d& to) {
-  SurfacePoint best = infinitely_far();
-  for (const std::uint32_t vertex : at.corners())
-    for (const std::uint32_t face : placed.mesh.vertex_faces(vertex)) offer_face(placed, face, to, best);
-  return best;
+bool find_nearer(const PlacedMesh& placed, const SurfacePoint& at, const Eigen::Vector3d& to,
+                 SurfacePoint& nearer) {
+  FanSearch search(placed, at, to, nearer);
+  for (const std::uint32_t vertex : at.corners()) search.look_around(vertex);
+  return search.has_found();
 }
 
 bool is_at_border(const PlacedMesh& placed, const SurfacePoint& at) {
@@ -194,18 +235,16 @@ SurfaceWalk walk_to_closest(const PlacedMesh& placed, const Feature& start, cons
     walk.met_border = walk.met_border || is_at_border(placed, walk.end);
   };
   if (walk.end.feature != start) count_step();
-  while (may_lead_nearer(placed, walk.end)) {
-    SurfacePoint best = walk.end;
-    for (const std::uint32_t vertex : walk.end.corners())
-      if (may_lead_nearer_around(placed, walk.end, vertex))
-        for (const std::uint32_t face : placed.mesh.vertex_faces(vertex)) offer_face(placed, face, to, best);
-    if (!(best.squared < walk.end.squared)) break;
-    if (walk.steps == most_steps) return walk;
-    const bool is_other = best.feature != walk.end.feature;
-    walk.end = best;
+  for (unsigned round = 0; round <= most_steps; ++round) {
+    SurfacePoint nearer;
+    if (!find_nearer(placed, walk.end, to, nearer)) {
+      walk.has_arrived = true;
+      return walk;
+    }
+    const bool is_other = nearer.feature != walk.end.feature;
+    walk.end = nearer;
     if (is_other) count_step();
   }
-  walk.has_arrived = true;
   return walk;
 }
 

@@ -40,14 +40,10 @@ SurfacePoint point_on_side(const PlacedMesh& placed, std::uint32_t face, std::ui
 SurfacePoint closest_on_triangle_of(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
                                     const Eigen::Vector3d& to);
 
-/// Whether a triangle that shares a vertex with the simplex of `at` may be nearer to the other point. It is
-/// false only if none is, up to rounding: if the plane through the point, square to the gap, has all of them
-/// behind it.
-bool may_lead_nearer(const PlacedMesh& placed, const SurfacePoint& at);
-
-/// The nearest point of all faces that share a vertex with the simplex of `at`. Of these faces some hold
-/// `at`, so the point is not further away, up to rounding.
-SurfacePoint nearest_around(const PlacedMesh& placed, const SurfacePoint& at, const Eigen::Vector3d& to);
+/// Finds the nearest point of all triangles that share a vertex with the simplex of `at`. Returns false, and
+/// leaves `nearer` as it is, if none is nearer than `at`, up to rounding.
+bool find_nearer(const PlacedMesh& placed, const SurfacePoint& at, const Eigen::Vector3d& to,
+                 SurfacePoint& nearer);
 
 /// Whether the feature of `at` is an edge that does not join two faces that are wound the same way, or a
 /// vertex whose faces do not make one ring.

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <graze/contact_walk.hpp>
+#include <limits>
 
 #include "core/placed_shape.hpp"
 #include "core/shapes.hpp"
 #include "models/models.hpp"
 #include "support/catch.hpp"
 #include "support/model_shape.hpp"
+#include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
 namespace {
@@ -179,6 +181,36 @@ TEST_CASE("follow: after too many steps the answer is not known") {
   const Contact contact = contact_of_tip(sheet, pin_at({-9.95, 0.01, 0.05}));
   CHECK(follow_now(sheet, pin_at({-9, 0.01, 0.05}), contact).is_known);
   check_unmoved(sheet, pin_at({9, 0.01, 0.05}), contact);
+}
+
+TEST_CASE("follow: on any surface the answer is no further than that of evaluate()") {
+  std::size_t nearer = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    CAPTURE(seed);
+    const oracle::RandomScene scene = oracle::random_scene(seed);
+    const Placed a(scene.a);
+    const Placed b(scene.b);
+    const Placed now_a(wobbled(scene.a, 0.1, seed));
+    const Placed now_b(mapped(scene.b, 1.05, {0.05, -0.02, 0.03}));
+    for (const Contact& contact : contacts_of(a, b, ContactDetail::features).contacts) {
+      const FollowedContact found = follow_now(now_a, now_b, contact);
+      const ContactGeometry stays = evaluate(now_a, now_b, contact);
+      CHECK(found.geometry.distance <= stays.distance * (1 + 1e-12));
+      if (found.is_known) CHECK(found.geometry.is_interior);
+      if (found.is_known) CHECK(std::abs(found.geometry.separation) == found.geometry.distance);
+      nearer += found.geometry.distance < 0.99 * stays.distance ? 1U : 0U;
+    }
+  }
+  CHECK(nearer > 100);
+}
+
+TEST_CASE("follow: positions that are not finite are no known answer") {
+  const Placed sheet = sheet_of_cells();
+  Placed pin = pin_at({0.06, 0.04, 0.05});
+  const Contact contact = contact_of_tip(sheet, pin);
+  CHECK(follow_now(sheet, pin, contact).is_known);
+  pin.shape.positions[0].x() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(follow_now(sheet, pin, contact).is_known);
 }
 
 TEST_CASE("follow: contacts of folds and parallel faces stay with their features") {
