@@ -17,7 +17,8 @@ struct FollowedContact {
   Feature feature_a;
   /// The feature of b that has ContactGeometry::point_b inside it now.
   Feature feature_b;
-  /// Where the two features are. If #is_known is false, it is what evaluate() says of the contact.
+  /// The points, directions and separation of the two features. If #is_known is false, these are what
+  /// evaluate() says of the contact.
   ContactGeometry geometry;
   /// Whether a report about these positions would say this, as far as the triangles around the contact can
   /// tell. follow() says exactly when it is true.
@@ -44,16 +45,16 @@ struct FollowedContact {
 /// is the direction of the two points or its opposite. The sides are those of the report, each turned round
 /// if the sign has changed. Of two vertices the side of the one that is kept gives the sign.
 ///
-/// `is_known` is true in these cases:
-/// - A vertex, if the walk came to its end. If the sign has changed, no point of the walk was on a border. A
-///   border here is an edge that does not join two faces wound the same way. If the report has two vertices
-///   and the walk left the other one, the kept one is in front of the surface.
-/// - Two edges that are apart, if `nearest` would list them, or if the walk came to its end and not at the
-/// fold
-///   of a quad. Whether they are sunk because one of them pierces a face by now is not asked.
-/// - Two edges with a negative separation, if both are creases and lie in each other's normal cones, as
-///   `nearest` asks for.
-/// - An edge that pierced a face, if it pierces that face, or another one that shares a vertex with it.
+/// `is_known` is true of a contact with a vertex if the walk came to its end. If the sign has changed, no
+/// point of the walk may have been on a border. A border here is an edge that does not join two faces wound
+/// the same way. If the report has two vertices and the walk left the other one, the kept one has to be in
+/// front of the surface.
+///
+/// It is true of two edges that are apart if `nearest` would list them. It is also true if the walk came to
+/// its end, but not at the fold of a quad. No call asks whether they are sunk by now because one of them
+/// pierces a face. It is true of two edges with a negative separation if both are creases and lie in each
+/// other's normal cones, as `nearest` asks for. It is true of an edge that pierced a face if it pierces that
+/// face, or another one that shares a vertex with it.
 ///
 /// It is false for all others: for an edge or a face that is closest to a face at a distance, and after 32
 /// steps of a vertex or 8 of two edges. Then the answer is that of evaluate().

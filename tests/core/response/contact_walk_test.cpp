@@ -51,7 +51,7 @@ struct Bodies {
   double motion = 0;
 };
 
-/// What came of following contacts.
+/// Counts the answers for followed contacts.
 struct Counts {
   std::size_t known = 0, unknown = 0, moved = 0, passed = 0, most_steps = 0;
 
@@ -168,7 +168,7 @@ TEST_CASE("follow: at the positions of its report a contact is what it was") {
     for (const Contact& contact : contacts_of(a, b, ContactDetail::nearest).contacts) {
       if (!has_vertex(contact) || contact.distance < 1e-6) continue;
       CAPTURE(static_cast<int>(contact.kind), contact.feature_a.index, contact.feature_b.index);
-      // Of two vertices one may have a nearer point.
+      // One of two vertices may have a nearer point.
       FollowedContact found = followed(a, b, contact);
       if (!found.is_known || found.geometry.distance < contact.distance - 1e-9)
         found = followed(a, b, contact, true);

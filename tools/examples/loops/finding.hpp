@@ -11,7 +11,7 @@
 
 namespace loops {
 
-/// What one way to use contacts finds in a tick: how deep the instrument is, and where its proxy would be.
+/// Keeps how deep the instrument is in a tick, and where its proxy would be, by one way to use contacts.
 class Finding {
  public:
   static constexpr double skin = 0.3;  ///< mm, that the proxy keeps from the organs

@@ -1,6 +1,6 @@
 // A haptic thread at 1 kHz beside steps at 50 Hz. Between two steps it has the contacts of a report that is
-// 20 to 40 ms old, and the newest positions. The program compares five ways to use them at the same
-// positions: the truth, which is a query in each tick, contacts as the report has them, graze::evaluate() for
+// 20 to 40 ms old, and the newest positions. The program compares ways to use them at the same positions. The
+// truth is a query in each tick. The others are the contacts as the report has them, graze::evaluate() for
 // all of them, evaluate() where the closest points are inside their features, and graze::follow().
 //
 // The instrument goes where the proxy of the truth is. For each way the program counts the ticks in which the
