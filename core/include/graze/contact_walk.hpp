@@ -45,10 +45,10 @@ struct FollowedContact {
 /// is the direction of the two points or its opposite. The sides are those of the report, each turned round
 /// if the sign has changed. Of two vertices the side of the one that is kept gives the sign.
 ///
-/// `is_known` is true of a contact with a vertex if the walk came to its end. If the sign has changed, no
-/// point of the walk may have been on a border. A border here is an edge that does not join two faces wound
-/// the same way. If the report has two vertices and the walk left the other one, the kept one has to be in
-/// front of the surface.
+/// `is_known` is true of a contact with a vertex if the walk came to its end, and if the normals give a
+/// side of the surface where it began and where it ended. If the sign has changed, no point of the walk may
+/// have been on a border. A border here is an edge that does not join two faces wound the same way. If the
+/// report has two vertices and the walk left the other one, the kept one has to be in front of the surface.
 ///
 /// It is true of two edges that are apart if `nearest` would list them. It is also true if the walk came to
 /// its end, but not at the fold of a quad. No call asks whether they are sunk by now because one of them
@@ -58,6 +58,9 @@ struct FollowedContact {
 ///
 /// It is false for all others: for an edge or a face that is closest to a face at a distance, and after 32
 /// steps of a vertex or 8 of two edges. Then the answer is that of evaluate().
+///
+/// For a contact of one surface with itself, give its mesh and positions twice. The rings that a report
+/// leaves out are not known here. A walk that comes to the vertex itself is not known.
 ///
 /// The call knows nothing of surfaces beyond the triangles around the contact. Another part of a folded
 /// surface may be nearer, and new contacts are in no report. The closest point is that of the whole surface

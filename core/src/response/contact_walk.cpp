@@ -117,6 +117,8 @@ std::optional<Sign> sign_now(const KeptVertex& kept, const SurfaceWalk& walk) {
 
 /// The answer at distance 0: that of evaluate() for the features at the end, with the push continued.
 FollowedContact touching(const ContactNow& now, const KeptVertex& kept, const SurfaceWalk& walk) {
+  const bool is_of_self = &now.a.mesh == &now.b.mesh && now.a.positions.data() == now.b.positions.data();
+  if (is_of_self && walk.end.feature == Feature{FeatureKind::vertex, kept.vertex}) return unmoved(now, false);
   Contact contact = now.contact;
   (kept.is_of_a ? contact.feature_b : contact.feature_a) = walk.end.feature;
   return {contact.feature_a, contact.feature_b,

@@ -204,6 +204,22 @@ TEST_CASE("follow: on any surface the answer is no further than that of evaluate
   CHECK(nearer > 100);
 }
 
+TEST_CASE("follow: of one surface with itself a walk that comes to its own vertex is not known") {
+  const Placed sheet = sheet_of_cells();
+  Contact contact;  // of a folded sheet that is flat by now
+  contact.kind = ContactKind::VF;
+  contact.feature_a = {FeatureKind::vertex, 40};
+  contact.normal = {0, 0, 1};
+  contact.distance = 0.1;
+  std::size_t moved_on = 0;
+  for (std::uint32_t face = 0; face < sheet.mesh->face_count(); ++face) {
+    contact.feature_b = {FeatureKind::face, face};
+    check_unmoved(sheet, sheet, contact);
+    moved_on += evaluate(sheet, sheet, contact).distance > 0 ? 1U : 0U;
+  }
+  CHECK(moved_on > 50);
+}
+
 TEST_CASE("follow: positions that are not finite are no known answer") {
   const Placed sheet = sheet_of_cells();
   Placed pin = pin_at({0.06, 0.04, 0.05});
