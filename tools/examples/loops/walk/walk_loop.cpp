@@ -15,11 +15,11 @@
 #include <memory>
 #include <vector>
 
-#include "examples/loops/finding.hpp"
 #include "examples/loops/instrument.hpp"
 #include "examples/loops/options.hpp"
 #include "examples/loops/organ_history.hpp"
 #include "examples/loops/organs.hpp"
+#include "examples/loops/walk/finding.hpp"
 
 namespace {
 
