@@ -8,6 +8,7 @@
 #include <graze/accuracy.hpp>
 #include <graze/contact.hpp>
 #include <graze/contact_geometry.hpp>
+#include <graze/contact_walk.hpp>
 #include <graze/enumerators.hpp>
 #include <graze/error.hpp>
 #include <graze/impact.hpp>

@@ -152,8 +152,8 @@ void add_to(std::vector<double>& numbers, const ContactGeometry& geometry) {
                   double(geometry.sunk), double(geometry.is_interior)});
 }
 
-/// All that is computed between two steps, of many pairs of features: positions, both forms of evaluate() and
-/// weights.
+/// All that is computed between two steps, of many pairs of features: positions, both forms of evaluate(),
+/// follow() and weights.
 template <typename Point>
 std::vector<double> computed_between(const Between<Point>& a, const Between<Point>& b) {
   std::vector<double> numbers;
@@ -176,6 +176,9 @@ std::vector<double> computed_between(const Between<Point>& a, const Between<Poin
              evaluate(*a.mesh, a.positions, contact.feature_a, *b.mesh, b.positions, contact.feature_b));
       const ContactGeometry moved = evaluate(*a.mesh, a.positions, *b.mesh, b.positions, contact);
       add_to(numbers, moved);
+      const FollowedContact followed = follow(*a.mesh, a.positions, *b.mesh, b.positions, contact);
+      add_to(numbers, followed.geometry);
+      numbers.insert(numbers.end(), {double(followed.is_known), double(followed.steps)});
       const SurfaceWeights shares = weights(*a.mesh, a.positions, contact.feature_a, moved.point_b);
       numbers.insert(numbers.end(), shares.weight.begin(), shares.weight.end());
     }
