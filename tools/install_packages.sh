@@ -8,7 +8,8 @@ set -eu
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
   nlohmann-json3-dev libcli11-dev libpng-dev zlib1g-dev"
 [ "${1:-}" = demo ] || packages="$packages libtinyobjloader-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
-  libmd4c-html0-dev libmd4c-dev python3 chromium"
+  libmd4c-html0-dev libmd4c-dev chromium
+  python3 python3-numpy python3-venv python3-build python3-setuptools python3-wheel"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
   libbenchmark-dev valgrind clang-format clang-tidy shellcheck pyflakes3 doxygen doxygen-awesome-css"
 
