@@ -163,10 +163,6 @@ bool SceneModel::sweeps() const {
                      [](const ModelBody& body) { return body.is_alive && body.settings.swept; });
 }
 
-bool SceneModel::is_sweep_known(const BodyPair& pair) const {
-  return !is_swept_added_ && bodies_[pair.first].is_start_known && bodies_[pair.second].is_start_known;
-}
-
 void SceneModel::check_limits(const FrameReport& report) const {
   const SceneSettings& settings = scene_.settings();
   expect(report.contacts().size() <= settings.max_contacts.value_or(report.contacts().size()),
@@ -206,7 +202,7 @@ void SceneModel::check_diagnostics(const FrameReport& report) {
 }
 
 bool SceneModel::must_be_listed(const BodyPair& pair, const Fresh& fresh) const {
-  if (met(*fresh.row) && is_sweep_known(pair)) return true;
+  if (met(*fresh.row) && !is_swept_added_) return true;
   const double reach = range_of(pair);
   // Bounds are the distance rounded down and up: it is below a double exactly where the lower one is.
   return fresh.in_contact || fresh.row->distance.lower < reach;
@@ -282,12 +278,14 @@ void SceneModel::check_values(const FrameReport& report, const PairReport& row, 
   if (accuracy.mode() == AccuracyMode::paper || is_undone(row)) return;
   if (accuracy.mode() == AccuracyMode::within && !fresh.in_contact) {
     const double rounding = 0x1p-50 * row.distance.upper;
-    return expect(row.distance.upper - row.distance.lower <= accuracy.tolerance() + rounding,
+    // Both are infinite where nothing is left to be tested.
+    return expect(row.distance.lower == row.distance.upper ||
+                      row.distance.upper - row.distance.lower <= accuracy.tolerance() + rounding,
                   "bounds further apart than the tolerance");
   }
   if (chooses_carrying()) return check_chosen(report, row, pair, fresh);
   if (has_other_limits(report)) return;
-  if (!is_sweep_known(pair)) {
+  if (is_swept_added_) {
     const std::string mine = without_contacts(report, row);
     if (mine != without_contacts(*fresh.report, *fresh.row))
       finding("a row whose way is not known:\n" + mine);
