@@ -28,6 +28,7 @@ struct ModelBody {
   std::optional<PoseRows> pose;  ///< the last that was taken
   bool is_unseen = true;         ///< it or its mesh is new, and no step could read it
   bool jumps = false;            ///< in the next step
+  bool is_start_known = false;   ///< the contract says from where the last step swept it
   Positions start;               ///< the last step swept it from there
   std::optional<PoseRows> start_pose;
 
@@ -112,6 +113,8 @@ class SceneModel {
   /// Whether any body is swept. The scene built afresh then makes two steps, of which the first has
   /// everything where the sweep begins.
   [[nodiscard]] bool sweeps() const;
+  /// Whether the contract says from where both objects of a pair were swept.
+  [[nodiscard]] bool is_sweep_known(const BodyPair& pair) const;
   /// Compares queries of the report with the model and with each other.
   void check_queries(const ReportHandle& report) const;
   void check_diagnostics(const FrameReport& report);

@@ -335,7 +335,11 @@ void SceneModel::read(ModelBody& body) {
   body.is_promised = false;
 }
 
+/// No scene keeps where an object was before a swept one is added. An object that is frozen then may stand
+/// when it is read again.
 void SceneModel::read_and_sweep(ModelBody& body) {
+  const bool stood_still = body.is_frozen && !body.is_unseen;
+  body.is_start_known = !is_swept_added_ && (body.is_start_known || !stood_still);
   body.start = body.seen;
   body.start_pose = body.pose;
   read(body);

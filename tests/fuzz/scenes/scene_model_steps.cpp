@@ -163,6 +163,10 @@ bool SceneModel::sweeps() const {
                      [](const ModelBody& body) { return body.is_alive && body.settings.swept; });
 }
 
+bool SceneModel::is_sweep_known(const BodyPair& pair) const {
+  return bodies_[pair.first].is_start_known && bodies_[pair.second].is_start_known;
+}
+
 void SceneModel::check_limits(const FrameReport& report) const {
   const SceneSettings& settings = scene_.settings();
   expect(report.contacts().size() <= settings.max_contacts.value_or(report.contacts().size()),
@@ -202,7 +206,7 @@ void SceneModel::check_diagnostics(const FrameReport& report) {
 }
 
 bool SceneModel::must_be_listed(const BodyPair& pair, const Fresh& fresh) const {
-  if (met(*fresh.row) && !is_swept_added_) return true;
+  if (met(*fresh.row) && is_sweep_known(pair)) return true;
   const double reach = range_of(pair);
   // Bounds are the distance rounded down and up: it is below a double exactly where the lower one is.
   return fresh.in_contact || fresh.row->distance.lower < reach;
@@ -285,7 +289,7 @@ void SceneModel::check_values(const FrameReport& report, const PairReport& row, 
   }
   if (chooses_carrying()) return check_chosen(report, row, pair, fresh);
   if (has_other_limits(report)) return;
-  if (is_swept_added_) {
+  if (!is_sweep_known(pair)) {
     const std::string mine = without_contacts(report, row);
     if (mine != without_contacts(*fresh.report, *fresh.row))
       finding("a row whose way is not known:\n" + mine);
