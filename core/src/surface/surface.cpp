@@ -257,12 +257,20 @@ std::optional<Surface::PartSeen> seen_in_survey(const PositionView& view, std::u
                           : seen_in_survey<float>(view.data(), begin, end);
 }
 
-/// Surveys positions that come in another precision than before, or first of all. They count as moved by any
-/// distance.
-std::optional<Surface::PartSeen> seen_as_jump(const PositionView& view, std::uint32_t begin,
-                                              std::uint32_t end) {
+/// Whether a surface has these positions already, in whatever precision. Of others mostly the first one says
+/// so.
+bool has_positions(const Surface& surface, const PositionView& view, std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t vertex = begin; vertex < end; ++vertex)
+    if (!is_same(view[vertex], surface.position(vertex))) return false;
+  return true;
+}
+
+/// Surveys packed positions that come in another precision than before, or first of all. Unless they are
+/// those that the surface has, they count as moved by any distance.
+std::optional<Surface::PartSeen> seen_as_jump(const Surface& surface, const PositionView& view,
+                                              std::uint32_t begin, std::uint32_t end) {
   auto part = seen_in_survey(view, begin, end);
-  if (!part) return part;
+  if (!part || has_positions(surface, view, begin, end)) return part;
   part->changed = true;
   part->furthest_squared = std::numeric_limits<double>::infinity();
   return part;
@@ -336,7 +344,7 @@ Surface::PartSeen Surface::scan_positions(const PositionView& view, std::uint32_
     part = view.is_double() ? seen_in_passes<double>(view.data(), before, begin, end, displacement)
                             : seen_in_passes<float>(view.data(), before, begin, end, displacement);
   else if (begin < end && displacement == Displacement::bound && is_packed(*mesh_, view))
-    part = seen_as_jump(view, begin, end);
+    part = seen_as_jump(*this, view, begin, end);
   if (!part) part = scan(begin, end, [&](std::uint32_t vertex) { return view[vertex]; });
   part->in_double = view.is_double();
   return *part;

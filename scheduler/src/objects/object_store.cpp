@@ -405,13 +405,17 @@ void ObjectStore::leave_unread(Object& object) {
   changed_ = true;
 }
 
-/// Lets promises count from the rest positions of new objects and new meshes without input.
+/// Lets promises count from the rest positions of new objects and new meshes without input. Notes which of
+/// them could not be read.
 void ObjectStore::mark_new_seen() {
+  const auto mark = [](Object& object) {
+    if (!has_input(object)) object.promises.motion = 0;
+    object.is_unplaced = object.frozen;
+  };
   for (auto object = objects_.rbegin(); object != objects_.rend() && (*object)->serial >= first_unseen_;
        ++object)
-    if (!has_input(**object)) (*object)->promises.motion = 0;
-  for (Object* const object : replaced_)
-    if (!has_input(*object)) object->promises.motion = 0;
+    mark(**object);
+  for (Object* const object : replaced_) mark(*object);
   first_unseen_ = next_serial_;
 }
 
@@ -474,6 +478,7 @@ void ObjectStore::read_small(std::size_t index) {
     swept_.end_keeping(object);
   }
   ReadOutcome outcome = read_whole(object);
+  object.is_unplaced = object.is_unplaced && object.frozen;
   // It is looked at first: tasks that only read it do not take the cache line from each other.
   if (outcome.changed && !changed_.load(std::memory_order_relaxed))
     changed_.store(true, std::memory_order_relaxed);
@@ -566,6 +571,7 @@ void ObjectStore::finish_parts(std::size_t index, std::size_t& to_write) {
   for (std::size_t part = begin; part < end; ++part) all.add(parts_[part].seen);
   if (keeps_start) swept_.end_keeping(*object);
   ReadOutcome outcome = accept_scan(*object, all);
+  object->is_unplaced = object->is_unplaced && object->frozen;
   if (object->plan == ReadPlan::survey_and_view && !object->frozen) view_memory(*object);
   accepted = outcome.accepted;
   if (outcome.changed) changed_ = true;

@@ -6,7 +6,8 @@ bool SweptObjects::take_up(const ObjectSettings& settings) {
   if (!settings.swept) return false;
   const std::uint32_t layers = layers_ | settings.layer;
   const std::uint32_t masks = masks_ | settings.collides_with;
-  const bool is_wider = layers != layers_ || masks != masks_;
+  const bool is_wider = !some_ || layers != layers_ || masks != masks_;
+  some_ = true;
   layers_ = layers;
   masks_ = masks;
   return is_wider;
@@ -24,7 +25,8 @@ bool SweptObjects::begin_keeping(Object& object, bool is_new) const {
   ObjectSweep& sweep = *object.sweep;
   if (sweep.jumps_step >= unreported_step_) sweep.kept_step = 0;
   if (sweep.kept_step >= unreported_step_ || sweep.jumps_step >= unreported_step_) return false;
-  if (is_new || object.replaced != nullptr || object.surface().is_behind() || !object.seen.is_in_surface)
+  if (is_new || object.is_unplaced || object.replaced != nullptr || object.surface().is_behind() ||
+      !object.seen.is_in_surface)
     return false;
   sweep.motion.make_room(object.surface());
   return true;

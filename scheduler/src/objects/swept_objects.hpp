@@ -12,7 +12,7 @@ namespace graze {
 class SweptObjects {
  public:
   /// Whether an object is swept, or was before it was removed.
-  [[nodiscard]] bool some() const { return layers_ != 0; }
+  [[nodiscard]] bool some() const { return some_; }
   /// Whether pairs with an object of these settings may be swept.
   [[nodiscard]] bool may_meet(const ObjectSettings& settings) const {
     return settings.swept || ((settings.layer & masks_) != 0 && (settings.collides_with & layers_) != 0);
@@ -45,6 +45,7 @@ class SweptObjects {
   }
 
  private:
+  bool some_ = false;  ///< some object is swept. One that is swept against itself may have no layer
   // The bits of all swept objects.
   std::uint32_t layers_ = 0;
   std::uint32_t masks_ = 0;

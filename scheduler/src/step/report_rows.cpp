@@ -5,6 +5,7 @@ namespace graze {
 std::optional<PairReport> repeated_row(const PairJob& job) {
   if (job.last == nullptr) return std::nullopt;
   PairReport row = *job.last;
+  if (!job.allowed || !is_contact(row.phase)) forget_cut(row);
   forget_sweep(row);
   row.stale = job.task == PairJob::Task::repeat_last;
   if (row.phase == PairPhase::began) row.phase = PairPhase::touching;
@@ -12,6 +13,12 @@ std::optional<PairReport> repeated_row(const PairJob& job) {
   row.phase = PairPhase::near;
   if (row.distance.lower < job.thresholds.reach) return row;
   return std::nullopt;
+}
+
+void forget_cut(PairReport& row) {
+  // A row is only cut by a limit where its search came to an end.
+  if (row.contacts_cut) row.complete = true;
+  row.contacts_cut = false;
 }
 
 void forget_sweep(PairReport& row) {

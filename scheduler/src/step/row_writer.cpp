@@ -72,10 +72,11 @@ void RowWriter::write_pair(const PairJob& job, std::size_t index, const FrameRep
 /// Adds to a row what met on the way.
 void RowWriter::add_sweep(std::size_t index, PairReport& row, ReportBuilder& builder) {
   const SweptJob& swept = sweeps_.of(index);
+  // A row that a budget cut short is not said to be cut by a limit: its distance is not that of now.
+  if (swept.left_out > 0 && row.complete) row.contacts_cut = true;
   row.time_of_impact = swept.time_of_impact;
   row.time_of_gap = swept.time_of_gap;
   row.complete = row.complete && swept.complete;
-  if (swept.left_out > 0) row.contacts_cut = true;
   builder.add_impacts(row, swept.impacts);
   builder.statistics().impacts += swept.impacts.size();
 }

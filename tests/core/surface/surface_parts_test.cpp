@@ -293,4 +293,39 @@ TEST_CASE("a surface in parts: positions are kept in the precision in which they
   CHECK(surface.byte_count() == at_rest + 24 * doubles.size());
 }
 
+TEST_CASE(
+    "a surface in parts: equal numbers in another precision are no motion, also where a bound is wanted") {
+  const oracle::Shape rest = shape_of(models::sphere(20, 20));
+  Surface surface(mesh_of(rest));
+  std::vector<Eigen::Vector3f> floats;
+  std::vector<Eigen::Vector3d> doubles;
+  for (const Eigen::Vector3d& point : rest.positions) {
+    floats.push_back(point.cast<float>());
+    doubles.push_back(floats.back().cast<double>());
+  }
+  surface.set_positions(floats);
+  const std::uint32_t count = surface.mesh().vertex_count();
+  const std::uint64_t version = surface.version();
+  const auto scan = [&](std::uint32_t begin, std::uint32_t end) {
+    return surface.scan_positions(doubles, begin, end, Surface::Displacement::bound);
+  };
+  CHECK_FALSE(scan(0, count).changed);
+  const Surface::ReadResult result = surface.accept(scan(0, count));
+  CHECK_FALSE(result.changed);
+  CHECK(result.displacement == 0);
+  CHECK(surface.version() == version);
+  CHECK(surface.positions().is_double() == false);
+  // One other number is a change of the part that holds it, and so of all.
+  doubles.back().z() = -doubles.back().z();
+  const std::uint32_t middle = count / 2;
+  Surface::PartSeen all = scan(0, middle);
+  CHECK_FALSE(all.changed);
+  CHECK(scan(middle, count).changed);
+  all.add(scan(middle, count));
+  CHECK(surface.accept(all).changed);
+  CHECK(surface.displacement() == std::numeric_limits<double>::infinity());
+  surface.write_positions(doubles, 0, count);
+  for (std::uint32_t vertex = 0; vertex < count; ++vertex) CHECK(surface.position(vertex) == doubles[vertex]);
+}
+
 }  // namespace graze::tests

@@ -93,7 +93,8 @@ ObjectSettings read_object_settings(ByteReader& reader) {
   const std::uint32_t asks = reader.below(8);
   settings.queries = asks >= 6;
   settings.self = asks % 3 == 1;
-  // None is swept yet: the model does not know of all calls from where a step sweeps what they move.
+  // Mostly none of a scene is swept, since steps then survey nothing and read all that promises are about.
+  settings.swept = reader.once_in(6);
   if (settings.self) {
     settings.self_rings = reader.below(3) + (reader.once_in(64) ? 8 : 0);
     settings.self_at_rest = reader.flag();

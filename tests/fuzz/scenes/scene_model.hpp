@@ -26,8 +26,9 @@ struct ModelBody {
   bool is_frozen = false;
   Positions seen;                ///< where the last step saw it
   std::optional<PoseRows> pose;  ///< the last that was taken
-  bool stands = true;            ///< it is new, jumps or has another mesh: the next step sweeps nothing of it
-  bool is_start_known = true;    ///< whether the contract says from where the last step swept it
+  bool is_unseen = true;         ///< it or its mesh is new, and no step could read it
+  bool jumps = false;            ///< in the next step
+  bool is_start_known = false;   ///< the contract says from where the last step swept it
   Positions start;               ///< the last step swept it from there
   std::optional<PoseRows> start_pose;
 
@@ -37,6 +38,7 @@ struct ModelBody {
   bool is_bound = false;
   BindPolicy policy = BindPolicy::every_step;
   bool is_told = false;
+  bool was_told = false;               ///< `positions_changed` was called since the memory was bound
   bool is_promised = false;            ///< bound memory that is written now needs a new promise
   std::unique_ptr<Positions> doubles;  ///< bound memory, one of the two. Freed as soon as the contract allows
   std::unique_ptr<std::vector<Eigen::Vector3f>> floats;

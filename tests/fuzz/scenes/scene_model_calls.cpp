@@ -51,6 +51,12 @@ bool is_map_into(const Mesh& mesh, const std::vector<std::uint32_t>& new_of_old)
   });
 }
 
+/// Whether memory that was just written has to be told of before the next step. Steps may read memory late
+/// that was told of once. So the rules of bound memory forbid to change it silently.
+bool must_tell(const ModelBody& body) {
+  return body.is_promised || (body.policy == BindPolicy::when_told && body.was_told);
+}
+
 Positions posed(const Mesh& mesh, const PoseRows& m) {
   Positions positions;
   for (const Eigen::Vector3d& p : mesh.rest())
@@ -142,7 +148,7 @@ void SceneModel::set_positions(std::size_t index, const Positions& positions, Pr
   const double most = is_good ? promise_of(body, positions, promise) : Scene::any_displacement;
   if (is_good && promise == Promise::jump) {
     scene_.set_positions(body.id, positions, teleport);
-    body.stands = true;
+    body.jumps = true;
   } else {
     scene_.set_positions(body.id, positions, most);
   }
@@ -164,24 +170,24 @@ void SceneModel::bind(std::size_t index, const Positions& positions, bool as_flo
   body.is_bound = true;
   body.policy = policy;
   body.is_told = true;
-  body.is_promised = false;
+  body.was_told = body.is_promised = false;
 }
 
 void SceneModel::write(std::size_t index, const Positions& positions, bool tell, Promise promise) {
   ModelBody& body = bodies_[index];
   const bool has_memory = body.is_alive && body.is_bound;
   if (has_memory) body.write_memory(positions);
-  if (!tell && !body.is_promised) return;
+  if (!tell && !must_tell(body)) return;
   if (deformable(index) == nullptr) return scene_.positions_changed(body.id);
   const bool is_good = has_memory && body.can_take(body.memory());
   if (is_good && promise == Promise::jump) {
     scene_.positions_changed(body.id, teleport);
-    body.stands = true;
+    body.jumps = true;
   } else {
     scene_.positions_changed(body.id,
                              is_good ? promise_of(body, body.memory(), promise) : Scene::any_displacement);
   }
-  body.is_told = true;
+  body.is_told = body.was_told = true;
   body.is_promised = is_good && promise == Promise::kept;
 }
 
@@ -206,7 +212,7 @@ void SceneModel::set_pose(std::size_t index, const PoseRows& rows, bool is_rotat
   ModelBody& body = bodies_[index];
   if (jumps) {
     scene_.set_pose_rows(body.id, rows, teleport);
-    body.stands = true;
+    body.jumps = true;
   } else {
     scene_.set_pose_rows(body.id, rows);
   }
@@ -274,7 +280,7 @@ void SceneModel::replace_mesh(std::size_t index, const std::shared_ptr<const Mes
   body.mesh = mesh;
   body.settings.face_groups = face_groups;
   body.seen.assign(mesh->rest().begin(), mesh->rest().end());
-  body.stands = true;
+  body.is_unseen = true;
   if (body.settings.motion != Motion::deformable) return;
   body.copied.reset();
   body.doubles.reset();
@@ -329,20 +335,20 @@ void SceneModel::read(ModelBody& body) {
   body.is_promised = false;
 }
 
-/// Notes no start for an object that was frozen: the contract does not say from where it is swept when it
-/// can be read again.
+/// No scene keeps where an object was before a swept one is added. An object that is frozen then may stand
+/// when it is read again.
 void SceneModel::read_and_sweep(ModelBody& body) {
-  const bool stood_before = body.stands;
-  const bool was_frozen = body.is_frozen;
+  const bool stood_still = body.is_frozen && !body.is_unseen;
+  body.is_start_known = !is_swept_added_ && (body.is_start_known || !stood_still);
   body.start = body.seen;
   body.start_pose = body.pose;
   read(body);
-  if (body.stands || body.settings.motion == Motion::fixed) {
+  if (body.is_unseen || body.jumps || body.settings.motion == Motion::fixed) {
     body.start = body.seen;
     body.start_pose = body.pose;
   }
-  body.is_start_known = !body.is_frozen && !was_frozen;
-  body.stands = stood_before && body.is_frozen;
+  body.is_unseen = body.is_unseen && body.is_frozen;
+  body.jumps = false;
 }
 
 }  // namespace graze::fuzz

@@ -164,7 +164,7 @@ bool SceneModel::sweeps() const {
 }
 
 bool SceneModel::is_sweep_known(const BodyPair& pair) const {
-  return !is_swept_added_ && bodies_[pair.first].is_start_known && bodies_[pair.second].is_start_known;
+  return bodies_[pair.first].is_start_known && bodies_[pair.second].is_start_known;
 }
 
 void SceneModel::check_limits(const FrameReport& report) const {
@@ -282,7 +282,9 @@ void SceneModel::check_values(const FrameReport& report, const PairReport& row, 
   if (accuracy.mode() == AccuracyMode::paper || is_undone(row)) return;
   if (accuracy.mode() == AccuracyMode::within && !fresh.in_contact) {
     const double rounding = 0x1p-50 * row.distance.upper;
-    return expect(row.distance.upper - row.distance.lower <= accuracy.tolerance() + rounding,
+    // Both are infinite where nothing is left to be tested.
+    return expect(row.distance.lower == row.distance.upper ||
+                      row.distance.upper - row.distance.lower <= accuracy.tolerance() + rounding,
                   "bounds further apart than the tolerance");
   }
   if (chooses_carrying()) return check_chosen(report, row, pair, fresh);

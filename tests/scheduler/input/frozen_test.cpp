@@ -245,4 +245,23 @@ TEST_CASE("a frozen pair that is taken out ends once") {
   CHECK(find_pair(*stage.step_at(0.25), stage.plate, stage.needle) == nullptr);
 }
 
+TEST_CASE("a frozen pair that is taken out leaves no contacts out any more") {
+  SceneSettings settings = settings_of(20, 100);
+  settings.max_contacts_per_pair = 1;
+  Stage stage(settings);
+  stage.step_at(0.25);
+  const ReportHandle last = stage.step_at(0.25);
+  REQUIRE(stage.row(last).contacts_cut);
+  const std::size_t cut = last->statistics().pairs_cut;
+  stage.scene.ignore(stage.plate, stage.needle);
+  const ReportHandle ended = stage.step_with(nothing);
+  CHECK(stage.row(ended).phase == PairPhase::ended);
+  CHECK(stage.row(ended).stale);
+  CHECK(stage.row(ended).contact_count == 0);
+  CHECK_FALSE(stage.row(ended).contacts_cut);
+  CHECK(stage.row(ended).complete);
+  CHECK(ended->statistics().pairs_cut == cut - 1);
+  CHECK(inconsistency_of(*ended) == "");
+}
+
 }  // namespace graze::tests
