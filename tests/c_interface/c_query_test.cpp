@@ -92,6 +92,21 @@ TEST_CASE("c: two surfaces, and their contacts at other positions") {
     CHECK(geometries[i].is_interior == geometry.is_interior);
   }
 
+  std::vector<graze_followed_contact> followed(result.contact_count);
+  for (const bool of_b : {false, true}) {
+    expect_ok(graze_follow_contacts(s.c_a.get(), &s.view_a, s.c_b.get(), &later_view, result.contacts,
+                                    result.contact_count, of_b, followed.data()));
+    for (std::size_t i = 0; i < result.contact_count; ++i) {
+      const FollowedContact walked = (of_b ? follow_vertex_of_b : follow)(
+          *s.mesh_a, s.data_a.positions, *s.mesh_b, later, expected.contacts[i]);
+      CHECK(followed[i].is_known == walked.is_known);
+      CHECK(followed[i].steps == walked.steps);
+      CHECK(followed[i].feature_a.index == walked.feature_a.index);
+      CHECK(followed[i].feature_b.index == walked.feature_b.index);
+      CHECK(followed[i].geometry.separation == walked.geometry.separation);
+    }
+  }
+
   const graze_contact& first = result.contacts[0];
   graze_contact_geometry plain{};
   expect_ok(graze_evaluate(s.c_a.get(), &s.view_a, first.feature_a, s.c_b.get(), &later_view, first.feature_b,

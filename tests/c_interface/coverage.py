@@ -22,7 +22,8 @@ CLASSES = {
     "scheduler/include/graze/recorder.hpp": ["Recorder"],
     "scheduler/include/graze/recording.hpp": ["Recording", "Replay"],
 }
-FREE_FUNCTIONS = ["core/include/graze/contact_geometry.hpp", "core/include/graze/instruction_set.hpp",
+FREE_FUNCTIONS = ["core/include/graze/contact_geometry.hpp", "core/include/graze/contact_walk.hpp",
+                  "core/include/graze/instruction_set.hpp",
                   "core/include/graze/mesh.hpp", "core/include/graze/query.hpp", "core/include/graze/version.hpp",
                   "core/include/graze/weld.hpp", "scheduler/include/graze/recording.hpp",
                   "scheduler/include/graze/settings.hpp"]

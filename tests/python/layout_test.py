@@ -29,7 +29,7 @@ CALLED = {
 ROWS = {
     "id": rows.ID, "feature": rows.FEATURE, "contact": rows.CONTACT, "bounds": rows.BOUNDS,
     "witness": rows.WITNESS, "way_out": rows.WAY_OUT, "pair": rows.PAIR, "region_distance": rows.REGION_DISTANCE,
-    "impact": rows.IMPACT, "contact_geometry": rows.CONTACT_GEOMETRY, "weights": rows.WEIGHTS,
+    "impact": rows.IMPACT, "contact_geometry": rows.CONTACT_GEOMETRY, "followed_contact": rows.FOLLOWED_CONTACT, "weights": rows.WEIGHTS,
     "ray_hit": rows.RAY_HIT, "sphere_hit": rows.SPHERE_HIT, "closest_point": rows.CLOSEST_POINT,
     "statistics": rows.STATISTICS}
 UNUSED = {"task_scheduler"}  # functions of C that call back; a scene from Python takes oneTBB

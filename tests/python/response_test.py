@@ -43,6 +43,16 @@ class ResponseTest(unittest.TestCase):
         self.assertEqual(found.dtype["side_a"], np.uint8)
         self.assertTrue(found["is_interior"].any())
 
+    def test_follow_goes_over_to_other_faces(self):
+        contacts = answer(1.05).contacts
+        vertices = contacts[contacts["kind"] == ContactKind.VF]
+        away = BALL_POINTS + [-2.0, 3.0, 1.05]
+        found = graze.follow(FLOOR, FLOOR_POINTS, BALL, away, vertices)
+        self.assertTrue(found["is_known"].all())
+        over_second = away[vertices["feature_b"]["index"], 1] > away[vertices["feature_b"]["index"], 0]
+        self.assertTrue(over_second.all() and (found["feature_a"]["index"] == 1).all())
+        np.testing.assert_allclose(found["geometry"]["separation"], away[vertices["feature_b"]["index"], 2], atol=1e-14)
+
     def test_two_features(self):
         found = graze.evaluate_features(FLOOR, FLOOR_POINTS, (FeatureKind.FACE, 0), BALL, BALL_POINTS + [1, -1, 3],
                                         graze.Feature(FeatureKind.VERTEX, 5))

@@ -124,6 +124,13 @@ GRAZE_SAME_MEMBER(graze_contact_geometry, side_b);
 GRAZE_SAME_MEMBER(graze_contact_geometry, sunk);
 GRAZE_SAME_MEMBER(graze_contact_geometry, is_interior);
 
+GRAZE_SAME_SIZE(graze_followed_contact);
+GRAZE_SAME_MEMBER(graze_followed_contact, feature_a);
+GRAZE_SAME_MEMBER(graze_followed_contact, feature_b);
+GRAZE_SAME_MEMBER(graze_followed_contact, geometry);
+GRAZE_SAME_MEMBER(graze_followed_contact, is_known);
+GRAZE_SAME_MEMBER(graze_followed_contact, steps);
+
 GRAZE_SAME_SIZE(graze_weights);
 GRAZE_SAME_MEMBER(graze_weights, count);
 GRAZE_SAME_MEMBER(graze_weights, vertex);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <graze/contact_geometry.hpp>
+#include <graze/contact_walk.hpp>
 #include <graze/query.hpp>
 #include <graze/report.hpp>
 #include <graze/scene_query.hpp>
@@ -39,6 +40,8 @@ template <>
 struct SameAs<graze_impact> : std::type_identity<Impact> {};
 template <>
 struct SameAs<graze_contact_geometry> : std::type_identity<ContactGeometry> {};
+template <>
+struct SameAs<graze_followed_contact> : std::type_identity<FollowedContact> {};
 template <>
 struct SameAs<graze_weights> : std::type_identity<SurfaceWeights> {};
 template <>

@@ -1,4 +1,5 @@
 #include <graze/contact_geometry.hpp>
+#include <graze/contact_walk.hpp>
 
 #include "calls.hpp"
 #include "handles.hpp"
@@ -21,6 +22,28 @@ namespace {
 const graze::Mesh& mesh_of(const graze_mesh* mesh, const char* name) {
   return *given(mesh, name).mesh;
 }
+
+/// Two surfaces at positions of the caller's.
+struct Surfaces {
+  Surfaces(const graze_mesh* of_a, const graze_positions* at_a, const graze_mesh* of_b,
+           const graze_positions* at_b)
+      : mesh_a(mesh_of(of_a, "mesh_a")),
+        mesh_b(mesh_of(of_b, "mesh_b")),
+        positions_a(view_of(at_a, "positions_a")),
+        positions_b(view_of(at_b, "positions_b")) {}
+
+  /// Fills the caller's room with the answer for each contact.
+  template <typename Row, typename Answer>
+  void for_each(std::span<const graze_contact> contacts, std::span<Row> room, const Answer& answer) const {
+    const graze::Contact* const read = cpp_rows(contacts.data());
+    for (size_t i = 0; i < room.size(); ++i) room[i] = same<Row>(answer(read[i]));
+  }
+
+  const graze::Mesh& mesh_a;
+  const graze::Mesh& mesh_b;
+  graze::PositionView positions_a;
+  graze::PositionView positions_b;
+};
 
 void copy_point(const Eigen::Vector3d& point, double* room) {
   for (int axis = 0; axis < 3; ++axis) room[axis] = point[axis];
@@ -70,14 +93,25 @@ graze_status graze_evaluate_contacts(const graze_mesh* mesh_a, const graze_posit
                                      const graze_contact* contacts, size_t count,
                                      graze_contact_geometry* geometries) {
   return guarded([&] {
-    const graze::Mesh& a = mesh_of(mesh_a, "mesh_a");
-    const graze::Mesh& b = mesh_of(mesh_b, "mesh_b");
-    const graze::PositionView at_a = view_of(positions_a, "positions_a");
-    const graze::PositionView at_b = view_of(positions_b, "positions_b");
-    const graze::Contact* const read = cpp_rows(array(contacts, count, "contacts").data());
-    const auto room = array(geometries, count, "geometries");
-    for (size_t i = 0; i < count; ++i)
-      room[i] = same<graze_contact_geometry>(graze::evaluate(a, at_a, b, at_b, read[i]));
+    const Surfaces at(mesh_a, positions_a, mesh_b, positions_b);
+    at.for_each(array(contacts, count, "contacts"), array(geometries, count, "geometries"),
+                [&](const graze::Contact& contact) {
+                  return graze::evaluate(at.mesh_a, at.positions_a, at.mesh_b, at.positions_b, contact);
+                });
+  });
+}
+
+graze_status graze_follow_contacts(const graze_mesh* mesh_a, const graze_positions* positions_a,
+                                   const graze_mesh* mesh_b, const graze_positions* positions_b,
+                                   const graze_contact* contacts, size_t count, bool vertices_of_b,
+                                   graze_followed_contact* followed) {
+  return guarded([&] {
+    const Surfaces at(mesh_a, positions_a, mesh_b, positions_b);
+    const auto follow = vertices_of_b ? &graze::follow_vertex_of_b : &graze::follow;
+    at.for_each(array(contacts, count, "contacts"), array(followed, count, "followed"),
+                [&](const graze::Contact& contact) {
+                  return follow(at.mesh_a, at.positions_a, at.mesh_b, at.positions_b, contact);
+                });
   });
 }
 

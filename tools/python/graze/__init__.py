@@ -15,9 +15,10 @@ from .query import QueryResult, RepeatedQuery, query
 from .recorder import Recorder, RecorderStatistics
 from .recording import RecordedFrame, Recording, Replay, ReplayDifference, ReplayObject
 from .report import Diagnostic, Report
-from .response import SurfaceWeights, evaluate, evaluate_features, in_normal_cone, pushes, separations, weights
-from .rows import (CLOSEST_POINT, CONTACT, CONTACT_GEOMETRY, FEATURE, ID, IMPACT, PAIR, RAY_HIT, REGION_DISTANCE,
-                   SPHERE_HIT, STATISTICS, WAY_OUT, WITNESS, Feature, ObjectId)
+from .response import (
+    SurfaceWeights, evaluate, evaluate_features, follow, in_normal_cone, pushes, separations, weights)
+from .rows import (CLOSEST_POINT, CONTACT, CONTACT_GEOMETRY, FEATURE, FOLLOWED_CONTACT, ID, IMPACT, PAIR, RAY_HIT,
+                   REGION_DISTANCE, SPHERE_HIT, STATISTICS, WAY_OUT, WITNESS, Feature, ObjectId)
 from .scene import Scene
 from .scene_query import MeshProbe, SceneQuery
 from .settings import (Accuracy, ObjectSettings, PairRule, QueryFilter, QuerySettings, RecorderSettings, SceneCapacity,
@@ -26,11 +27,11 @@ from .settings import (Accuracy, ObjectSettings, PairRule, QueryFilter, QuerySet
 __all__ = [
     "Accuracy", "AccuracyMode", "ArenaPolicy", "BindPolicy", "CLOSEST_POINT", "CONTACT", "CONTACT_GEOMETRY",
     "CollisionManager", "ContactData", "ContactDetail", "ContactKind", "Diagnostic", "DiagnosticKind",
-    "DistanceData", "Error", "FEATURE", "Feature", "FeatureKind", "ID", "IMPACT", "ImpactStatus", "Inside", "Mesh",
-    "MeshOddities", "MeshProbe", "Motion", "ObjectId", "ObjectSettings", "PAIR", "PairPhase", "PairRule",
-    "QueryFilter", "QueryResult", "QuerySettings", "RAY_HIT", "REGION_DISTANCE", "RecordedFrame", "Recorder",
-    "RecorderSettings", "RecorderStatistics", "Recording", "RepeatedQuery", "Replay", "ReplayDifference",
-    "ReplayObject", "Report", "SPHERE_HIT", "STATISTICS", "Scene", "SceneCapacity", "SceneQuery", "SceneSettings",
-    "Side", "SurfaceWeights", "WAY_OUT", "WITNESS", "WhenBehind", "__version__", "evaluate", "evaluate_features",
-    "in_normal_cone", "instruction_set", "library_version", "max_threads", "pushes", "query", "separations",
-    "use_instruction_set", "weights"]
+    "DistanceData", "Error", "FEATURE", "FOLLOWED_CONTACT", "Feature", "FeatureKind", "ID", "IMPACT",
+    "ImpactStatus", "Inside", "Mesh", "MeshOddities", "MeshProbe", "Motion", "ObjectId", "ObjectSettings", "PAIR",
+    "PairPhase", "PairRule", "QueryFilter", "QueryResult", "QuerySettings", "RAY_HIT", "REGION_DISTANCE",
+    "RecordedFrame", "Recorder", "RecorderSettings", "RecorderStatistics", "Recording", "RepeatedQuery", "Replay",
+    "ReplayDifference", "ReplayObject", "Report", "SPHERE_HIT", "STATISTICS", "Scene", "SceneCapacity",
+    "SceneQuery", "SceneSettings", "Side", "SurfaceWeights", "WAY_OUT", "WITNESS", "WhenBehind", "__version__",
+    "evaluate", "evaluate_features", "follow", "in_normal_cone", "instruction_set", "library_version",
+    "max_threads", "pushes", "query", "separations", "use_instruction_set", "weights"]

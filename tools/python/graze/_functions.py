@@ -98,6 +98,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "contact_separations": (STATUS, [c_void_p, c_size_t, c_void_p, c_void_p]),
     "evaluate": (STATUS, [c_void_p, c_void_p, Feature, c_void_p, c_void_p, Feature, c_void_p]),
     "evaluate_contacts": (STATUS, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
+    "follow_contacts": (STATUS, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_bool, c_void_p]),
     "surface_weights": (STATUS, [c_void_p, c_void_p, Feature, c_void_p, c_void_p]),
     "in_normal_cone": (STATUS, [c_void_p, c_void_p, Feature, c_void_p, c_void_p]),
     "query_settings_init": (STATUS, [c_void_p, c_size_t]),

@@ -11,7 +11,7 @@ from ._library import lib
 from ._positions import described, point, readable
 from .errors import Error
 from .mesh import Mesh
-from .rows import CONTACT, CONTACT_GEOMETRY, WEIGHTS
+from .rows import CONTACT, CONTACT_GEOMETRY, FOLLOWED_CONTACT, WEIGHTS
 
 
 class SurfaceWeights(NamedTuple):
@@ -49,6 +49,22 @@ def evaluate(mesh_a: Mesh, positions_a: ArrayLike, mesh_b: Mesh, positions_b: Ar
     found = np.zeros(len(rows), CONTACT_GEOMETRY)
     lib.evaluate_contacts(mesh_a._pointer, ctypes.byref(described(at_a)), mesh_b._pointer,
                           ctypes.byref(described(at_b)), rows.ctypes.data, len(rows), found.ctypes.data)
+    return found
+
+
+def follow(mesh_a: Mesh, positions_a: ArrayLike, mesh_b: Mesh, positions_b: ArrayLike, contacts: "NDArray[Any]",
+           vertices_of_b: bool = False) -> "NDArray[Any]":
+    """Computes where contacts have gone at other positions, of type `FOLLOWED_CONTACT`, also to other features.
+
+    A contact of two vertices follows that of a, or with `vertices_of_b` that of b. Where `is_known` is false, the
+    geometry is that of `evaluate`.
+    """
+    at_a = readable(positions_a, mesh_a.vertex_count, "positions_a")
+    at_b = readable(positions_b, mesh_b.vertex_count, "positions_b")
+    rows = _contacts(contacts)
+    found = np.zeros(len(rows), FOLLOWED_CONTACT)
+    lib.follow_contacts(mesh_a._pointer, ctypes.byref(described(at_a)), mesh_b._pointer,
+                        ctypes.byref(described(at_b)), rows.ctypes.data, len(rows), vertices_of_b, found.ctypes.data)
     return found
 
 

@@ -54,6 +54,9 @@ CONTACT_GEOMETRY = _struct([
     ("point_a", *_POINT), ("point_b", *_POINT), ("normal", *_POINT), ("push", *_POINT), ("distance", np.float64),
     ("separation", np.float64), ("side_a", np.uint8), ("side_b", np.uint8), ("sunk", np.bool_),
     ("is_interior", np.bool_)])
+FOLLOWED_CONTACT = _struct([
+    ("feature_a", FEATURE), ("feature_b", FEATURE), ("geometry", CONTACT_GEOMETRY), ("is_known", np.bool_),
+    ("steps", np.uint32)])
 WEIGHTS = _struct([("count", np.int32), ("vertex", np.uint32, (4,)), ("weight", np.float64, (4,))])
 RAY_HIT = _struct([
     ("object", ID), ("t", np.float64), ("point", *_POINT), ("normal", *_POINT), ("feature", FEATURE),

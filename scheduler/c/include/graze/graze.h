@@ -619,6 +619,15 @@ typedef struct {
   bool is_interior;
 } graze_contact_geometry;
 
+/// graze::FollowedContact
+typedef struct {
+  graze_feature feature_a;
+  graze_feature feature_b;
+  graze_contact_geometry geometry;
+  bool is_known;
+  uint32_t steps;
+} graze_followed_contact;
+
 /// graze::SurfaceWeights
 typedef struct {
   int32_t count;
@@ -640,6 +649,12 @@ GRAZE_C_API graze_status graze_evaluate_contacts(const graze_mesh* mesh_a, const
                                                  const graze_mesh* mesh_b, const graze_positions* positions_b,
                                                  const graze_contact* contacts, size_t count,
                                                  graze_contact_geometry* geometries);
+/// graze::follow() of `count` contacts of a report between the same two objects. With `vertices_of_b` it is
+/// graze::follow_vertex_of_b().
+GRAZE_C_API graze_status graze_follow_contacts(const graze_mesh* mesh_a, const graze_positions* positions_a,
+                                               const graze_mesh* mesh_b, const graze_positions* positions_b,
+                                               const graze_contact* contacts, size_t count,
+                                               bool vertices_of_b, graze_followed_contact* followed);
 /// graze::weights()
 GRAZE_C_API graze_status graze_surface_weights(const graze_mesh* mesh, const graze_positions* positions,
                                                graze_feature feature, const double point[3],
