@@ -93,6 +93,13 @@ Shape sheet(std::uint32_t columns, std::uint32_t rows, bool of_quads) {
   return shape;
 }
 
+/// Puts the faces into another order, so that the numbers of edges have nothing to do with where they are.
+void shuffle_faces(Body& body, Random& random) {
+  for (std::size_t i = body.rest.faces.size() - 1; i > 0; --i)
+    std::swap(body.rest.faces[i], body.rest.faces[random.below(static_cast<std::uint32_t>(i + 1))]);
+  body.now.faces = body.rest.faces;
+}
+
 /// A sheet that is folded once or twice so that layers pass each other, and crumpled by random motion.
 SelfScene crumpled_sheet(std::uint64_t seed) {
   Random random(seed);
@@ -114,7 +121,10 @@ SelfScene crumpled_sheet(std::uint64_t seed) {
   if (on_grid) now = snapped(now, 0.25);
   const std::uint32_t rings = random.below(3);
   const bool at_rest = random.chance(0.3);
-  return {{rest, now}, on_grid ? 0.25 * (1 + random.below(5)) : random.between(0.1, 1.2), rings, at_rest};
+  SelfScene scene{
+      {rest, now}, on_grid ? 0.25 * (1 + random.below(5)) : random.between(0.1, 1.2), rings, at_rest};
+  if (random.chance(0.5)) shuffle_faces(scene.body, random);
+  return scene;
 }
 
 /// The one contact of detail `nearest` if it has no other: the nearest of `features`, and of equally near
