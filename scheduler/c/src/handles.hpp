@@ -7,6 +7,8 @@
 #include <graze/recording.hpp>
 #include <memory>
 
+#include "calls.hpp"
+
 // The structs that the handles of the C interface point at.
 
 struct graze_mesh {
@@ -50,3 +52,19 @@ struct graze_replay {
   std::shared_ptr<const graze::Recording> recording;
   graze::Replay replay;
 };
+
+namespace graze::c {
+
+/// The scene of a handle, which is not null.
+[[nodiscard]] inline Scene& scene_of(graze_scene* scene) {
+  return given(scene, "scene").scene;
+}
+[[nodiscard]] inline const Scene& scene_of(const graze_scene* scene) {
+  return given(scene, "scene").scene;
+}
+/// The mesh of a handle, which is not null. `name` is that of the parameter.
+[[nodiscard]] inline const Mesh& mesh_of(const graze_mesh* mesh, const char* name = "mesh") {
+  return *given(mesh, name).mesh;
+}
+
+}  // namespace graze::c

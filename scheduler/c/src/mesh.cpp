@@ -11,6 +11,7 @@ using graze::c::array;
 using graze::c::BadArgument;
 using graze::c::given;
 using graze::c::guarded;
+using graze::c::mesh_of;
 using graze::c::shared_mesh;
 using graze::c::view_of;
 
@@ -25,10 +26,6 @@ void give_mesh(std::shared_ptr<const Mesh> mesh, graze_mesh** room) {
 std::span<const uint32_t> corners_of(const uint32_t* first, std::size_t faces, std::size_t each) {
   if (faces > SIZE_MAX / each / sizeof(uint32_t)) throw BadArgument("more faces than memory can hold");
   return array(first, faces * each, "corners");
-}
-
-const Mesh& mesh_of(const graze_mesh* mesh) {
-  return *given(mesh, "mesh").mesh;
 }
 
 void copy_if_wanted(const std::vector<uint32_t>& numbers, uint32_t* room) {

@@ -11,15 +11,11 @@
 using graze::ObjectId;
 using graze::PositionView;
 using graze::c::array;
-using graze::c::given;
 using graze::c::guarded;
 using graze::c::same;
+using graze::c::scene_of;
 
 namespace {
-
-graze::Scene& scene_of(graze_scene* scene) {
-  return given(scene, "scene").scene;
-}
 
 std::span<const ObjectId> ids_of(const graze_id* objects, std::size_t count) {
   return {graze::c::cpp_rows(array(objects, count, "objects").data()), count};

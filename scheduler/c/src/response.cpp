@@ -14,14 +14,11 @@ using graze::c::array;
 using graze::c::cpp_rows;
 using graze::c::given;
 using graze::c::guarded;
+using graze::c::mesh_of;
 using graze::c::same;
 using graze::c::view_of;
 
 namespace {
-
-const graze::Mesh& mesh_of(const graze_mesh* mesh, const char* name) {
-  return *given(mesh, name).mesh;
-}
 
 /// Two surfaces at positions of the caller's.
 struct Surfaces {

@@ -15,15 +15,10 @@ using graze::c::given;
 using graze::c::guarded;
 using graze::c::read_settings;
 using graze::c::same;
+using graze::c::scene_of;
 
 namespace {
 
-graze::Scene& scene_of(graze_scene* scene) {
-  return given(scene, "scene").scene;
-}
-const graze::Scene& scene_of(const graze_scene* scene) {
-  return given(scene, "scene").scene;
-}
 ObjectId id_of(graze_id id) {
   return same<ObjectId>(id);
 }
