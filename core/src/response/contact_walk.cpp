@@ -45,7 +45,7 @@ struct Sign {
 };
 
 /// An answer at a distance above 0. `gap` leads from a to b.
-FollowedContact moved(const ContactNow& now, const SurfacePoint& on_a, const SurfacePoint& on_b,
+FollowedContact moved(const ContactNow& now, const WalkedPoint& on_a, const WalkedPoint& on_b,
                       const Eigen::Vector3d& gap, const Sign& sign, unsigned steps) {
   FollowedContact found{on_a.feature, on_b.feature, {}, true, steps};
   ContactGeometry& geometry = found.geometry;
@@ -94,7 +94,7 @@ KeptVertex kept_vertex(const ContactNow& now, bool is_of_a) {
 /// Finds whether the vertex is behind the surface now, with the report's sign continued. Gives no value where
 /// that is not known.
 std::optional<Sign> sign_now(const KeptVertex& kept, const SurfaceWalk& walk) {
-  const SurfacePoint& end = walk.end;
+  const WalkedPoint& end = walk.end;
   if (walk.steps == 0) {
     const double along = end.gap.dot(kept.push);
     const Sign sign{along < 0, kept.was_behind};
@@ -102,7 +102,7 @@ std::optional<Sign> sign_now(const KeptVertex& kept, const SurfaceWalk& walk) {
     if (sign.has_changed() && is_at_border(kept.surface, end)) return std::nullopt;
     return sign;
   }
-  const SurfacePoint start = closest_on_feature(kept.surface, kept.start, end.point + end.gap);
+  const WalkedPoint start = closest_on_feature(kept.surface, kept.start, end.point + end.gap);
   const Side front = side_along(kept.surface, kept.start, start.point, kept.push);
   const Side side = side_along(kept.surface, end.feature, end.point, end.gap);
   if (front == Side::none || side == Side::none) return std::nullopt;
@@ -134,7 +134,7 @@ FollowedContact follow_vertex(const ContactNow& now, bool is_of_a) {
   if (!(walk.end.squared > 0)) return unmoved(now, false);
   const auto sign = sign_now(kept, walk);
   if (!sign) return unmoved(now, false);
-  SurfacePoint vertex;
+  WalkedPoint vertex;
   vertex.point = point;
   vertex.feature = {FeatureKind::vertex, kept.vertex};
   return is_of_a ? moved(now, vertex, walk.end, -walk.end.gap, *sign, walk.steps)
@@ -160,8 +160,8 @@ FollowedContact follow_edges(const ContactNow& now) {
   if (!(separation > 0)) return stays;
   const PairWalk walk = walk_together(now.a, edge_a, now.b, edge_b, at);
   // A report lists the fold of a quad only where there is nothing else.
-  const auto is_face = [](const SurfacePoint& on) { return on.feature.kind == FeatureKind::face; };
-  const auto is_vertex = [](const SurfacePoint& on) { return on.feature.kind == FeatureKind::vertex; };
+  const auto is_face = [](const WalkedPoint& on) { return on.feature.kind == FeatureKind::face; };
+  const auto is_vertex = [](const WalkedPoint& on) { return on.feature.kind == FeatureKind::vertex; };
   const bool is_at_fold = (is_face(walk.a) && !is_vertex(walk.b)) || (is_face(walk.b) && !is_vertex(walk.a));
   if (!walk.has_arrived || is_at_fold) return stays;
   return moved(now, walk.a, walk.b, walk.a.gap, {false, now.contact.separation() < 0}, walk.steps);

@@ -64,8 +64,8 @@ struct ClosestOfTriangles {
 
 /// Moves the points of a walk to the closest points of the two triangles that hold `on_a` and `on_b`. These
 /// do not pass through each other. Leaves the walk as it is and returns false if that is no nearer.
-bool move_to_closest(const PlacedMesh& a, const SurfacePoint& on_a, const PlacedMesh& b,
-                     const SurfacePoint& on_b, PairWalk& walk) {
+bool move_to_closest(const PlacedMesh& a, const WalkedPoint& on_a, const PlacedMesh& b,
+                     const WalkedPoint& on_b, PairWalk& walk) {
   using Kind = ClosestOfTriangles::Kind;
   const TrianglePoints points_a = triangle_of(a, on_a.face, on_a.triangle);
   const TrianglePoints points_b = triangle_of(b, on_b.face, on_b.triangle);
@@ -96,8 +96,8 @@ bool move_to_closest(const PlacedMesh& a, const SurfacePoint& on_a, const Placed
 }
 
 /// The closest point of an edge to `to`, with a triangle at the edge.
-SurfacePoint point_of_edge(const PlacedMesh& placed, std::uint32_t edge, const Eigen::Vector3d& to) {
-  SurfacePoint found = closest_on_feature(placed, {FeatureKind::edge, edge}, to);
+WalkedPoint point_of_edge(const PlacedMesh& placed, std::uint32_t edge, const Eigen::Vector3d& to) {
+  WalkedPoint found = closest_on_feature(placed, {FeatureKind::edge, edge}, to);
   found.face = placed.mesh.edge_faces(edge)[0];
   // The sides of a quad's first triangle are its first two edges.
   const auto edges = placed.mesh.face_edges(found.face);
@@ -133,8 +133,8 @@ PairWalk walk_together(const PlacedMesh& a, std::uint32_t edge_a, const PlacedMe
   };
   count_step();
   for (unsigned round = 0; round <= most_steps_together; ++round) {
-    SurfacePoint on_a = walk.a;
-    SurfacePoint on_b = walk.b;
+    WalkedPoint on_a = walk.a;
+    WalkedPoint on_b = walk.b;
     const bool leads_nearer_a = find_nearer(a, walk.a, walk.b.point, on_a);
     const bool leads_nearer_b = find_nearer(b, walk.b, walk.a.point, on_b);
     if (!leads_nearer_a && !leads_nearer_b) {

@@ -23,8 +23,8 @@ inline constexpr unsigned most_steps_together = 8;
 
 /// A walk over two surfaces to where they are locally closest.
 struct PairWalk {
-  SurfacePoint a;
-  SurfacePoint b;
+  WalkedPoint a;
+  WalkedPoint b;
   unsigned steps = 0;
   bool has_arrived = false;
 };

@@ -7,8 +7,8 @@
 namespace graze {
 namespace {
 
-SurfacePoint at_vertex(const PlacedMesh& placed, std::uint32_t vertex, const Eigen::Vector3d& to) {
-  SurfacePoint found;
+WalkedPoint at_vertex(const PlacedMesh& placed, std::uint32_t vertex, const Eigen::Vector3d& to) {
+  WalkedPoint found;
   found.point = placed.point(vertex);
   found.gap = to - found.point;
   found.squared = found.gap.squaredNorm();
@@ -18,11 +18,11 @@ SurfacePoint at_vertex(const PlacedMesh& placed, std::uint32_t vertex, const Eig
   return found;
 }
 
-SurfacePoint closest_on_edge(const PlacedMesh& placed, std::uint32_t edge, const Eigen::Vector3d& to) {
+WalkedPoint closest_on_edge(const PlacedMesh& placed, std::uint32_t edge, const Eigen::Vector3d& to) {
   const std::array<std::uint32_t, 2> ends = placed.mesh.edge(edge);
   const SegmentPoint on = closest_on_segment(to, {placed.point(ends[0]), placed.point(ends[1])});
   if (!on.is_interior) return at_vertex(placed, on.parameter > 0 ? ends[1] : ends[0], to);
-  SurfacePoint found;
+  WalkedPoint found;
   found.point = on.point;
   found.gap = to - on.point;
   found.squared = found.gap.squaredNorm();
@@ -49,8 +49,8 @@ std::array<std::uint32_t, 3> corners_of(const PlacedMesh& placed, std::uint32_t 
   return {corners[i], corners[j], corners[k]};
 }
 
-SurfacePoint named(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
-                   const TrianglePoints& points, const TrianglePoint& on, const Eigen::Vector3d& to) {
+WalkedPoint named(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
+                  const TrianglePoints& points, const TrianglePoint& on, const Eigen::Vector3d& to) {
   switch (on.part) {
     case TrianglePart::corner:
       for (std::size_t i = 0; i < 2; ++i)
@@ -65,7 +65,7 @@ SurfacePoint named(const PlacedMesh& placed, std::uint32_t face, std::uint8_t tr
     case TrianglePart::inside:
       break;
   }
-  SurfacePoint found;
+  WalkedPoint found;
   found.point = to - on.gap;
   found.gap = on.gap;
   found.squared = on.gap.squaredNorm();
@@ -79,7 +79,7 @@ SurfacePoint named(const PlacedMesh& placed, std::uint32_t face, std::uint8_t tr
 
 /// Takes the closest point of a triangle if it is nearer.
 void offer(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle, const Eigen::Vector3d& to,
-           SurfacePoint& best) {
+           WalkedPoint& best) {
   const TrianglePoints points = triangle_of(placed, face, triangle);
   const TrianglePoint on = closest_on_triangle(to, points);
   if (on.gap.squaredNorm() < best.squared) best = named(placed, face, triangle, points, on, to);
@@ -115,7 +115,7 @@ TriangleRef triangle_at(const PlacedMesh& placed, std::uint32_t vertex, std::uin
 class FanSearch {
  public:
   /// Writes to `nearer` if there is a nearer point.
-  FanSearch(const PlacedMesh& placed, const SurfacePoint& at, const Eigen::Vector3d& to, SurfacePoint& nearer)
+  FanSearch(const PlacedMesh& placed, const WalkedPoint& at, const Eigen::Vector3d& to, WalkedPoint& nearer)
       : placed_(placed), at_(at), to_(to), nearer_(nearer), squared_(at.squared) {}
 
   [[nodiscard]] bool has_found() const { return squared_ < at_.squared; }
@@ -145,16 +145,16 @@ class FanSearch {
     if (height * height > squared_ * normal.squaredNorm() * (1 + 0x1p-40)) return;
     if (!(closest_on_triangle(to_, points).gap.squaredNorm() < squared_)) return;
     const TriangleRef found = triangle_at(placed_, vertex, second, third);
-    const SurfacePoint nearer = closest_on_triangle_of(placed_, found.face, found.triangle, to_);
+    const WalkedPoint nearer = closest_on_triangle_of(placed_, found.face, found.triangle, to_);
     if (!(nearer.squared < squared_)) return;
     nearer_ = nearer;
     squared_ = nearer.squared;
   }
 
   const PlacedMesh& placed_;
-  const SurfacePoint& at_;
+  const WalkedPoint& at_;
   const Eigen::Vector3d& to_;
-  SurfacePoint& nearer_;
+  WalkedPoint& nearer_;
   double squared_;
 };
 
@@ -173,19 +173,19 @@ bool is_border(const PlacedMesh& placed, std::uint32_t edge) {
 
 }  // namespace
 
-SurfacePoint point_at_corner(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
-                             std::size_t corner, const Eigen::Vector3d& to) {
-  SurfacePoint found = at_vertex(placed, corners_of(placed, face, triangle)[corner], to);
+WalkedPoint point_at_corner(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
+                            std::size_t corner, const Eigen::Vector3d& to) {
+  WalkedPoint found = at_vertex(placed, corners_of(placed, face, triangle)[corner], to);
   found.face = face;
   found.triangle = triangle;
   return found;
 }
 
-SurfacePoint point_on_side(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
-                           std::size_t side, const Eigen::Vector3d& point, const Eigen::Vector3d& gap) {
+WalkedPoint point_on_side(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
+                          std::size_t side, const Eigen::Vector3d& point, const Eigen::Vector3d& gap) {
   const auto corners = corners_of(placed, face, triangle);
   const std::uint32_t edge = edge_of_side(placed, face, triangle, side);
-  SurfacePoint found;
+  WalkedPoint found;
   found.point = point;
   found.gap = gap;
   found.squared = gap.squaredNorm();
@@ -197,28 +197,28 @@ SurfacePoint point_on_side(const PlacedMesh& placed, std::uint32_t face, std::ui
   return found;
 }
 
-SurfacePoint closest_on_triangle_of(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
-                                    const Eigen::Vector3d& to) {
+WalkedPoint closest_on_triangle_of(const PlacedMesh& placed, std::uint32_t face, std::uint8_t triangle,
+                                   const Eigen::Vector3d& to) {
   const TrianglePoints points = triangle_of(placed, face, triangle);
   return named(placed, face, triangle, points, closest_on_triangle(to, points), to);
 }
 
-SurfacePoint closest_on_feature(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& to) {
+WalkedPoint closest_on_feature(const PlacedMesh& placed, const Feature& feature, const Eigen::Vector3d& to) {
   if (feature.kind == FeatureKind::vertex) return at_vertex(placed, feature.index, to);
   if (feature.kind == FeatureKind::edge) return closest_on_edge(placed, feature.index, to);
-  SurfacePoint best = closest_on_triangle_of(placed, feature.index, 0, to);
+  WalkedPoint best = closest_on_triangle_of(placed, feature.index, 0, to);
   if (placed.mesh.face(feature.index).size() == 4) offer(placed, feature.index, 1, to, best);
   return best;
 }
 
-bool find_nearer(const PlacedMesh& placed, const SurfacePoint& at, const Eigen::Vector3d& to,
-                 SurfacePoint& nearer) {
+bool find_nearer(const PlacedMesh& placed, const WalkedPoint& at, const Eigen::Vector3d& to,
+                 WalkedPoint& nearer) {
   FanSearch search(placed, at, to, nearer);
   for (const std::uint32_t vertex : at.corners()) search.look_around(vertex);
   return search.has_found();
 }
 
-bool is_at_border(const PlacedMesh& placed, const SurfacePoint& at) {
+bool is_at_border(const PlacedMesh& placed, const WalkedPoint& at) {
   if (at.feature.kind == FeatureKind::edge) return is_border(placed, at.feature.index);
   if (at.feature.kind == FeatureKind::face) return false;
   // The fan of a vertex inside a surface that is wound one way is one ring.
@@ -236,7 +236,7 @@ SurfaceWalk walk_to_closest(const PlacedMesh& placed, const Feature& start, cons
   };
   if (walk.end.feature != start) count_step();
   for (unsigned round = 0; round <= most_steps; ++round) {
-    SurfacePoint nearer;
+    WalkedPoint nearer;
     if (!find_nearer(placed, walk.end, to, nearer)) {
       walk.has_arrived = true;
       return walk;
