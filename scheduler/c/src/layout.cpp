@@ -7,8 +7,8 @@
 namespace graze::c {
 namespace {
 
-/// Whether a member of C is what the member of C++ is: the same number, an enumeration of one byte, a vector
-/// of three doubles, an array, or a struct that is the same as a whole.
+/// Whether a member of C is the member of C++. Both are the same number, or a byte and its enumeration, or
+/// arrays of the same numbers, or structs that are the same as a whole.
 template <typename InC, typename InCpp>
 constexpr bool is_same_member() {
   if constexpr (std::is_enum_v<InCpp>)
