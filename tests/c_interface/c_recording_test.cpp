@@ -208,6 +208,10 @@ TEST_CASE("c: a scheduler of the caller's") {
   graze_report_release(report);
   graze_scene_release(scene);
   CHECK(counts.releases == 1);
+  graze_scene_settings bad = given;
+  bad.contact_distance = -1;
+  expect_fails(graze_scene_new(&bad, &functions, &scene), GRAZE_REFUSED, "contact_distance");
+  CHECK(counts.releases == 1);  // a scene that was not made has taken nothing
   functions.run = nullptr;
   expect_fails(graze_scene_new(&given, &functions, &scene), GRAZE_BAD_ARGUMENT, "run");
 }

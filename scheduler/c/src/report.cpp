@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <utility>
 
@@ -26,21 +27,12 @@ const Row* rows_of(const graze_report* report, size_t* count, const Rows& rows) 
   return report != nullptr ? c_rows<Row>(rows(report->report()), count) : nullptr;
 }
 
+/// The parts of the C++ struct follow each other as they do in the struct of C. All are numbers of 8 bytes.
 graze_statistics flat(const graze::StepStatistics& step) {
-  graze_statistics flat{};
-  std::byte* next = reinterpret_cast<std::byte*>(&flat);
-  const auto add = [&](const auto& part, std::size_t bytes) {
-    std::memcpy(next, &part, bytes);
-    next += bytes;
-  };
-  // The parts of the C++ struct follow each other as they do in the struct of C, and hold numbers of 8 bytes
-  // alone.
-  static_assert(sizeof(graze_statistics) == sizeof(graze::StepStatistics));
   static_assert(offsetof(graze_statistics, boxes_tested) == offsetof(graze::StepStatistics, work));
   static_assert(offsetof(graze_statistics, object_bytes) == offsetof(graze::StepStatistics, bytes));
   static_assert(offsetof(graze_statistics, read_ms) == offsetof(graze::StepStatistics, times));
-  add(step, sizeof step);
-  return flat;
+  return same<graze_statistics>(step);
 }
 
 }  // namespace

@@ -32,7 +32,9 @@ graze_status graze_scene_new(const graze_scene_settings* settings, const graze_t
   return guarded([&] {
     auto& room = given(scene, "scene");
     const auto read = read_settings<graze::SceneSettings>(settings, "settings");
-    room = new graze_scene{graze::Scene(read, graze::c::scheduler_of_caller(scheduler))};
+    const auto callers = graze::c::scheduler_of_caller(scheduler);
+    room = new graze_scene{graze::Scene(read, callers)};
+    if (callers) callers->take();
   });
 }
 

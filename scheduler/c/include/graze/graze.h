@@ -471,7 +471,7 @@ typedef struct {
   /// Calls `work(data)` once on another thread, or before it returns. Returns false if it cannot, and then
   /// never calls it.
   bool (*start)(void* context, void (*work)(void* data), void* data);
-  /// Called when the last scene lets go of the scheduler. It may be null.
+  /// Called when the scene lets go of the scheduler, and not if graze_scene_new() fails. It may be null.
   void (*release)(void* context);
 } graze_task_scheduler;
 
@@ -878,7 +878,8 @@ typedef struct {
   const char* replayed;
 } graze_replay_difference;
 
-/// Opens a recording. Replays keep what they need of it.
+/// Opens a recording. Replays keep what they need of it. One thread at a time may use a recording and its
+/// replays.
 GRAZE_C_API graze_status graze_recording_open(const char* file, graze_recording** recording);
 GRAZE_C_API void graze_recording_release(graze_recording* recording);
 /// Gives the settings of the recorded scene. `settings` needs its `struct_size` only. `epsilon` is valid as
