@@ -72,7 +72,7 @@ template <std::size_t count>
   return {xyz[0], xyz[1], xyz[2]};
 }
 
-[[nodiscard]] inline std::shared_ptr<const Mesh> shared_mesh(Mesh mesh) {
+[[nodiscard]] inline std::shared_ptr<const Mesh> shared_mesh(const Mesh& mesh) {
   return std::make_shared<const Mesh>(mesh);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -106,7 +107,8 @@ graze_status graze_replay_positions(const graze_replay* replay, size_t index, do
                         std::to_string(needed));
     std::vector<Eigen::Vector3d> found;
     read.read_positions(index, found);
-    std::memcpy(&given(positions, "positions"), found.data(), found.size() * sizeof found[0]);
+    double* next = &given(positions, "positions");
+    for (const Eigen::Vector3d& point : found) next = std::copy_n(point.data(), 3, next);
   });
 }
 
