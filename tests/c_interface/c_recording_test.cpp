@@ -33,7 +33,8 @@ class FallingBall {
     scene_ = c_scene(settings);
     const auto ball = c_mesh(models::sphere(12, 8));
     const auto plate = c_mesh(models::sheet(5, 5, 4, 4));
-    const graze_object_settings rigid = c_settings(ObjectSettings{.name = "ball", .motion = Motion::rigid});
+    const ObjectSettings of_ball{.name = "ball", .motion = Motion::rigid};
+    const graze_object_settings rigid = c_settings(of_ball);
     expect_ok(graze_scene_add(scene_.get(), ball.get(), &rigid, &id_));
     graze_id plate_id{};
     expect_ok(graze_scene_add(scene_.get(), plate.get(), nullptr, &plate_id));

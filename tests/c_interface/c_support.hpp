@@ -38,6 +38,8 @@ void expect_fails(graze_status ended, graze_status status, const std::string& wo
 [[nodiscard]] Owned<graze_scene> c_scene(const SceneSettings& settings);
 [[nodiscard]] graze_scene_settings c_settings(const SceneSettings& settings);
 [[nodiscard]] graze_object_settings c_settings(const ObjectSettings& settings);
+/// Does not compile: the struct points into the settings.
+graze_object_settings c_settings(ObjectSettings&& settings) = delete;
 
 /// The upper three rows of a pose.
 [[nodiscard]] std::array<double, 12> rows_of(const Eigen::Isometry3d& pose);
