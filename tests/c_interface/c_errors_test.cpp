@@ -121,7 +121,7 @@ TEST_CASE("c: settings of another size") {
   CHECK(settings.detail == GRAZE_DETAIL_FEATURES);
   CHECK(settings.sweep_tolerance == 1e-6);
   CHECK(settings.max_contacts == GRAZE_NO_LIMIT);
-  // What is read back fills no more than the program has.
+  // Reading settings fills no more than the program has.
   struct Guarded {
     Older older;
     std::uint64_t guard = 42;

@@ -6,8 +6,8 @@
 #include "support/catch.hpp"
 #include "support/details.hpp"
 
-// The same scene is stepped by C++ and by C. Both are the same library, so what can go wrong is a call that C
-// passes on in another way than it says.
+// One scene is stepped by C++ and by C, and the reports are compared. Both languages reach the same code, so
+// these tests find calls that C passes on in another way than graze.h says.
 
 namespace graze::tests {
 namespace {

@@ -92,6 +92,7 @@ double approach_since_rest(const LeafMotion& a, const Box& rest_box_a, const Lea
   const double off = a.off + b.off;
   if (!(off < std::numeric_limits<double>::infinity())) return off;
   Box part = common(rest_box_b, grown(rest_box_a, gap));
+  // 0.24 is the square of 1/2, with room for rounding.
   if (part.empty() || !((b.turn - a.turn).squaredNorm() <= 0.24)) part = rest_box_b;
   return off * (1 + of_rounding) + parting(a, b, part);
 }

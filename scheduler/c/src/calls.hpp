@@ -2,12 +2,13 @@
 
 #include <graze/graze.h>
 
+#include <Eigen/Core>
 #include <exception>
 #include <graze/error.hpp>
-#include <graze/mesh.hpp>
 #include <new>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 // Every function of the C interface is made of these, so no exception leaves it, and null does no harm.
@@ -70,10 +71,6 @@ template <std::size_t count>
 [[nodiscard]] inline Eigen::Vector3d point_of(const double* first, const char* name) {
   const auto xyz = numbers<3>(first, name);
   return {xyz[0], xyz[1], xyz[2]};
-}
-
-[[nodiscard]] inline std::shared_ptr<const Mesh> shared_mesh(const Mesh& mesh) {
-  return std::make_shared<const Mesh>(mesh);
 }
 
 }  // namespace graze::c

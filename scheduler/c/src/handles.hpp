@@ -6,6 +6,7 @@
 #include <graze/recorder.hpp>
 #include <graze/recording.hpp>
 #include <memory>
+#include <utility>
 
 #include "calls.hpp"
 
@@ -65,6 +66,10 @@ namespace graze::c {
 /// The mesh of a handle, which is not null. `name` is that of the parameter.
 [[nodiscard]] inline const Mesh& mesh_of(const graze_mesh* mesh, const char* name = "mesh") {
   return *given(mesh, name).mesh;
+}
+/// Gives the caller a handle of a mesh, or null for no mesh.
+inline void give_mesh(std::shared_ptr<const Mesh> mesh, graze_mesh** room) {
+  given(room, "mesh") = mesh ? new graze_mesh{std::move(mesh)} : nullptr;
 }
 
 }  // namespace graze::c

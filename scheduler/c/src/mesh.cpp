@@ -12,14 +12,17 @@ using graze::c::BadArgument;
 using graze::c::given;
 using graze::c::guarded;
 using graze::c::mesh_of;
-using graze::c::shared_mesh;
 using graze::c::view_of;
 
 namespace {
 
-/// Gives the caller a handle of a mesh, or null for no mesh.
-void give_mesh(std::shared_ptr<const Mesh> mesh, graze_mesh** room) {
-  given(room, "mesh") = mesh ? new graze_mesh{std::move(mesh)} : nullptr;
+/// Gives the caller a handle of the mesh that `make` returns.
+template <typename Make>
+graze_status new_mesh(graze_mesh** room, const Make& make) {
+  return guarded([&] {
+    graze_mesh*& mesh = given(room, "mesh");
+    mesh = new graze_mesh{std::make_shared<const Mesh>(make())};
+  });
 }
 
 /// Returns the corners of faces that have `each` of them.
@@ -75,46 +78,38 @@ extern "C" {
 
 graze_status graze_mesh_from_triangles(const graze_positions* rest, const uint32_t* corners,
                                        size_t triangle_count, graze_mesh** mesh) {
-  return guarded([&] {
-    static_cast<void>(given(mesh, "mesh"));
-    const auto faces = corners_of(corners, triangle_count, 3);
-    give_mesh(shared_mesh(Mesh::from_triangles(view_of(rest, "rest"), faces)), mesh);
+  return new_mesh(mesh, [&] {
+    return Mesh::from_triangles(view_of(rest, "rest"), corners_of(corners, triangle_count, 3));
   });
 }
 
 graze_status graze_mesh_from_quads(const graze_positions* rest, const uint32_t* corners, size_t quad_count,
                                    graze_mesh** mesh) {
-  return guarded([&] {
-    static_cast<void>(given(mesh, "mesh"));
-    const auto faces = corners_of(corners, quad_count, 4);
-    give_mesh(shared_mesh(Mesh::from_quads(view_of(rest, "rest"), faces)), mesh);
-  });
+  return new_mesh(
+      mesh, [&] { return Mesh::from_quads(view_of(rest, "rest"), corners_of(corners, quad_count, 4)); });
 }
 
 graze_status graze_mesh_from_polygons(const graze_positions* rest, const uint32_t* corners,
                                       size_t corner_count, const uint32_t* corner_counts, size_t face_count,
                                       graze_mesh** mesh) {
-  return guarded([&] {
-    static_cast<void>(given(mesh, "mesh"));
-    give_mesh(shared_mesh(Mesh::from_polygons(view_of(rest, "rest"), array(corners, corner_count, "corners"),
-                                              array(corner_counts, face_count, "corner_counts"))),
-              mesh);
+  return new_mesh(mesh, [&] {
+    return Mesh::from_polygons(view_of(rest, "rest"), array(corners, corner_count, "corners"),
+                               array(corner_counts, face_count, "corner_counts"));
   });
 }
 
 graze_status graze_mesh_weld(const graze_mesh* mesh, double distance, uint32_t* new_vertex_of_old,
                              uint32_t* new_face_of_old, graze_mesh** welded) {
-  return guarded([&] {
-    static_cast<void>(given(welded, "welded"));
+  return new_mesh(welded, [&] {
     const graze::WeldedMesh made = graze::weld(mesh_of(mesh), distance);
-    give_mesh(shared_mesh(made.mesh), welded);
     copy_if_wanted(made.new_of_old, new_vertex_of_old);
     copy_if_wanted(made.new_face_of_old, new_face_of_old);
+    return made.mesh;
   });
 }
 
 graze_status graze_mesh_share(const graze_mesh* mesh, graze_mesh** shared) {
-  return guarded([&] { give_mesh(given(mesh, "mesh").mesh, shared); });
+  return guarded([&] { graze::c::give_mesh(given(mesh, "mesh").mesh, shared); });
 }
 
 void graze_mesh_release(graze_mesh* mesh) {

@@ -18,6 +18,9 @@ graze_recorder_settings all_settings(const graze_recorder_settings* settings) {
   return all;
 }
 
+static_assert(
+    graze::c::has_members<graze::RecorderStatistics, &graze::RecorderStatistics::frames,
+                          &graze::RecorderStatistics::dropped, &graze::RecorderStatistics::bytes>());
 graze_recorder_statistics described(const graze::RecorderStatistics& statistics) {
   return {statistics.frames, statistics.dropped, statistics.bytes};
 }

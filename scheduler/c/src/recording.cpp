@@ -14,6 +14,13 @@ const graze::Recording& recording_of(const graze_recording* recording) {
   return *given(recording, "recording").recording;
 }
 
+static_assert(
+    graze::c::has_members<graze::RecordedFrame, &graze::RecordedFrame::frame, &graze::RecordedFrame::tag,
+                          &graze::RecordedFrame::pairs, &graze::RecordedFrame::pairs_in_contact,
+                          &graze::RecordedFrame::contacts, &graze::RecordedFrame::diagnostics,
+                          &graze::RecordedFrame::dropped_before, &graze::RecordedFrame::has_keyframe,
+                          &graze::RecordedFrame::complete, &graze::RecordedFrame::step_ms>());
+
 }  // namespace
 
 extern "C" {

@@ -27,6 +27,15 @@ const graze::ReplayObject& object_of(const graze::Replay& replay, size_t index) 
   return objects[index];
 }
 
+static_assert(graze::c::has_members<graze::ReplaySettings, &graze::ReplaySettings::threads,
+                                    &graze::ReplaySettings::first_frame>());
+static_assert(graze::c::has_members<graze::ReplayDifference, &graze::ReplayDifference::frame,
+                                    &graze::ReplayDifference::pair, &graze::ReplayDifference::recorded,
+                                    &graze::ReplayDifference::replayed>());
+static_assert(
+    graze::c::has_members<graze::ReplayObject, &graze::ReplayObject::id, &graze::ReplayObject::serial,
+                          &graze::ReplayObject::mesh, &graze::ReplayObject::settings>());
+
 }  // namespace
 
 extern "C" {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <utility>
 
 #include "calls.hpp"
 #include "handles.hpp"
@@ -114,11 +113,7 @@ graze_status graze_report_statistics(const graze_report* report, graze_statistic
 }
 
 graze_status graze_report_mesh(const graze_report* report, graze_id object, graze_mesh** mesh) {
-  return guarded([&] {
-    auto& room = given(mesh, "mesh");
-    auto found = read_report(report).mesh(same<graze::ObjectId>(object));
-    room = found ? new graze_mesh{std::move(found)} : nullptr;
-  });
+  return guarded([&] { graze::c::give_mesh(read_report(report).mesh(same<graze::ObjectId>(object)), mesh); });
 }
 
 graze_status graze_report_positions(const graze_report* report, graze_id object, graze_positions* positions) {

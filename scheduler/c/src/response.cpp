@@ -46,6 +46,10 @@ void copy_point(const Eigen::Vector3d& point, double* room) {
   for (int axis = 0; axis < 3; ++axis) room[axis] = point[axis];
 }
 
+static_assert(graze::c::has_members<
+              graze::QueryResult, &graze::QueryResult::in_contact, &graze::QueryResult::is_in_range,
+              &graze::QueryResult::contacts_cut, &graze::QueryResult::inside, &graze::QueryResult::distance,
+              &graze::QueryResult::witness, &graze::QueryResult::way_out, &graze::QueryResult::contacts>());
 graze_query_result described(const graze::QueryResult& result) {
   graze_query_result made{};
   made.in_contact = result.in_contact;

@@ -1,7 +1,5 @@
 #include <graze/graze.h>
 
-#include <utility>
-
 #include "calls.hpp"
 #include "handles.hpp"
 #include "layout.hpp"
@@ -81,11 +79,7 @@ bool graze_scene_contains(const graze_scene* scene, graze_id object) {
 }
 
 graze_status graze_scene_mesh(const graze_scene* scene, graze_id object, graze_mesh** mesh) {
-  return guarded([&] {
-    auto& room = given(mesh, "mesh");
-    auto found = scene_of(scene).mesh(id_of(object));
-    room = found ? new graze_mesh{std::move(found)} : nullptr;
-  });
+  return guarded([&] { graze::c::give_mesh(scene_of(scene).mesh(id_of(object)), mesh); });
 }
 
 graze_status graze_scene_get_object_settings(const graze_scene* scene, graze_id object,

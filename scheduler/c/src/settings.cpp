@@ -1,7 +1,6 @@
 #include "settings.hpp"
 
 #include <chrono>
-#include <graze/settings_fields.hpp>
 #include <limits>
 
 namespace graze::c {
@@ -21,24 +20,39 @@ std::optional<Number> limit_from_c(std::uint64_t limit) {
   return static_cast<Number>(limit);
 }
 
-/// Returns what the three members say. The C++ interface refuses bad numbers, and this refuses what has no
-/// effect.
-Accuracy accuracy_from_c(std::uint8_t mode, double tolerance, const double* epsilon, std::size_t count) {
-  const auto numbers = array(epsilon, count, "epsilon");
-  if (mode != GRAZE_WITHIN && tolerance != 0)
+/// Returns the accuracy that the members of settings say. Bad numbers are refused where it is made, and here
+/// what has no effect.
+template <typename Struct>
+Accuracy accuracy_from_c(const Struct& settings) {
+  const auto numbers = array(settings.epsilon, settings.epsilon_count, "epsilon");
+  if (settings.accuracy != GRAZE_WITHIN && settings.tolerance != 0)
     throw BadArgument("settings: a tolerance goes with the accuracy within only");
-  if (mode != GRAZE_PAPER && count != 0)
+  if (settings.accuracy != GRAZE_PAPER && !numbers.empty())
     throw BadArgument("settings: numbers of levels go with the paper's accuracy only");
-  switch (mode) {
+  switch (settings.accuracy) {
     case GRAZE_EXACT:
       return Accuracy::exact();
     case GRAZE_WITHIN:
-      return Accuracy::within(tolerance);
+      return Accuracy::within(settings.tolerance);
     case GRAZE_PAPER:
       return Accuracy::paper(std::vector<double>(numbers.begin(), numbers.end()));
     default:
-      throw BadArgument("accuracy is " + std::to_string(mode) + ", which is no enumerator");
+      throw BadArgument("accuracy is " + std::to_string(settings.accuracy) + ", which is no enumerator");
   }
+}
+
+/// Points at the numbers, which have to stay.
+template <typename Struct>
+void point_at(const std::vector<double>& epsilon, Struct& made) {
+  made.epsilon_count = epsilon.size();
+  made.epsilon = epsilon.empty() ? nullptr : epsilon.data();
+}
+
+template <typename Struct>
+void accuracy_to_c(const Accuracy& accuracy, Struct& made) {
+  made.accuracy = static_cast<std::uint8_t>(accuracy.mode());
+  made.tolerance = accuracy.tolerance();
+  point_at(accuracy.epsilon(), made);
 }
 
 std::vector<std::uint8_t> groups_from_c(const std::uint8_t* groups, std::size_t count, const char* name) {
@@ -73,6 +87,15 @@ static_assert(
     are_all_fields<SceneCapacity, &SceneCapacity::objects, &SceneCapacity::calls_per_step,
                    &SceneCapacity::near_pairs, &SceneCapacity::contacts, &SceneCapacity::reports>());
 
+static_assert(
+    has_members<QuerySettings, &QuerySettings::contact_distance, &QuerySettings::range,
+                &QuerySettings::detail, &QuerySettings::accuracy, &QuerySettings::a_is_solid,
+                &QuerySettings::b_is_solid, &QuerySettings::max_contacts, &QuerySettings::ways_out>());
+static_assert(has_members<RecorderSettings, &RecorderSettings::keyframe_interval,
+                          &RecorderSettings::waiting_frames, &RecorderSettings::when_behind>());
+static_assert(has_members<RingSettings, &RingSettings::byte_budget, &RingSettings::frames,
+                          &RingSettings::on_diagnostic>());
+
 void check_struct_size(std::size_t struct_size, const char* name) {
   if (struct_size < sizeof(std::size_t) || struct_size > most_struct_bytes)
     throw BadArgument(std::string(name) + ": a size of " + std::to_string(struct_size) +
@@ -85,14 +108,11 @@ graze_scene_settings to_c(const SceneSettings& settings) {
   made.contact_distance = settings.contact_distance;
   made.range = settings.range;
   made.detail = static_cast<std::uint8_t>(settings.detail);
-  made.accuracy = static_cast<std::uint8_t>(settings.accuracy.mode());
+  accuracy_to_c(settings.accuracy, made);
   made.arena = static_cast<std::uint8_t>(settings.arena);
   made.ways_out = settings.ways_out;
   made.has_carrying_band = settings.carrying_band.has_value();
   made.threads = settings.threads;
-  made.tolerance = settings.accuracy.tolerance();
-  made.epsilon_count = settings.accuracy.epsilon().size();
-  made.epsilon = made.epsilon_count == 0 ? nullptr : settings.accuracy.epsilon().data();
   made.time_budget =
       settings.time_budget ? static_cast<std::uint64_t>(settings.time_budget->count()) : GRAZE_NO_LIMIT;
   made.work_budget = limit_to_c(settings.work_budget);
@@ -111,8 +131,7 @@ SceneSettings from_c(const graze_scene_settings& settings) {
   made.contact_distance = settings.contact_distance;
   made.range = settings.range;
   made.detail = static_cast<ContactDetail>(settings.detail);
-  made.accuracy =
-      accuracy_from_c(settings.accuracy, settings.tolerance, settings.epsilon, settings.epsilon_count);
+  made.accuracy = accuracy_from_c(settings);
   made.threads = settings.threads;
   made.arena = static_cast<ArenaPolicy>(settings.arena);
   if (settings.time_budget != GRAZE_NO_LIMIT) made.time_budget = time_from_c(settings.time_budget);
@@ -180,8 +199,7 @@ graze_pair_rule to_c(const PairRule& rule) {
   made.has_range = rule.range.has_value();
   made.contact_distance = rule.contact_distance.value_or(0);
   made.range = rule.range.value_or(0);
-  made.epsilon_count = rule.epsilon.size();
-  made.epsilon = made.epsilon_count == 0 ? nullptr : rule.epsilon.data();
+  point_at(rule.epsilon, made);
   return made;
 }
 
@@ -213,13 +231,10 @@ graze_query_settings to_c(const QuerySettings& settings) {
   made.contact_distance = settings.contact_distance;
   made.range = settings.range;
   made.detail = static_cast<std::uint8_t>(settings.detail);
-  made.accuracy = static_cast<std::uint8_t>(settings.accuracy.mode());
+  accuracy_to_c(settings.accuracy, made);
   made.a_is_solid = settings.a_is_solid;
   made.b_is_solid = settings.b_is_solid;
   made.ways_out = settings.ways_out;
-  made.tolerance = settings.accuracy.tolerance();
-  made.epsilon_count = settings.accuracy.epsilon().size();
-  made.epsilon = made.epsilon_count == 0 ? nullptr : settings.accuracy.epsilon().data();
   made.max_contacts = limit_to_c(settings.max_contacts);
   return made;
 }
@@ -229,8 +244,7 @@ QuerySettings from_c(const graze_query_settings& settings) {
   made.contact_distance = settings.contact_distance;
   made.range = settings.range;
   made.detail = static_cast<ContactDetail>(settings.detail);
-  made.accuracy =
-      accuracy_from_c(settings.accuracy, settings.tolerance, settings.epsilon, settings.epsilon_count);
+  made.accuracy = accuracy_from_c(settings);
   made.a_is_solid = settings.a_is_solid;
   made.b_is_solid = settings.b_is_solid;
   made.max_contacts = limit_from_c<std::size_t>(settings.max_contacts);
@@ -268,31 +282,39 @@ RingSettings ring_settings_from_c(const graze_recorder_settings& settings) {
 
 using graze::c::guarded;
 
+namespace {
+
+/// Fills a caller's struct with the defaults of Settings. These stay, since the struct points into them.
+template <typename Settings, typename Struct>
+graze_status init(Struct* room, std::size_t struct_size, const char* name) {
+  return guarded([&] {
+    static const Settings defaults;
+    graze::c::fill(room, struct_size, graze::c::to_c(defaults), name);
+  });
+}
+
+}  // namespace
+
 extern "C" {
 
 graze_status graze_scene_settings_init(graze_scene_settings* settings, size_t struct_size) {
-  const graze::SceneSettings defaults;
-  return guarded([&] { graze::c::fill(settings, struct_size, graze::c::to_c(defaults), "settings"); });
+  return init<graze::SceneSettings>(settings, struct_size, "settings");
 }
 
 graze_status graze_object_settings_init(graze_object_settings* settings, size_t struct_size) {
-  static const graze::ObjectSettings defaults;  // the struct points at its name
-  return guarded([&] { graze::c::fill(settings, struct_size, graze::c::to_c(defaults), "settings"); });
+  return init<graze::ObjectSettings>(settings, struct_size, "settings");
 }
 
 graze_status graze_pair_rule_init(graze_pair_rule* rule, size_t struct_size) {
-  const graze::PairRule defaults;
-  return guarded([&] { graze::c::fill(rule, struct_size, graze::c::to_c(defaults), "rule"); });
+  return init<graze::PairRule>(rule, struct_size, "rule");
 }
 
 graze_status graze_scene_capacity_init(graze_scene_capacity* capacity, size_t struct_size) {
-  return guarded(
-      [&] { graze::c::fill(capacity, struct_size, graze::c::to_c(graze::SceneCapacity{}), "capacity"); });
+  return init<graze::SceneCapacity>(capacity, struct_size, "capacity");
 }
 
 graze_status graze_query_settings_init(graze_query_settings* settings, size_t struct_size) {
-  const graze::QuerySettings defaults;
-  return guarded([&] { graze::c::fill(settings, struct_size, graze::c::to_c(defaults), "settings"); });
+  return init<graze::QuerySettings>(settings, struct_size, "settings");
 }
 
 graze_status graze_recorder_settings_init(graze_recorder_settings* settings, size_t struct_size) {

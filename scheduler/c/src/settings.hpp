@@ -6,6 +6,8 @@
 #include <graze/query.hpp>
 #include <graze/recorder.hpp>
 #include <graze/settings.hpp>
+#include <graze/settings_fields.hpp>
+#include <tuple>
 #include <type_traits>
 
 #include "calls.hpp"
@@ -22,7 +24,7 @@ namespace graze::c {
 [[nodiscard]] graze_pair_rule to_c(const PairRule& rule);
 [[nodiscard]] graze_scene_capacity to_c(const SceneCapacity& capacity);
 [[nodiscard]] graze_query_settings to_c(const QuerySettings& settings);
-/// What a recorder into a file has by default, and what a ring has besides.
+/// The default settings of a recorder. One struct of C has those of recorders into files and of rings.
 [[nodiscard]] graze_recorder_settings default_recorder_settings();
 
 [[nodiscard]] SceneSettings from_c(const graze_scene_settings& settings);
@@ -33,12 +35,18 @@ namespace graze::c {
 [[nodiscard]] RecorderSettings recorder_settings_from_c(const graze_recorder_settings& settings);
 [[nodiscard]] RingSettings ring_settings_from_c(const graze_recorder_settings& settings);
 
+/// Whether `members` are all members of a struct of C++ that has no list of its own. A member that it gets
+/// then stops the build where it has to be given to C as well.
+template <typename Struct, auto... members>
+[[nodiscard]] constexpr bool has_members() {
+  return has_every_member<Struct>(std::tuple{SettingsField<members>{""}...});
+}
+
 /// Throws BadArgument for a size that no version of a struct has: one without room for the size itself, and
-/// one that no program means.
+/// one that no program can mean.
 void check_struct_size(std::size_t struct_size, const char* name);
 
-/// Fills a caller's struct of `struct_size` bytes. What is beyond the members that this library has becomes
-/// 0.
+/// Fills a caller's struct of `struct_size` bytes. Bytes beyond the members that this library has become 0.
 template <typename Struct>
 void fill(Struct* room, std::size_t struct_size, Struct values, const char* name) {
   static_assert(std::is_trivially_copyable_v<Struct>);

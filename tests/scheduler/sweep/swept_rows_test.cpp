@@ -1,4 +1,4 @@
-// What rows say of sweeps where limits, budgets and bad input meet them, and which objects count as moved.
+// Rows of swept pairs under limits, budgets and bad input, and objects of which it counts whether they moved.
 
 #include <cmath>
 #include <graze/graze.hpp>

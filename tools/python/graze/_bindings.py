@@ -18,7 +18,7 @@ class Bindings:
     """
 
     def __init__(self, is_stepping: Callable[[], bool]) -> None:
-        self._is_stepping = is_stepping
+        self.is_stepping = is_stepping
         self._bound: Dict[ObjectId, Any] = {}
         self._set_aside: List[Any] = []
         self.lock = threading.RLock()
@@ -28,7 +28,7 @@ class Bindings:
         old = self._bound.pop(object, None)
         if replacement is not None:
             self._bound[object] = replacement
-        if old is not None and self._is_stepping():
+        if old is not None and self.is_stepping():
             self._set_aside.append(old)
 
     def of(self, object: ObjectId) -> Optional[Any]:

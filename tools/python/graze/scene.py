@@ -238,7 +238,7 @@ class Scene:
     @property
     def is_stepping(self) -> bool:
         """Whether a step is running."""
-        return self._handle.pointer is not None and bool(lib.scene_is_stepping(self._handle.pointer))
+        return self._bindings.is_stepping()
 
     def wait(self) -> Report:
         """Waits until no step is running, and returns the latest report."""

@@ -5,8 +5,8 @@
 /// The C interface of graze, in the library `graze_c`: meshes, scenes, reports, queries, evaluation of
 /// contacts, recorders and replays. Other languages reach graze through it.
 ///
-/// What a function does is said in full by the C++ function that its comment names. This file says what is
-/// different in C. docs/c_api.md has a whole program.
+/// The comment of a function names the C++ function that it stands for, and the comment of that one says what
+/// both do. Here stands where C is different. docs/c_interface.md has a whole program.
 ///
 /// @par Errors
 /// A function that can fail returns a #graze_status. If it is not #GRAZE_OK, the call has changed nothing,
