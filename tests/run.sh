@@ -55,9 +55,10 @@ run_lint() {
 # - What measures graze is left out. It runs the library as the other programs do, and takes a third of the build.
 # - Undefined behaviour's checks of null, of object sizes and of virtual tables are left out. With them the build takes
 #   a tenth to a fifth longer. The address sanitizer sees what such accesses do, and the preset `fuzz` has them.
-# - The contract's programs are left out, since they build libraries of their own. So are the checks of pages and
-#   of includes, which run nothing of graze.
-# - The longest examples are left out. They step small scenes many thousand times.
+# - The contract's programs are left out, since they build libraries of their own. So are the checks of includes, which
+#   run nothing of graze, and the pages' programs.
+# - The examples are left out. They step small scenes many thousand times, and call nothing that tests do not.
+# - The oracles and what makes models have no sanitizer, and the tests of them are left out.
 # - An allocation is remembered with two of its callers. With thirty, what the exact oracles allocate takes a third of
 #   all tests' time.
 # - The libraries' sources are compiled in batches, as those of the demonstration are.
@@ -65,10 +66,8 @@ run_lint() {
 #   preset `fuzz` is for long runs: there comparisons guide them too (docs/fuzzing.md). Tests and programs count nothing:
 #   with counters their compilation takes a third longer.
 run_sanitizers() {
-  long_examples='^example_(bowl|cloth_on_sphere|pile|rigid|safe_step|self_cloth|shots|soft_ball)$'
   build_preset asan-ubsan
-  test_preset asan-ubsan \
-    --exclude-regex "^contract_|^docs_pages|^docs_reference|^lint_|$long_examples"
+  test_preset asan-ubsan --exclude-regex '^contract_|^lint_'
   # The tests with threads once more under the thread sanitizer.
   tests/tsan_tbb.sh build/tsan-tbb
   build_preset tsan
@@ -77,15 +76,14 @@ run_sanitizers() {
 
 if $runs_all; then
   run_lint text order tidy
-  # The count of instructions is of core and scheduler, which are compiled as users do: one by one. The rest goes in
-  # batches, which takes half as long.
-  build_preset release -DGRAZE_BATCHES=ON -DGRAZE_TEST_OPTIONS=-O1
+  # In batches, which takes half as long. The libraries take as many instructions as compiled one by one.
+  build_preset release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DGRAZE_TEST_OPTIONS=-O1
   test_preset release
   run_sanitizers
 else
   run_lint text order
-  # One test builds graze once more, as shared libraries, and two build many programs against what is installed. The
-  # count of instructions is that of sources which are compiled one by one.
+  # One test builds graze once more, as shared libraries, and two build many programs against what is installed. To count
+  # instructions takes two minutes.
   build_preset check
   test_preset check --exclude-regex '^contract_(static|shared)$|^instructions$'
 fi

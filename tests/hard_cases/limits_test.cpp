@@ -6,6 +6,7 @@
 #include "core/comparison.hpp"
 #include "hard_cases/scene_comparison.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
@@ -30,7 +31,7 @@ DiagnosticKind only_kind(const FrameReport& report) {
 TEST_CASE("threshold: equal, one unit below and one above the distance of random scenes") {
   Tally tally;
   std::size_t exactly = 0;
-  for (std::uint64_t seed = 0; seed < 240; ++seed) {
+  for (std::uint64_t seed = 0; seed < repeats(240); ++seed) {
     const oracle::RandomScene given = oracle::random_scene(seed);
     INFO("seed " << seed);
     for (const bool vertices : {false, true}) {
@@ -44,8 +45,8 @@ TEST_CASE("threshold: equal, one unit below and one above the distance of random
           if (is_about_vertices(detail) == vertices) tally.compare({given.a, given.b}, threshold, detail);
     }
   }
-  CHECK(exactly > 50);
-  CHECK(tally.contacts > 1000);
+  CHECK(exactly > repeats(50));
+  CHECK(tally.contacts > repeats(1000));
   tally.print("a threshold beside the distance");
 }
 

@@ -113,12 +113,14 @@ TEST_CASE("a pebble beside a planet of 100,000 faces, sizes 1 to 10^6") {
     const Shape pebble = mapped(shape_of(models::sphere(8, rings)), 1e-6, Vector3d::Zero());
     PebbleOverPlanet pair{planet, mesh, pebble};
     for (const Vector3d& place : places)
-      for (const double height : {0.5e-6, 1.5e-6, 4e-6})
+      for (const double height : {0.5e-6, 1.5e-6, 4e-6}) {
+        if (!at_full_effort && height == 1.5e-6) continue;
         for (const ContactDetail detail : all_details) {
           INFO("at " << place.transpose() << ", height " << height << ", detail "
                      << static_cast<int>(detail));
           pair.compare(place, height, detail);
         }
+      }
     CHECK(pair.contacts > 100);
     CHECK(pair.most_work < 500);
     std::cout << "compared " << pair.contacts << " contacts of a pebble and a planet, at most "

@@ -6,6 +6,7 @@
 #include "hard_cases/scene_comparison.hpp"
 #include "scheduler/report_text.hpp"
 #include "support/catch.hpp"
+#include "support/effort.hpp"
 #include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
@@ -142,12 +143,12 @@ TEST_CASE("two objects with the same vertices exactly on top of each other") {
         wobbled(shape_of(models::torus(12, 8, 0.9, 0.3, models::Faces::quads)), 0.05, 2),
         wobbled(shape_of(models::sphere(10, 7, models::Faces::quads)), 0.1, 3)})
     tally.compare({shape, shape}, 0.05);
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < repeats(60); ++seed) {
     const oracle::RandomScene given = oracle::random_scene(seed);
     INFO("seed " << seed);
     tally.compare({given.a, given.a, given.a}, given.threshold / 2);
   }
-  CHECK(tally.contacts > 4000);
+  CHECK(tally.contacts > repeats(4000));
   tally.print("objects on top of each other");
 
   for (const NamedShape& model : paper_models()) {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "io/formats/gltf_builder.hpp"
+#include "support/effort.hpp"
 
 using graze::io::MeshFile;
 using namespace graze::tests;
@@ -115,6 +116,7 @@ TEST_CASE("a glTF file counts the numbers of a mesh once, and those of each node
   const auto p = add_triangles(buffer, vertices / 3);
   const TemporaryFolder folder;
   for (const std::size_t targets : {0U, 1U}) {
+    if (!at_full_effort && targets == 0) continue;
     const std::string morphed = targets == 0 ? "" : R"(,"targets":[{"POSITION":)" + p + "}]";
     const std::size_t of_mesh = 3 * vertices * (1 + targets) + vertices;
     const std::size_t of_node = 3 * vertices * (2 + targets) + vertices + 100;

@@ -4,6 +4,7 @@
 #include "vertices/near_vertices.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <graze/instruction_set.hpp>
 #include <iostream>
@@ -30,21 +31,36 @@ namespace {
 using VertexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Visits all pairs of used vertices with their distance, in the order of contacts.
-template <typename Visit>
-void for_each_pair(const Surface& a, const Surface& b, const Visit& visit) {
-  for (std::uint32_t i = 0; i < a.mesh().vertex_count(); ++i)
-    for (std::uint32_t j = 0; j < b.mesh().vertex_count(); ++j)
-      if (a.mesh().is_used(i) && b.mesh().is_used(j)) visit(i, j, (a.position(i) - b.position(j)).norm());
-}
+/// What going through all pairs of used vertices finds.
+struct AllPairs {
+  VertexPairs near;
+  double nearest = infinity;
+};
 
-/// All pairs closer than the limit. Distances are far enough from it that rounding does not matter, or exact.
-VertexPairs close_pairs(const Surface& a, const Surface& b, double limit) {
-  VertexPairs pairs;
-  for_each_pair(a, b, [&](std::uint32_t i, std::uint32_t j, double distance) {
-    if (distance < limit) pairs.emplace_back(i, j);
-  });
-  return pairs;
+/// The near ones are closer than the limit, in the order of contacts. Distances are far enough from it that
+/// rounding does not matter, or exact.
+AllPairs all_pairs(const Surface& a, const Surface& b, double limit) {
+  std::array<std::vector<double>, 3> of_b;
+  std::vector<std::uint32_t> number;
+  for (std::uint32_t j = 0; j < b.mesh().vertex_count(); ++j) {
+    if (!b.mesh().is_used(j)) continue;
+    number.push_back(j);
+    const Eigen::Vector3d position = b.position(j);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      of_b[axis].push_back(position[static_cast<Eigen::Index>(axis)]);
+  }
+  AllPairs all;
+  for (std::uint32_t i = 0; i < a.mesh().vertex_count(); ++i) {
+    if (!a.mesh().is_used(i)) continue;
+    const Eigen::Vector3d from = a.position(i);
+    for (std::size_t k = 0; k < number.size(); ++k) {
+      const double x = from.x() - of_b[0][k], y = from.y() - of_b[1][k], z = from.z() - of_b[2][k];
+      const double distance = std::sqrt(x * x + y * y + z * z);
+      if (distance < limit) all.near.emplace_back(i, number[k]);
+      all.nearest = std::min(all.nearest, distance);
+    }
+  }
+  return all;
 }
 
 VertexPairs pairs_of(const PairAnswer& answer) {
@@ -95,10 +111,7 @@ Surface in_part(const Surface& surface) {
 
 /// How many pairs. Where there are none the nearest is asked for too.
 std::size_t check(const Surface& a, const Surface& b, double limit) {
-  const VertexPairs expected = close_pairs(a, b, limit);
-  double nearest = infinity;
-  for_each_pair(
-      a, b, [&](std::uint32_t, std::uint32_t, double distance) { nearest = std::min(nearest, distance); });
+  const auto [expected, nearest] = all_pairs(a, b, limit);
   check_answers(a, b, limit, expected, nearest);
   if (a.mesh().has_stretches()) check_answers(in_part(a), b, limit, expected, nearest);
   if (b.mesh().has_stretches()) check_answers(a, in_part(b), limit, expected, nearest);

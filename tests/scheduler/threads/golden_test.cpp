@@ -133,12 +133,12 @@ TEST_CASE("golden: the hash of all reports, for any number of threads and in eve
   for (const Golden& expected : golden)
     for (std::uint64_t repeat = 0; repeat < repeats(3); ++repeat)
       for (const unsigned threads : thread_counts) {
-        if (!at_full_effort && threads != 1 && threads != 4) continue;
+        if (!at_full_effort && threads != 4) continue;
         INFO(expected.scene << ", " << threads << " threads, repeat " << repeat);
         const Played played = play(expected.scene, threads);
         CHECK(played.hash == expected.hash);
         CHECK(played.contacts > 1000);
-        if (repeat == 0 && threads == 1) all.add(played);
+        if (repeat == 0 && threads == 4) all.add(played);
       }
   // The scenes reach every phase, every way to be inside, limits and impacts.
   CHECK(all.phases.size() == enumerators<PairPhase>.size());

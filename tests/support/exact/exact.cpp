@@ -2,10 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#ifdef GRAZE_NUMBERS_PAST_SANITIZERS
+#include <cstddef>
+
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_realloc(void* block, std::size_t size);
+void __libc_free(void* block);
+}
+#endif
 
 namespace graze::oracle {
 
 namespace {
+
+#ifdef GRAZE_NUMBERS_PAST_SANITIZERS
+/// Runs before any number is made: constructors with a priority run before those of static variables.
+[[gnu::constructor(101)]] void allocate_numbers_past_sanitizers() {
+  mp_set_memory_functions(
+      [](std::size_t size) { return __libc_malloc(size); },
+      [](void* number, std::size_t, std::size_t size) { return __libc_realloc(number, size); },
+      [](void* number, std::size_t) { __libc_free(number); });
+}
+#endif
 
 Rational scaled(const Rational& value, long exponent) {
   Rational result;

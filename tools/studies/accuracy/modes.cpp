@@ -35,10 +35,6 @@ const PairReport* same_pair(const FrameReport& report, const PairReport& pair) {
   return found == report.pairs().end() ? nullptr : &*found;
 }
 
-double share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
 }  // namespace
 
 double ModeResult::recall() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "accuracy/scenes.hpp"
+#include "accuracy/tally.hpp"
 #include "core/pair/pair_counters.hpp"
 #include "output/text.hpp"
 #include "output/text_table.hpp"
@@ -16,10 +17,6 @@ std::string share_text(double share) {
   if (share == 0) return "0 %";
   const double percent = std::min(99.99, std::max(0.01, 100 * share));
   return fixed(percent, 2) + " %";
-}
-
-double share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
 /// A row for each kernel.

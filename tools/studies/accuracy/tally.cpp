@@ -12,4 +12,8 @@ void ErrorTally::add(double error) {
   sum_ += error;
 }
 
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
 }  // namespace graze::tools

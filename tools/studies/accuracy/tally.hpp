@@ -20,4 +20,7 @@ class ErrorTally {
   double sum_ = 0;
 };
 
+/// The part of a whole, from 0 to 1. Of nothing it is 1.
+double share(std::uint64_t part, std::uint64_t whole);
+
 }  // namespace graze::tools
