@@ -40,6 +40,7 @@ struct HostileScene {
             {"inspect", in("scene.json")},
             {"inspect", in("named.obj")},
             {"info", recording},
+            {"worst", recording},
             {"replay", recording},
             {"cut", recording, "-o", in("part.graze")},
             {"view", recording, "-o", in("view.grazeview")},

@@ -1,5 +1,8 @@
 // graze run --record and the commands about recordings, as a user runs them.
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <graze/recorder.hpp>
@@ -98,6 +101,72 @@ TEST_CASE("recording: info says which frames are missing, and a page of them is 
   CHECK_THAT(info.out, Contains(", " + std::to_string(counted.dropped) + " dropped\n") &&
                            Contains("  dropped    " + std::to_string(missing) + " " + first_gap));
   CHECK(run_graze({"view", file.string(), "-o", (folder / "page.grazeview").string()}).exit_code == 0);
+}
+
+TEST_CASE("recording: worst names the deepest contact, the largest jump and the longest steps") {
+  const TemporaryFolder folder;
+  // A tetrahedron with its tip down, and one below with its tip up: solid, so that depths have a sign.
+  folder.write("down.obj", "v 0 0 0\nv 1 0 1\nv -1 1 1\nv -1 -1 1\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n");
+  folder.write("up.obj", "v 0 0 0\nv 3 0 -1\nv -2 3 -1\nv -2 -3 -1\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n");
+  const std::string scene = folder
+                                .write("scene.json", R"({"graze": 1, "contact_distance": 0.05, "range": 10,
+      "detail": "nearest", "frames": 30, "objects": [
+      {"name": "below\u001b", "mesh": "up.obj", "motion": "fixed", "solid": true},
+      {"name": "above", "mesh": "down.obj", "solid": true, "poses": [{"frame": 0, "translate": [0.1, 0, 1]},
+       {"frame": 10, "translate": [0.1, 0, 0.02]}, {"frame": 11, "translate": [0.1, 0, -0.3]},
+       {"frame": 29, "translate": [0.1, 0, 1]}]}]})")
+                                .string();
+  const std::string file = (folder / "run.graze").string();
+  const ProgramResult run = run_graze({"run", scene, "--record", file});
+  REQUIRE(run.exit_code == 0);
+
+  std::vector<double> separations;
+  std::vector<bool> touches;
+  const graze::Recording recording(file);
+  for (graze::Replay replay(recording); replay.step();) {
+    const graze::PairReport& row = replay.report()->pairs()[0];
+    double smallest = row.contact_count == 0 ? row.distance.upper : 1e300;
+    for (const graze::Contact& contact : replay.report()->contacts())
+      smallest = std::min(smallest, contact.separation());
+    separations.push_back(smallest);
+    touches.push_back(row.contact_count > 0);
+  }
+  REQUIRE(separations.size() == 30);
+  std::size_t deepest = 0;
+  std::size_t jump = 0;
+  double largest = 0;
+  for (std::size_t i = 1; i < separations.size(); ++i) {
+    if (touches[i] && (!touches[deepest] || separations[i] < separations[deepest])) deepest = i;
+    const double change = std::abs(separations[i] - separations[i - 1]);
+    if ((touches[i] || touches[i - 1]) && change > largest) {
+      largest = change;
+      jump = i;
+    }
+  }
+  REQUIRE(separations[deepest] < -0.1);
+  REQUIRE(jump == 11);
+
+  const ProgramResult worst = run_graze({"worst", file});
+  CHECK(worst.exit_code == 0);
+  CHECK(worst.err == "");
+  char line[200];
+  (void)std::snprintf(line, sizeof(line), "  %-14.6g frame %zu, \"below\\x1b\" and \"above\" at (",
+                      separations[deepest], deepest);
+  CHECK_THAT(worst.out, Contains(line));
+  (void)std::snprintf(line, sizeof(line),
+                      "  %-14.6g frame 11, \"below\\x1b\" and \"above\": from %.6g to %.6g\n",
+                      separations[11] - separations[10], separations[10], separations[11]);
+  CHECK_THAT(worst.out, Contains(line));
+  CHECK_THAT(worst.out, Contains("longest steps, as they were recorded\n"));
+  std::size_t steps = 0;
+  for (std::size_t at = 0; (at = worst.out.find(" ms", at)) != std::string::npos; ++at) ++steps;
+  CHECK(steps == 5);
+  CHECK_THAT(run.out,
+             Contains("; deepest separation -0.") && Contains(" in frame " + std::to_string(deepest)));
+
+  const ProgramResult before = run_graze({"worst", file, "--frames", "..3", "--count", "2"});
+  CHECK_THAT(before.out, Contains("frames 0 to 3\n") && Contains("by separation: none\n") &&
+                             Contains("to the next: none\n"));
 }
 
 TEST_CASE("recording: a part is cut out, and answers as the whole does") {

@@ -50,7 +50,8 @@ const context = await browser.newContext({ viewport: { width: 1280, height: 720 
 context.setDefaultTimeout(patience);
 
 /** Opens a page and collects what the console says. */
-async function open(path, hash = '') {
+/** Without another address the page shows its first frame. */
+async function open(path, hash = '#f=0') {
   const page = await context.newPage();
   page.errors = [];
   page.on('console', (m) => {
@@ -124,7 +125,7 @@ async function checkSelection(page, made) {
   same('the search finds pairs', (await drawn(page)).rows, made.reports[frame].pairs.filter((p) => p.b === 4).length);
   await page.fill('[data-testid=search]', '');
   await page.keyboard.press('Escape');
-  await press(page, 'sort-distance');
+  await press(page, 'sort-separation');
   const distances = await page.$$eval('[data-testid=list] .row b:first-of-type', (cells) => cells.map((c) => Number(c.textContent)));
   check('the list sorts', distances.every((d, i) => i === 0 || distances[i - 1] <= d), distances.join(' '));
   await checkClick(page);
@@ -390,7 +391,63 @@ async function checkPushes(page, made) {
   }
   same('edges behind each other are deep where they are sunk', [edges.some(({ contact }) => contact.sunk),
     edges.some(({ contact }) => !contact.sunk), wrong], [true, true, []]);
+  await checkDeepest(page, contacts);
+  await checkHistory(page, made);
   await page.evaluate(() => window.graze.select(null));
+}
+
+/** The distance of a contact, negative where it lies behind a surface. */
+function separationOf({ kind, sunk, distance, side_a: a, side_b: b, features }) {
+  const [isVertexA, isVertexB] = [features[0] === 0, features[2] === 0];
+  const isBehind = kind === 'EE' ? sunk : distance !== 0 &&
+    (isVertexA || isVertexB ? (isVertexB && a === 2) || (isVertexA && b === 2) : a === 2 && b === 2);
+  return isBehind ? -distance : distance;
+}
+
+/** The smallest separation of a pair stands in the inspector and in the list of pairs, which it sorts. */
+async function checkDeepest(page, contacts) {
+  const wanted = new Map();
+  for (const { pair, contact } of contacts) {
+    const key = `p${pair.a}-${pair.b}`;
+    wanted.set(key, Math.min(wanted.get(key) ?? Infinity, separationOf(contact)));
+  }
+  await press(page, 'tab-pairs');
+  const listed = new Map(await page.$$eval('[data-testid=list] .row', (rows) => rows.map((row) => [row.dataset.key, row.querySelector('b').textContent])));
+  const wrong = [];
+  for (const [key, deepest] of wanted) {
+    const [a, b] = key.slice(1).split('-').map(Number);
+    await page.evaluate((s) => window.graze.select(s), { type: 'pair', a, b });
+    const { selection } = await inspect(page);
+    const cell = listed.has(key) ? Number(listed.get(key).replace('−', '-')) : deepest;
+    if (selection.deepest_separation !== deepest || Math.abs(cell - deepest) > 1e-3 * Math.abs(deepest)) wrong.push([key, deepest, cell]);
+  }
+  same('pairs have the separation of their deepest contact', [[...wanted.values()].some((x) => x < 0), wrong], [true, []]);
+}
+
+/** While a pair is selected, a row of the time line marks the frames in which it is in contact. */
+async function checkHistory(page, made) {
+  await goTo(page, 0);
+  const touchesOf = ({ a, b }) => made.reports.map(({ pairs }) =>
+    pairs.some((p) => p.a === a && p.b === b && ['began', 'touching'].includes(p.phase)));
+  const { a, b } = made.reports.flatMap(({ pairs }) => pairs).find((pair) => new Set(touchesOf(pair).slice(1)).size === 2);
+  const touches = touchesOf({ a, b });
+  await page.evaluate((s) => window.graze.select(s), { type: 'pair', a, b });
+  await page.waitForFunction(() => document.querySelector('#timeline .key')?.textContent === 'selected pair');
+  const marked = await page.evaluate((frames) => {
+    const track = document.getElementById('track');
+    const colour = document.querySelector('#timeline .key i').style.getPropertyValue('--c');
+    const wanted = [1, 3, 5].map((at) => Number.parseInt(colour.slice(at, at + 2), 16)).join();
+    // Of a copy, since the browser warns where a canvas is read more than once.
+    const copy = Object.assign(document.createElement('canvas'), { width: track.width, height: track.height }).getContext('2d');
+    copy.drawImage(track, 0, 0);
+    const { data } = copy.getImageData(0, 2, track.width, 1);
+    const at = (f) => 4 * Math.floor(((f + 0.5) * track.width) / frames);
+    return Array.from({ length: frames }, (_, f) => data.slice(at(f), at(f) + 3).join() === wanted);
+  }, touches.length);
+  same('the time line follows the selected pair', marked.slice(1), touches.slice(1));
+  await page.evaluate(() => window.graze.select(null));
+  same('and without one has no row for it', await page.$$eval('#timeline .key', (keys) => keys.filter((k) => /selected/.test(k.textContent)).length), 0);
+  await goTo(page, 52);
 }
 
 /** Data of before pages knew of solids, sunk edges and ways out. */
@@ -760,6 +817,20 @@ async function checkSchemes(page) {
   check('the switch to light', chosen === 'rgb(255, 255, 255)', chosen);
 }
 
+/** A page whose address names no frame opens at the one with most contacts, and shows what is there. */
+async function checkFirstFrame(made) {
+  const page = await open(write('first.html', pageHtml(template, made.chunks)), '');
+  const counts = made.reports.map((report) => contactsOf(report).length);
+  const busiest = counts.indexOf(Math.max(...counts));
+  const { contacts } = await drawn(page);
+  same('a page opens at the frame with most contacts', [busiest > 0, await page.evaluate(() => window.graze.frame), contacts],
+    [true, busiest, counts[busiest]]);
+  const places = await page.evaluate((n) => Array.from({ length: n }, (_, i) => window.graze.contactAt(i)), contacts);
+  const box = await page.locator('[data-testid=view]').boundingBox();
+  check('and all of them are in the picture', places.every((p) => p && p.x > 0 && p.y > 0 && p.x < box.width && p.y < box.height));
+  await page.close();
+}
+
 async function checkFile(made) {
   const page = await open(write('empty.html', template));
   check('a page without data asks for a file', /Drop a .grazeview/.test(await page.textContent('[data-testid=empty]')));
@@ -1017,6 +1088,7 @@ try {
     same('no console error', page.errors, []);
     await page.close();
     await checkKeys(path);
+    await checkFirstFrame(made);
     await checkFile(made);
     await checkOldData();
     await checkSwept();

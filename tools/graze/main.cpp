@@ -10,6 +10,7 @@ void add_commands(CLI::App& app) {
   graze::tools::add_inspect_command(app);
   graze::tools::add_replay_command(app);
   graze::tools::add_info_command(app);
+  graze::tools::add_worst_command(app);
   graze::tools::add_cut_command(app);
   graze::tools::add_view_command(app);
   graze::tools::add_picture_command(app);

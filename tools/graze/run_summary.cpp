@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <graze/io/printable.hpp>
 
+#include "deepest_contact.hpp"
 #include "distribution.hpp"
 #include "output/text.hpp"
 
@@ -39,7 +40,7 @@ void RunSummary::add(std::uint32_t frame, const FrameReport& report, double step
   }
   if (std::ranges::any_of(report.pairs(), is_in_contact)) ++frames_touching_;
   for (const PairReport& pair : report.pairs())
-    if (is_in_contact(pair)) add_touch(frame, pair);
+    if (is_in_contact(pair)) add_touch(frame, pair, report.contacts(pair));
   if (diagnostics_ == 0 && !report.diagnostics().empty()) {
     const Diagnostic& first = report.diagnostics().front();
     const std::string name = numbers_.contains(first.object) ? name_of(numbers_.at(first.object)) + ": " : "";
@@ -48,7 +49,7 @@ void RunSummary::add(std::uint32_t frame, const FrameReport& report, double step
   diagnostics_ += report.diagnostics().size();
 }
 
-void RunSummary::add_touch(std::uint32_t frame, const PairReport& pair) {
+void RunSummary::add_touch(std::uint32_t frame, const PairReport& pair, std::span<const Contact> contacts) {
   const auto [entry, is_new] = touches_.try_emplace({numbers_.at(pair.a), numbers_.at(pair.b)});
   Touch& touch = entry->second;
   if (is_new) {
@@ -60,6 +61,9 @@ void RunSummary::add_touch(std::uint32_t frame, const PairReport& pair) {
   ++touch.frames;
   ++touch.insides[static_cast<std::size_t>(pair.inside)];
   touch.most_contacts = std::max(touch.most_contacts, pair.contact_count);
+  const Contact* const contact = deepest_contact(contacts);
+  if (contact != nullptr && (!touch.deepest || contact->separation() < touch.deepest->separation))
+    touch.deepest = {contact->separation(), frame};
 }
 
 std::string RunSummary::inside_text(std::size_t a, std::size_t b, const Touch& touch) const {
@@ -73,17 +77,24 @@ std::string RunSummary::inside_text(std::size_t a, std::size_t b, const Touch& t
          clause(Inside::b_in_a, name_b + " is inside " + name_a);
 }
 
+std::string RunSummary::deepest_text(const Touch& touch) {
+  if (!touch.deepest) return "";
+  return "; deepest separation " + rounded(touch.deepest->separation, 4) + " in frame " +
+         std::to_string(touch.deepest->frame);
+}
+
 std::string RunSummary::touches_text() const {
   if (touches_.empty()) return "touching  nothing\n";
   std::string text;
   for (const auto& [pair, touch] : touches_) {
     const Eigen::Vector3d& place = touch.first_place;
     const std::string where = format("(%.4g, %.4g, %.4g)", place.x(), place.y(), place.z());
-    text += "touching  " + name_of(pair.first) + " and " + name_of(pair.second) + ": first in frame " +
+    const std::string other = pair.first == pair.second ? "itself" : name_of(pair.second);
+    text += "touching  " + name_of(pair.first) + " and " + other + ": first in frame " +
             std::to_string(touch.first_frame) + " at " + where + ", last in frame " +
             std::to_string(touch.last_frame) + "; " + counted(touch.frames, "frame") + " in " +
             counted(touch.spells, "spell") + ", at most " + counted(touch.most_contacts, "contact") +
-            inside_text(pair.first, pair.second, touch) + "\n";
+            deepest_text(touch) + inside_text(pair.first, pair.second, touch) + "\n";
   }
   return text;
 }

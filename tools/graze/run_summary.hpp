@@ -24,6 +24,11 @@ class RunSummary {
   [[nodiscard]] std::string text() const;
 
  private:
+  /// The smallest separation of contacts so far, and its frame.
+  struct Deepest {
+    double separation = 0;
+    std::uint32_t frame = 0;
+  };
   /// One pair of objects that touched.
   struct Touch {
     std::uint32_t first_frame = 0;
@@ -32,12 +37,14 @@ class RunSummary {
     std::uint32_t spells = 0;                ///< times that they came together
     std::array<std::uint32_t, 4> insides{};  ///< frames, by Inside
     std::size_t most_contacts = 0;
+    std::optional<Deepest> deepest;  ///< none where no contact was listed
     Eigen::Vector3d first_place = Eigen::Vector3d::Zero();
   };
 
-  void add_touch(std::uint32_t frame, const PairReport& pair);
+  void add_touch(std::uint32_t frame, const PairReport& pair, std::span<const Contact> contacts);
   [[nodiscard]] std::string name_of(std::size_t number) const;
   [[nodiscard]] std::string inside_text(std::size_t a, std::size_t b, const Touch& touch) const;
+  [[nodiscard]] static std::string deepest_text(const Touch& touch);
   [[nodiscard]] std::string limits_text() const;
   [[nodiscard]] std::string touches_text() const;
   [[nodiscard]] std::string diagnostics_text() const;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <graze/io/table_writers.hpp>
+#include <span>
 
 #include "export/csv_line.hpp"
 #include "export/output_file.hpp"
@@ -16,7 +18,7 @@ constexpr std::string_view distance_columns =
     "frame,scene_frame,object_a,object_b,name_a,name_b,phase,distance_lower,distance_upper,witness_kind_a,"
     "witness_a,witness_kind_b,witness_b,witness_a_x,witness_a_y,witness_a_z,witness_b_x,witness_b_y,"
     "witness_b_z,contacts,complete,contacts_cut,stale,inside,way_direction_x,way_direction_y,way_direction_z,"
-    "way_point_x,way_point_y,way_point_z,way_fullness,way_thickness,way_extent\n";
+    "way_point_x,way_point_y,way_point_z,way_fullness,way_thickness,way_extent,deepest_separation\n";
 
 void add_feature(CsvLine& line, const Feature& feature) {
   line.text(to_string(feature.kind)).whole(feature.index);
@@ -53,13 +55,20 @@ void add_way_out(CsvLine& line, const WayOut& way) {
     for (int i = 0; i < cells; ++i) line.empty();
 }
 
-void end_row(CsvLine& line, const PairReport& pair) {
+/// The smallest separation of contacts. Without one the cell stays empty.
+void add_deepest(CsvLine& line, std::span<const Contact> contacts) {
+  const auto deepest = std::ranges::min_element(contacts, {}, &Contact::separation);
+  deepest == contacts.end() ? line.empty() : line.real(deepest->separation());
+}
+
+void end_row(CsvLine& line, const PairReport& pair, std::span<const Contact> contacts) {
   line.text(to_string(pair.phase)).real(pair.distance.lower).real(pair.distance.upper);
   add_feature(line, pair.witness.feature_a);
   add_feature(line, pair.witness.feature_b);
   line.point(pair.witness.point_a).point(pair.witness.point_b).whole(pair.contact_count);
   line.flag(pair.complete).flag(pair.contacts_cut).flag(pair.stale).text(to_string(pair.inside));
   add_way_out(line, pair.way_out);
+  add_deepest(line, contacts);
   line.end();
 }
 
@@ -121,7 +130,7 @@ void DistanceTable::write(const SceneSnapshot& snapshot) {
   const SnapshotObjects objects(snapshot);
   for (const PairReport& pair : snapshot.report->pairs()) {
     begin_line(state_->line, snapshot, pair, objects);
-    end_row(state_->line, pair);
+    end_row(state_->line, pair, snapshot.report->contacts(pair));
     ++state_->rows;
   }
   state_->flush();

@@ -2,6 +2,7 @@
 
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <bit>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include <graze/io/table_writers.hpp>
 #include <graze/scene_enumerators.hpp>
 #include <iostream>
+#include <limits>
 #include <locale>
 #include <map>
 #include <sstream>
@@ -132,6 +134,14 @@ void check_row(Cells cells, const io::SceneSnapshot& snapshot, const PairReport&
     CHECK(cells.is(way.fullness));
     CHECK(cells.is(way.thickness));
     CHECK(cells.is(way.extent));
+  }
+  if (pair.contact_count == 0) {
+    CHECK(cells.text().empty());
+  } else {
+    double deepest = std::numeric_limits<double>::infinity();
+    for (const Contact& contact : snapshot.report->contacts(pair))
+      deepest = std::min(deepest, contact.separation());
+    CHECK(cells.is(deepest));
   }
   CHECK(cells.are_done());
 }
@@ -302,7 +312,7 @@ TEST_CASE("export: the tables are the reports, to the last bit and in any locale
   const Rows contact_rows = read_csv(scene.path("contacts.csv"));
   const Rows distance_rows = read_csv(scene.path("distances.csv"));
   CHECK(contact_rows.at(0).size() == 29);
-  CHECK(distance_rows.at(0).size() == 33);
+  CHECK(distance_rows.at(0).size() == 34);
   CHECK(contacts.row_count() + 1 == contact_rows.size());
   CHECK(distances.row_count() + 1 == distance_rows.size());
   std::size_t next_contact = 1;

@@ -10,6 +10,8 @@ namespace graze::tools {
 void add_replay_command(CLI::App& app);
 /// `graze info`: says what a recording holds.
 void add_info_command(CLI::App& app);
+/// `graze worst`: finds the deepest contacts, the largest jumps and the longest steps of a recording.
+void add_worst_command(CLI::App& app);
 /// `graze cut`: writes a part of a recording into a file of its own.
 void add_cut_command(CLI::App& app);
 /// `graze view`: writes a page that shows a recording in a browser.

@@ -154,8 +154,7 @@ void export_recording(const ExportOptions& options) {
   }
   exports.close();
   note_unfinished(recording, options.file);
-  if (!reader.is_as_recorded())
-    say_aside("note", "the replay differs from the recording; graze replay " + options.file + " says where");
+  note_divergence(reader, options.file);
 }
 
 }  // namespace

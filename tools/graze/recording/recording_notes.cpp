@@ -15,6 +15,11 @@ void note_unfinished(const Recording& recording, const std::string& file) {
                           "its last whole frame");
 }
 
+void note_divergence(const SnapshotReader& reader, const std::string& file) {
+  if (!reader.is_as_recorded())
+    say_aside("note", "the replay differs from the recording; graze replay " + file + " says where");
+}
+
 void RowsLeftOut::add(const Replay& replay) {
   not_compared_ += replay.rows_not_compared();
   in_part_ += replay.rows_compared_in_part();

@@ -81,6 +81,10 @@ export class Link {
     }
   }
 
+  namesFrame(): boolean {
+    return /[#&]f=/.test(location.hash);
+  }
+
   /** Goes where the address says. Parts that make no sense are left out. */
   async read(): Promise<void> {
     const { viewer, stage } = this;

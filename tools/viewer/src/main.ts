@@ -4,6 +4,7 @@ import { PageChunks } from './data/chunks';
 import { button, byId, copy, h, note } from './panels/dom';
 import { droppedAt } from './data/head';
 import { fillHelp } from './panels/help';
+import { HistoryReader } from './data/pair_history';
 import { makeHooks, type Hooks } from './hooks';
 import { solidsText } from './data/inside';
 import { Inspector } from './panels/inspector';
@@ -39,6 +40,7 @@ const link = new Link(viewer, stage);
 const help = byId('help') as HTMLDialogElement;
 new Legend(viewer, byId('legend'));
 new StageExtras(viewer, stage);
+new HistoryReader(viewer);
 
 function showRight(which: 'inspector' | 'show'): void {
   const tab = (name: typeof which, text: string) => h('button', {
@@ -48,6 +50,14 @@ function showRight(which: 'inspector' | 'show'): void {
     h('div', { class: 'tabs', role: 'tablist' }, tab('inspector', 'Inspector'), tab('show', 'View and filters')),
     which === 'inspector' ? inspector.element : showPanel.element);
   byId('right').dataset.shown = which;
+}
+
+/** A page opens where most is to be seen. */
+async function showBusiest(): Promise<void> {
+  const frame = viewer.busiestFrame();
+  if (frame === 0) return;
+  await viewer.goTo(frame);
+  stage.fitAll(true);
 }
 
 function showBar(): void {
@@ -261,6 +271,7 @@ async function start(): Promise<void> {
     return;
   }
   await viewer.open(chunks);
+  if (!link.namesFrame()) await showBusiest();
   await link.read();
   stage.draw();
   document.documentElement.dataset.openMs = String(Math.round(performance.now()));

@@ -2,6 +2,7 @@
 
 import type { ChunkSource } from './data/chunks';
 import { Page } from './data/page';
+import type { PairHistory } from './data/pair_history';
 import type { FrameReport } from './data/report';
 
 export type Selection =
@@ -57,7 +58,7 @@ export interface Filter {
   onlySelected: boolean;
 }
 
-export type ViewerEvent = 'page' | 'frame' | 'selection' | 'display' | 'theme' | 'play' | 'camera';
+export type ViewerEvent = 'page' | 'frame' | 'selection' | 'history' | 'display' | 'theme' | 'play' | 'camera';
 
 export function newFilter(): Filter {
   return {
@@ -80,6 +81,8 @@ export class Viewer {
   frame = -1;
   report: FrameReport | null = null;
   selection: Selection | null = null;
+  /** Of the selected pair, as far as it is read. */
+  history: PairHistory | null = null;
   readonly display = newDisplay();
   filter = newFilter();
   /** The camera goes to the next selection that is announced. */
@@ -103,6 +106,7 @@ export class Viewer {
     this.frame = this.wanted = -1;
     this.report = null;
     this.selection = null;
+    this.history = null;
     this.filter = newFilter();
     this.display.hiddenObjects.clear();
     this.display.hiddenLevels.clear();
@@ -139,6 +143,12 @@ export class Viewer {
       this.seekMs.push(performance.now() - began);
       if (this.seekMs.length > 500) this.seekMs.shift();
     }
+  }
+
+  /** The frame with most contacts, the first of several. */
+  busiestFrame(): number {
+    const contacts = this.page?.head.series.contacts ?? [];
+    return contacts.reduce((best, count, frame) => (count > contacts[best]! ? frame : best), 0);
   }
 
   select(selection: Selection | null, fly = false): void {

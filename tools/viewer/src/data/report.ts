@@ -124,6 +124,36 @@ export class ReportBlock {
     return KINDS[this.kind[contact]!] === 'EE' && this.distance[contact] !== 0 && (sides & 15) === 2 + 4 * 2;
   }
 
+  isTouching(row: number): boolean {
+    const phase = PHASES[this.phase[row]!];
+    return phase === 'began' || phase === 'touching';
+  }
+
+  /** Two edges are behind where they are sunk. With a vertex, its side of the other surface decides; else both sides do. At distance 0 nothing is behind. */
+  isBehind(contact: number): boolean {
+    const { distance, features, kind } = this;
+    if (KINDS[kind[contact]!] === 'EE') return this.isSunk(contact);
+    if (distance[contact] === 0) return false;
+    const [isVertexA, isVertexB] = [features[4 * contact] === 0, features[4 * contact + 2] === 0];
+    const [isBehindA, isBehindB] = [SIDES[this.sides[contact]! & 3] === 'back', SIDES[(this.sides[contact]! >> 2) & 3] === 'back'];
+    if (!isVertexA && !isVertexB) return isBehindA && isBehindB;
+    return (isVertexB && isBehindA) || (isVertexA && isBehindB);
+  }
+
+  /** The distance with a sign, as docs/answers.md says. */
+  separation(contact: number): number {
+    const distance = this.distance[contact]!;
+    return this.isBehind(contact) ? -distance : distance;
+  }
+
+  /** The smallest separation of a pair's contacts, or null where none is listed. */
+  deepestOf(row: number): number | null {
+    let deepest: number | null = null;
+    for (let c = this.contactBegin[row]!; c < this.contactEnd[row]!; ++c)
+      if (deepest === null || this.separation(c) < deepest) deepest = this.separation(c);
+    return deepest;
+  }
+
   /** The way out of a pair, or null where the report has none. */
   wayOutOf(row: number): WayOut | null {
     const way = this.wayOfPair.get(row);
@@ -201,13 +231,12 @@ export class FrameReport {
 
   /** The distance with a sign, and the direction along which b is moved to make it grow, as docs/answers.md says. */
   separation(contact: number): number {
-    const distance = this.block.distance[contact]!;
-    return this.isBehind(contact) ? -distance : distance;
+    return this.block.separation(contact);
   }
 
   push(contact: number): [number, number, number] {
     const [x, y, z] = this.block.normal.subarray(3 * contact, 3 * contact + 3) as unknown as [number, number, number];
-    return this.isBehind(contact) || this.leadsIn(contact) ? [-x, -y, -z] : [x, y, z];
+    return this.block.isBehind(contact) || this.leadsIn(contact) ? [-x, -y, -z] : [x, y, z];
   }
 
   /** Where an edge pierces a face, the side of the pierced object says whether the face's normal leads into its solid. */
@@ -221,17 +250,6 @@ export class FrameReport {
   /** Whether an edge pierces a face. Such a contact carries nothing. */
   pierces(contact: number): boolean {
     return KINDS[this.block.kind[contact]!] === 'EF' && this.block.distance[contact] === 0;
-  }
-
-  /** Two edges are behind where they are sunk. With a vertex, its side of the other surface decides; else both sides do. At distance 0 nothing is behind. */
-  private isBehind(contact: number): boolean {
-    const { distance, features, kind } = this.block;
-    if (KINDS[kind[contact]!] === 'EE') return this.block.isSunk(contact);
-    if (distance[contact] === 0) return false;
-    const [isVertexA, isVertexB] = [features[4 * contact] === 0, features[4 * contact + 2] === 0];
-    const [isBehindA, isBehindB] = [SIDES[this.sideA(contact)] === 'back', SIDES[this.sideB(contact)] === 'back'];
-    if (!isVertexA && !isVertexB) return isBehindA && isBehindB;
-    return (isVertexB && isBehindA) || (isVertexA && isBehindB);
   }
 
   age(contact: number): number { return this.info.frame - this.block.since[contact]!; }

@@ -47,6 +47,7 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
   // Without a solid there is no inside, nor of an object with itself, and `none` would say nothing of surfaces that pierce each other.
   const hasSolid = a !== b && (head.objects[a]!.solid || head.objects[b]!.solid);
   const way = block.wayOutOf(row);
+  const deepest = block.deepestOf(row);
   const features = block.witnessFeatures.subarray(4 * row, 4 * row + 4);
   const kinds: Record<string, number> = {};
   for (let c = block.contactBegin[row]!; c < block.contactEnd[row]!; ++c) {
@@ -66,6 +67,7 @@ export function pairFacts(viewer: Viewer, a: number, b: number): Facts {
     witness_a: feature(viewer, a, features[0]!, features[1]!), witness_b: feature(viewer, b, features[2]!, features[3]!),
     point_a: triple(block.witnessPoints, 6 * row), point_b: triple(block.witnessPoints, 6 * row + 3),
     contacts: block.contactEnd[row]! - block.contactBegin[row]!, contacts_by_kind: kinds,
+    ...(deepest === null ? {} : { deepest_separation: deepest }),
     region_distances: block.regionEnd[row]! - block.regionBegin[row]!, region_distances_by_level: levels,
     ...(way ? { way_out: { ...way } } : {}),
     ...sweepFacts(viewer, row, a, b),

@@ -25,7 +25,7 @@ const COLUMNS: Record<Tab, ColumnHead[]> = {
   ],
   pairs: [
     { name: 'pair', title: 'Names of a and b', isNumber: false },
-    { name: 'distance', title: 'Lower bound of the distance', isNumber: true },
+    { name: 'separation', title: 'The smallest separation of its contacts; without contacts the lower bound of the distance', isNumber: true },
     { name: 'contacts', title: 'Contacts in this frame', isNumber: true },
   ],
   contacts: [
@@ -148,7 +148,7 @@ export class Lists {
         key: `p${a}-${b}`, selection: { type: 'pair', a, b }, colour: PHASE_COLOURS[phase]!, isFaint: phase === 3,
         text: `${name} ${PHASES[phase]} ${inside ? `${INSIDES[inside]} ${INSIDE_GROUPS[groupOf(inside)]}` : ''}${marks}${hasImpacts ? ' impact' : ''} ${head.objects[a]!.serial} ${head.objects[b]!.serial}`.toLowerCase(),
         names: { ...names, b: names.b + (flags ? ' ⚠' : '') },
-        cells: [name, block.lower[row]!, block.contactEnd[row]! - block.contactBegin[row]!],
+        cells: [name, block.deepestOf(row) ?? block.lower[row]!, block.contactEnd[row]! - block.contactBegin[row]!],
       });
     }
     return rows;

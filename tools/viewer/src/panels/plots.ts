@@ -12,23 +12,18 @@ interface Plot { title: string; id: string; lines: Line[] }
 export class Plots {
   readonly element = h('div', { id: 'plots', 'data-testid': 'plots' });
   private charts: uPlot[] = [];
-  private boundsOf = '';
-  private bounds: [(number | null)[], (number | null)[]] = [[], []];
   private isSetting = false;
 
   constructor(private readonly viewer: Viewer) {
-    viewer.on(['page'], () => {
-      this.boundsOf = '';
-      this.make();
-    });
-    viewer.on(['theme'], () => this.make());
+    viewer.on(['page', 'theme'], () => this.make());
     viewer.on(['frame'], () => this.mark());
-    viewer.on(['selection'], () => void this.readBounds());
+    viewer.on(['history'], () => this.showBounds());
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
 
   private plots(): Plot[] {
-    const { head } = this.viewer.page!;
+    const { page, history } = this.viewer;
+    const { head } = page!;
     const series = (name: keyof typeof head.series) => head.series[name] ?? [];
     const { neutral, selected, second } = palette();
     const green = isDark() ? '#19c795' : '#009e73';
@@ -44,9 +39,10 @@ export class Plots {
       { title: 'ms', id: 'ms', lines: [
         { label: 'step', colour: neutral, values: series('step_ms') },
         ...STAGES.map((stage, i) => ({ label: stage.replace('_ms', ''), colour: STAGE_COLOURS[i]!, values: series(stage) }))] },
-      { title: 'Pair distance', id: 'bounds', lines: [
-        { label: 'lower', colour: selected, values: this.bounds[0] },
-        { label: 'upper', colour: second, values: this.bounds[1] }] },
+      { title: 'Pair', id: 'bounds', lines: [
+        { label: 'lower', colour: selected, values: history?.lower ?? [] },
+        { label: 'upper', colour: second, values: history?.upper ?? [] },
+        { label: 'deepest', colour: palette().warning, values: history?.deepest ?? [] }] },
     ];
   }
 
@@ -80,11 +76,11 @@ export class Plots {
       series: [{ label: plot.title, value: (_, frame) => frame === null ? '' : String(frame) }, ...plot.lines.map((line) => ({
         label: line.label, stroke: line.colour, width: 1.25, points: { show: false },
         // Six values do not fit; those of the stages are in the inspector.
-        value: (_: uPlot, value: number | null) => value === null ? '' : plot.id !== 'ms' ? short(value) :
-          line.label === 'step' ? String(Number(value.toPrecision(3))) : '' }))],
+        value: (_: uPlot, value: number | null) => value === null || (plot.id === 'ms' && line.label !== 'step') ? '' :
+          plot.id === 'ms' || plot.id === 'bounds' ? String(Number(value.toPrecision(3))) : short(value) }))],
       hooks: { ready: [(chart) => this.listen(chart)] },
     };
-    const data = [frames, ...plot.lines.map((line) => line.values.length ? line.values : frames.map(() => null))];
+    const data = [frames, ...plot.lines.map(({ values }) => this.filled(values))];
     return new uPlot(options, data as uPlot.AlignedData, box);
   }
 
@@ -120,43 +116,15 @@ export class Plots {
     this.isSetting = false;
   }
 
-  /** Reads the bounds of the selected pair from all blocks, a little at a time. */
-  private async readBounds(): Promise<void> {
-    const { viewer } = this;
-    const { page } = viewer;
-    const pair = viewer.selectedPair();
-    const key = pair ? `${pair.a}-${pair.b}` : '';
-    if (!page || key === this.boundsOf) return;
-    this.boundsOf = key;
-    const empty = (): null[] => Array(page.head.frames).fill(null) as null[];
-    this.bounds = [empty(), empty()];
-    this.showBounds();
-    if (!pair) return;
-    const here = page.blockOf(viewer.frame);
-    const blocks = Array.from({ length: page.blockCount }, (_, k) => k).sort((p, q) => Math.abs(p - here) - Math.abs(q - here));
-    let shown = performance.now();
-    for (const k of blocks) {
-      // Blocks that are not in memory are read past the cache, so that they throw nothing out of it.
-      const block = page.reports.peek(`report/${k}`) ?? await page.readReport(`report/${k}`);
-      if (this.boundsOf !== key || viewer.page !== page) return;
-      for (let i = 0; i < block.begin.length; ++i) {
-        const row = block.rowOf(i, pair.a, pair.b);
-        if (row < 0) continue;
-        this.bounds[0][k * page.head.block + i] = block.lower[row]!;
-        this.bounds[1][k * page.head.block + i] = block.upper[row]!;
-      }
-      if (performance.now() - shown < 150) continue;
-      this.showBounds();
-      await new Promise((resolve) => setTimeout(resolve));
-      shown = performance.now();
-    }
-    this.showBounds();
+  /** A value for each frame, where a line has none. */
+  private filled(values: (number | null)[]): (number | null)[] {
+    return values.length ? values : this.viewer.page!.head.frame_numbers.map(() => null);
   }
 
   private showBounds(): void {
     const chart = this.charts[3];
     if (!chart) return;
-    chart.setData([chart.data[0]!, ...this.bounds] as uPlot.AlignedData);
+    chart.setData([chart.data[0]!, ...this.plots()[3]!.lines.map(({ values }) => this.filled(values))] as uPlot.AlignedData);
     this.element.children[3]!.classList.toggle('unasked', this.viewer.selectedPair() === null);
     this.mark();
   }
@@ -164,7 +132,7 @@ export class Plots {
 
 function range(low: number | null, high: number | null, isFree: boolean): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
-  const bottom = isFree ? Math.max(0, low - 0.1 * (high - low)) : Math.min(0, low);
+  const bottom = isFree ? Math.max(Math.min(0, low), low - 0.1 * (high - low)) : Math.min(0, low);
   const top = high + 0.08 * (high - bottom);
   return top > bottom ? [bottom, top] : [bottom, bottom + 1];
 }

@@ -55,7 +55,7 @@ export class Timeline {
       if (event.buttons & 1) scrub(event);
     });
     new ResizeObserver(() => this.redraw()).observe(track);
-    viewer.on(['page', 'theme'], () => this.redraw());
+    viewer.on(['page', 'theme', 'history'], () => this.redraw());
     viewer.on(['frame'], () => this.show());
     viewer.on(['play', 'page'], () => {
       this.play.textContent = this.player.isPlaying ? '❚❚' : '▶';
@@ -77,7 +77,9 @@ export class Timeline {
     const { head } = this.viewer.page!;
     const diverged = new Set(head.diverged ?? []);
     const has = (name: keyof typeof head.series) => (f: number) => (head.series[name]?.[f] ?? 0) > 0;
+    const { history } = this.viewer;
     return [
+      ...(history ? [{ name: 'selected pair', colour: () => palette().selected, test: (f: number) => history.isTouching[f] ?? false, isState: true }] : []),
       { name: 'began', colour: () => PHASE_COLOURS[1]!, test: has('began') },
       { name: 'ended', colour: () => PHASE_COLOURS[3]!, test: has('ended') },
       { name: 'impacts', colour: () => palette().way, test: has('impacts'), isState: true },

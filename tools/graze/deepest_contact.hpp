@@ -1,0 +1,15 @@
+#pragma once
+
+#include <algorithm>
+#include <graze/contact.hpp>
+#include <span>
+
+namespace graze::tools {
+
+/// Of some contacts the one with the smallest separation, the first of several. Null where there are none.
+inline const Contact* deepest_contact(std::span<const Contact> contacts) {
+  const auto found = std::ranges::min_element(contacts, {}, &Contact::separation);
+  return found == contacts.end() ? nullptr : &*found;
+}
+
+}  // namespace graze::tools
