@@ -28,6 +28,10 @@ std::string RunSummary::name_of(std::size_t number) const {
   return io::printable(objects_[number].name);
 }
 
+std::string RunSummary::names_of(std::size_t a, std::size_t b) const {
+  return name_of(a) + " and " + (a == b ? "itself" : name_of(b));
+}
+
 void RunSummary::add(std::uint32_t frame, const FrameReport& report, double step_ms) {
   step_ms_.push_back(step_ms);
   pairs_ = report.statistics().pairs_total;
@@ -89,8 +93,7 @@ std::string RunSummary::touches_text() const {
   for (const auto& [pair, touch] : touches_) {
     const Eigen::Vector3d& place = touch.first_place;
     const std::string where = format("(%.4g, %.4g, %.4g)", place.x(), place.y(), place.z());
-    const std::string other = pair.first == pair.second ? "itself" : name_of(pair.second);
-    text += "touching  " + name_of(pair.first) + " and " + other + ": first in frame " +
+    text += "touching  " + names_of(pair.first, pair.second) + ": first in frame " +
             std::to_string(touch.first_frame) + " at " + where + ", last in frame " +
             std::to_string(touch.last_frame) + "; " + counted(touch.frames, "frame") + " in " +
             counted(touch.spells, "spell") + ", at most " + counted(touch.most_contacts, "contact") +

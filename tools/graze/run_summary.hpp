@@ -43,6 +43,7 @@ class RunSummary {
 
   void add_touch(std::uint32_t frame, const PairReport& pair, std::span<const Contact> contacts);
   [[nodiscard]] std::string name_of(std::size_t number) const;
+  [[nodiscard]] std::string names_of(std::size_t a, std::size_t b) const;
   [[nodiscard]] std::string inside_text(std::size_t a, std::size_t b, const Touch& touch) const;
   [[nodiscard]] static std::string deepest_text(const Touch& touch);
   [[nodiscard]] std::string limits_text() const;

@@ -31,6 +31,7 @@ std::string names_of(const io::SnapshotObject& a, const io::SnapshotObject& b) {
 template <typename Value, typename Before>
 std::vector<Value> sorted(const auto& values, const Before& before) {
   std::vector<Value> all;
+  all.reserve(values.size());
   for (const auto& [pair, value] : values) all.push_back(value);
   std::ranges::stable_sort(all, before);
   return all;
