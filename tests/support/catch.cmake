@@ -9,7 +9,7 @@ set(GRAZE_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
   "Real meshes that some tests read; those tests are skipped where it is missing")
 
 set(catch_options ${GRAZE_TEST_OPTIONS})
-if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+if(GRAZE_HAS_SANITIZERS)
   set(catch_options -fno-sanitize=all)  # its own sources need none, and are compiled and run in half the time
 endif()
 

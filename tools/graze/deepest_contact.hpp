@@ -6,7 +6,7 @@
 
 namespace graze::tools {
 
-/// Of some contacts the one with the smallest separation, the first of several. Null where there are none.
+/// Returns the contact with the smallest separation, the first of several, or null where there is none.
 inline const Contact* deepest_contact(std::span<const Contact> contacts) {
   const auto found = std::ranges::min_element(contacts, {}, &Contact::separation);
   return found == contacts.end() ? nullptr : &*found;

@@ -31,7 +31,7 @@ namespace {
 using VertexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What going through all pairs of used vertices finds.
+/// The result of a search through all pairs of used vertices.
 struct AllPairs {
   VertexPairs near;
   double nearest = infinity;

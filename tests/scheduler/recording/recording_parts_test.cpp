@@ -187,7 +187,7 @@ TEST_CASE("recording parts: nothing diverges, whatever accuracy and limits") {
         record_calls(settings, folder / "run.graze", seed);
         in_part += check_parts(folder / "run.graze", folder / "part.graze", has_clock);
       }
-      // Where nothing depends on other steps and pairs, every row is compared bit for bit.
+      // Every row is compared bit for bit where it depends on no other step and pair.
       if (name == "exact" || name == "max_contacts_per_pair" || name == "paper") CHECK(in_part == 0);
       if (name == "region_distances" || name == "all") CHECK(in_part > 0);
       if (name == "carrying" && detail != ContactDetail::nearest) CHECK(in_part == 0);

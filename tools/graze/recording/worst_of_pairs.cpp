@@ -48,20 +48,21 @@ void WorstOfPairs::add(const io::SceneSnapshot& snapshot) {
     if (a == objects.end() || b == objects.end()) continue;
     const Pair pair(a->second->serial, b->second->serial);
     const std::string names = names_of(*a->second, *b->second);
-    Separation& separation = now[pair];
     const Contact* const contact = deepest_contact(snapshot.report->contacts(row));
-    separation =
-        contact != nullptr ? Separation{contact->separation(), true} : Separation{row.distance.upper, false};
-    if (contact != nullptr) {
-      const auto [known, is_new] = deepest_.try_emplace(pair);
-      if (is_new || contact->separation() < known->second.separation)
-        known->second = {names, snapshot.frame, contact->separation(), contact->point_a};
-    }
+    const Separation separation{contact != nullptr ? contact->separation() : row.distance.upper,
+                                contact != nullptr};
+    if (contact != nullptr) add_contact(pair, {names, snapshot.frame, separation.value, contact->point_a});
     const auto last = last_.find(pair);
     if (last != last_.end() && (separation.has_contact || last->second.has_contact))
       add_jump(pair, {names, snapshot.frame, last->second.value, separation.value});
+    now.emplace(pair, separation);
   }
   last_ = std::move(now);
+}
+
+void WorstOfPairs::add_contact(const Pair& pair, const DeepestPlace& place) {
+  const auto [known, is_new] = deepest_.try_emplace(pair, place);
+  if (!is_new && place.separation < known->second.separation) known->second = place;
 }
 
 void WorstOfPairs::add_jump(const Pair& pair, const SeparationJump& jump) {

@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <graze/io/scene_snapshot.hpp>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace graze::tools {
 
-/// Where a pair of objects was deepest.
+/// The deepest contact that a pair of objects had, and its frame.
 struct DeepestPlace {
   std::string names;
   std::uint64_t frame = 0;
@@ -52,6 +51,7 @@ class WorstOfPairs {
     bool has_contact = false;
   };
 
+  void add_contact(const Pair& pair, const DeepestPlace& place);
   void add_jump(const Pair& pair, const SeparationJump& jump);
 
   std::map<Pair, Separation> last_;  ///< of the last frame

@@ -124,6 +124,9 @@ export class ReportBlock {
     return KINDS[this.kind[contact]!] === 'EE' && this.distance[contact] !== 0 && (sides & 15) === 2 + 4 * 2;
   }
 
+  sideA(contact: number): number { return this.sides[contact]! & 3; }
+  sideB(contact: number): number { return (this.sides[contact]! >> 2) & 3; }
+
   isTouching(row: number): boolean {
     const phase = PHASES[this.phase[row]!];
     return phase === 'began' || phase === 'touching';
@@ -135,7 +138,7 @@ export class ReportBlock {
     if (KINDS[kind[contact]!] === 'EE') return this.isSunk(contact);
     if (distance[contact] === 0) return false;
     const [isVertexA, isVertexB] = [features[4 * contact] === 0, features[4 * contact + 2] === 0];
-    const [isBehindA, isBehindB] = [SIDES[this.sides[contact]! & 3] === 'back', SIDES[(this.sides[contact]! >> 2) & 3] === 'back'];
+    const [isBehindA, isBehindB] = [SIDES[this.sideA(contact)] === 'back', SIDES[this.sideB(contact)] === 'back'];
     if (!isVertexA && !isVertexB) return isBehindA && isBehindB;
     return (isVertexB && isBehindA) || (isVertexA && isBehindB);
   }
@@ -226,8 +229,8 @@ export class FrameReport {
     return -1;
   }
 
-  sideA(contact: number): number { return this.block.sides[contact]! & 3; }
-  sideB(contact: number): number { return (this.block.sides[contact]! >> 2) & 3; }
+  sideA(contact: number): number { return this.block.sideA(contact); }
+  sideB(contact: number): number { return this.block.sideB(contact); }
 
   /** The distance with a sign, and the direction along which b is moved to make it grow, as docs/answers.md says. */
   separation(contact: number): number {

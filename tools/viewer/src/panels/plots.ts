@@ -22,10 +22,9 @@ export class Plots {
   }
 
   private plots(): Plot[] {
-    const { page, history } = this.viewer;
-    const { head } = page!;
+    const { head } = this.viewer.page!;
     const series = (name: keyof typeof head.series) => head.series[name] ?? [];
-    const { neutral, selected, second } = palette();
+    const { neutral } = palette();
     const green = isDark() ? '#19c795' : '#009e73';
     return [
       { title: 'Contacts', id: 'contacts', lines: [
@@ -39,11 +38,18 @@ export class Plots {
       { title: 'ms', id: 'ms', lines: [
         { label: 'step', colour: neutral, values: series('step_ms') },
         ...STAGES.map((stage, i) => ({ label: stage.replace('_ms', ''), colour: STAGE_COLOURS[i]!, values: series(stage) }))] },
-      { title: 'Pair', id: 'bounds', lines: [
-        { label: 'lower', colour: selected, values: history?.lower ?? [] },
-        { label: 'upper', colour: second, values: history?.upper ?? [] },
-        { label: 'deepest', colour: palette().warning, values: history?.deepest ?? [] }] },
+      this.pairPlot(),
     ];
+  }
+
+  /** The last plot is that of the selected pair. */
+  private pairPlot(): Plot {
+    const { history } = this.viewer;
+    const { selected, second, warning } = palette();
+    return { title: 'Pair', id: 'bounds', lines: [
+      { label: 'lower', colour: selected, values: history?.lower ?? [] },
+      { label: 'upper', colour: second, values: history?.upper ?? [] },
+      { label: 'deepest', colour: warning, values: history?.deepest ?? [] }] };
   }
 
   private make(): void {
@@ -122,10 +128,10 @@ export class Plots {
   }
 
   private showBounds(): void {
-    const chart = this.charts[3];
+    const chart = this.charts.at(-1);
     if (!chart) return;
-    chart.setData([chart.data[0]!, ...this.plots()[3]!.lines.map(({ values }) => this.filled(values))] as uPlot.AlignedData);
-    this.element.children[3]!.classList.toggle('unasked', this.viewer.selectedPair() === null);
+    chart.setData([chart.data[0]!, ...this.pairPlot().lines.map(({ values }) => this.filled(values))] as uPlot.AlignedData);
+    this.element.lastElementChild!.classList.toggle('unasked', this.viewer.selectedPair() === null);
     this.mark();
   }
 }
