@@ -45,11 +45,11 @@ export class Plots {
   /** The last plot is that of the selected pair. */
   private pairPlot(): Plot {
     const { history } = this.viewer;
-    const { selected, second, warning } = palette();
+    const { selected, second, way } = palette();
     return { title: 'Pair', id: 'bounds', lines: [
       { label: 'lower', colour: selected, values: history?.lower ?? [] },
       { label: 'upper', colour: second, values: history?.upper ?? [] },
-      { label: 'deepest', colour: warning, values: history?.deepest ?? [] }] };
+      { label: 'deepest', colour: way, values: history?.deepest ?? [] }] };
   }
 
   private make(): void {
