@@ -96,6 +96,9 @@ tests=$(($(count tests) + 1))
 failed=$(($(count failures) + lint_failed))
 skipped=$(count skipped)
 disabled=$(count disabled)
+# What failed once more, since the log is long.
+[ "$lint_failed" -eq 0 ] || echo "== failed: lint, at the start of this output"
+python3 tests/failed_tests.py "$results"/*.xml || status=1
 echo "$((tests - failed - skipped - disabled)) passed, $failed failed, $skipped skipped"
 [ "$tests" -gt 1 ] && [ "$lint_failed" -eq 0 ] || status=1
 exit "$status"
