@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "core/mesh/pair_room.hpp"
+
 namespace graze {
 namespace {
 
@@ -72,6 +74,12 @@ void MovingFeatures::collect(const MovingSurface& surface, const Region& leaf, c
       surface, tree.edges(leaf), near, gap, [&](std::uint32_t edge) { return mesh.edge(edge); }, edges);
   collect_some(
       surface, tree.faces(leaf), near, gap, [&](std::uint32_t face) { return mesh.face(face); }, faces);
+}
+
+void MovingFeatures::reserve(const PairRoom& room) {
+  vertices.reserve(room.leaf_vertices);
+  edges.reserve(room.leaf_edges);
+  faces.reserve(room.leaf_faces);
 }
 
 void LeafSweep::test(const MovingFeatures& of_a, const MovingFeatures& of_b, bool same) {

@@ -25,6 +25,9 @@ struct MovingFeatures {
   /// The boxes of the features are grown by `gap`.
   void collect(const MovingSurface& surface, const Region& leaf, const MovingBox& near, double gap);
 
+  /// Makes room for the features of the largest leaf.
+  void reserve(const PairRoom& room);
+
   template <typename Self>
   static auto parts(Self& self) {
     return std::tie(self.vertices, self.edges, self.faces);

@@ -10,6 +10,9 @@
 namespace graze {
 namespace {
 
+/// A walk goes to the depth first. So it holds no more pairs than this in trees of twenty levels.
+constexpr std::size_t reserved_region_pairs = 1024;
+
 /// The order of impacts in an answer. No two impacts of a pair have the same features.
 bool comes_before(const Impact& left, const Impact& right) {
   return std::tie(left.lower, left.kind, left.feature_a, left.feature_b) <
@@ -133,6 +136,12 @@ void PairSweep::sweep(const MovingSurface& a, const MovingSurface& b, const Swee
   });
   if (!is_whole) return set_unknown(answer);
   keep_earliest(answer.impacts, query.impact_limit, answer.left_out);
+}
+
+void PairSweep::reserve(const PairRoom& room) {
+  scratch_->open.reserve(reserved_region_pairs);
+  scratch_->of_a.reserve(room);
+  scratch_->of_b.reserve(room);
 }
 
 void PairSweep::reserve_as(const PairSweep& other) {

@@ -16,6 +16,11 @@ MovingBox box_of_way(const MovingSurface& surface, const Region& leaf) {
 
 }  // namespace
 
+void SurfaceMotion::reserve(const IndexedMesh& mesh) {
+  start_.reserve(mesh.vertex_count());
+  boxes_.reserve(mesh.regions().region_count());
+}
+
 void SurfaceMotion::keep(const Surface& now, std::uint32_t begin, std::uint32_t end) {
   for (std::uint32_t vertex = begin; vertex < end; ++vertex)
     if (now.mesh().is_used(vertex)) start_[vertex] = now.position(vertex);

@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t any_number = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t largest_kind = 255;
 constexpr std::uint32_t largest_face_group = 255;
-constexpr std::uint32_t most_self_rings = 8;
 
 /// An enumerator by its name. `expected` says what stands there, such as "a motion".
 template <NamedEnumeration Enum>

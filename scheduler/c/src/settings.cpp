@@ -83,9 +83,9 @@ static_assert(
                    &ObjectSettings::self_rings, &ObjectSettings::self_at_rest, &ObjectSettings::swept,
                    &ObjectSettings::queries>());
 static_assert(are_all_fields<PairRule, &PairRule::contact_distance, &PairRule::range, &PairRule::epsilon>());
-static_assert(
-    are_all_fields<SceneCapacity, &SceneCapacity::objects, &SceneCapacity::calls_per_step,
-                   &SceneCapacity::near_pairs, &SceneCapacity::contacts, &SceneCapacity::reports>());
+static_assert(are_all_fields<SceneCapacity, &SceneCapacity::objects, &SceneCapacity::calls_per_step,
+                             &SceneCapacity::near_pairs, &SceneCapacity::contacts, &SceneCapacity::reports,
+                             &SceneCapacity::impacts>());
 
 static_assert(
     has_members<QuerySettings, &QuerySettings::contact_distance, &QuerySettings::range,
@@ -213,8 +213,13 @@ PairRule from_c(const graze_pair_rule& rule) {
 }
 
 graze_scene_capacity to_c(const SceneCapacity& capacity) {
-  return {sizeof(graze_scene_capacity), capacity.objects,  capacity.calls_per_step,
-          capacity.near_pairs,          capacity.contacts, capacity.reports};
+  return {sizeof(graze_scene_capacity),
+          capacity.objects,
+          capacity.calls_per_step,
+          capacity.near_pairs,
+          capacity.contacts,
+          capacity.reports,
+          capacity.impacts};
 }
 
 SceneCapacity from_c(const graze_scene_capacity& capacity) {
@@ -222,7 +227,8 @@ SceneCapacity from_c(const graze_scene_capacity& capacity) {
           .calls_per_step = capacity.calls_per_step,
           .near_pairs = capacity.near_pairs,
           .contacts = capacity.contacts,
-          .reports = capacity.reports};
+          .reports = capacity.reports,
+          .impacts = capacity.impacts};
 }
 
 graze_query_settings to_c(const QuerySettings& settings) {

@@ -35,6 +35,10 @@ enum class ArenaPolicy : std::uint8_t {
             ///< has.
 };
 
+/// The most that ObjectSettings::self_rings may be. More edges than this make no neighbourhood, and take long
+/// to follow.
+inline constexpr std::uint32_t most_self_rings = 8;
+
 /// Describes one object to Scene::add(). The settings of an object never change.
 struct ObjectSettings {
   /// A name for people. Messages use it. Names may repeat or be empty.
@@ -80,7 +84,8 @@ struct ObjectSettings {
   /// no vertex.
   bool self = false;
   /// With #self: two features are not tested if a vertex of one is joined to a vertex of the other by this
-  /// many edges or fewer. With 0 only features that share a vertex are left out. It is at most 8.
+  /// many edges or fewer. With 0 only features that share a vertex are left out. It is at most
+  /// #most_self_rings.
   std::uint32_t self_rings = 1;
   /// With #self: whether features are tested that are nearer than the threshold at rest. A mesh finer than
   /// the threshold would then touch itself everywhere.
@@ -204,8 +209,14 @@ struct SceneCapacity {
   /// The number of contacts of all pairs together, in the answers of a step and in a report.
   std::size_t contacts = 0;
   /// The number of reports that handles hold at the same time, in addition to the latest one. Each gets room
-  /// for #near_pairs rows and #contacts contacts, or as much as any report has needed.
+  /// for #near_pairs rows, #contacts contacts and #impacts impacts, or as much as any report has needed.
   std::size_t reports = 0;
+  /// The number of impacts of all swept pairs together, in the answers of a step and in a report.
+  ///
+  /// If neither this nor #near_pairs is 0, #near_pairs also counts the pairs that StepStatistics::pairs_swept
+  /// counts. Each object that may be in a swept pair gets room for its positions of the last step and for the
+  /// bounds of its way, even if it is added later. Each thread gets room for 1,024 impacts of a pair.
+  std::size_t impacts = 0;
 };
 
 /// @}

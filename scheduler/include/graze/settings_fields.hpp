@@ -85,6 +85,7 @@ inline constexpr std::tuple scene_capacity_fields{
     SettingsField<&SceneCapacity::near_pairs>{"near_pairs"},
     SettingsField<&SceneCapacity::contacts>{"contacts"},
     SettingsField<&SceneCapacity::reports>{"reports"},
+    SettingsField<&SceneCapacity::impacts>{"impacts"},
 };
 static_assert(has_every_member<SceneCapacity>(scene_capacity_fields),
               "name every field of SceneCapacity above");

@@ -7,12 +7,6 @@
 #include "core/pair/setting_checks.hpp"
 
 namespace graze {
-namespace {
-
-/// More edges than this make no neighbourhood, and take long to follow.
-constexpr std::uint32_t most_self_rings = 8;
-
-}  // namespace
 
 std::optional<std::string> problem_of(const SceneSettings& settings) {
   if (auto problem = problem_of_enumerator("scene: ", "detail", settings.detail)) return problem;

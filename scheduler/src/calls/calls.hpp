@@ -50,6 +50,11 @@ struct SetPose {
 struct RefusePose {
   Diagnostic problem;  ///< names the object
 };
+/// A new object stands at the pose that this step has set, or at rest, and counts as seen there. Only what
+/// makes a scene anew calls this, of an object that an earlier step has seen.
+struct SettlePose {
+  ObjectId object;
+};
 struct SetPositions {
   ObjectId object;
   SparePositions::Loan positions;
@@ -103,6 +108,6 @@ struct Reserve {
 /// Any call. An applied call is replaced by an empty RemoveObject, which holds no memory.
 using Call = std::variant<RemoveObject, AddObject, SetPose, RefusePose, SetPositions, BindPositions,
                           UnbindPositions, PositionsChanged, IgnorePair, IgnoreGroups, SetRule, Reserve,
-                          Diagnostic, ReplaceMesh, MarkTeleport>;
+                          Diagnostic, ReplaceMesh, MarkTeleport, SettlePose>;
 
 }  // namespace graze

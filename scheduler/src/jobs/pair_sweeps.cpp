@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "core/base/bytes_of.hpp"
@@ -12,6 +11,8 @@
 namespace graze {
 namespace {
 
+/// The number of impacts of a pair that each worker reserves. SceneCapacity states it.
+constexpr std::size_t reserved_impacts = 1024;
 constexpr std::uint64_t any_work = std::numeric_limits<std::uint64_t>::max();
 
 }  // namespace
@@ -24,7 +25,7 @@ void PairSweeps::run(std::span<PairJob> jobs, const SweptObjects& objects,
   list(jobs);
   for (Worker& worker : workers_) worker.work = {};
   if (swept_.empty()) return;
-  if (workers_.empty()) workers_.resize(tasks_.worker_count());
+  make_workers();
   make_boxes(objects);
   if (settings_.work_budget) {
     // One after the other, so that it does not depend on the threads what is left for each.
@@ -36,6 +37,10 @@ void PairSweeps::run(std::span<PairJob> jobs, const SweptObjects& objects,
     tasks_.run(swept_.size(), [this](unsigned worker, std::size_t index) { sweep(index, worker, any_work); });
   }
   for (const SweptJob& pair : swept_) jobs[pair.job].met_on_way = pair.met;
+}
+
+void PairSweeps::make_workers() {
+  if (workers_.empty()) workers_.resize(tasks_.worker_count());
 }
 
 /// Lists the jobs that ask for a sweep, and their objects.
@@ -101,6 +106,21 @@ SweepWork PairSweeps::work() const {
   SweepWork sum;
   for (const Worker& worker : workers_) sum.add(worker.work);
   return sum;
+}
+
+void PairSweeps::reserve(std::size_t objects, std::size_t pairs, std::size_t impacts) {
+  swept_.reserve(pairs);
+  on_the_way_.reserve(objects);
+  impacts_.reserve(impacts);
+  make_workers();
+  for (Worker& worker : workers_) worker.answer.impacts.reserve(std::min(impacts, reserved_impacts));
+  if (!room_) room_.emplace();
+}
+
+void PairSweeps::reserve_for(const IndexedMesh& mesh) {
+  if (!room_) return;
+  room_->include(mesh);
+  for (Worker& worker : workers_) worker.sweep.reserve(*room_);
 }
 
 void PairSweeps::equalize_capacity() {

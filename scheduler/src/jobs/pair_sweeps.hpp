@@ -3,12 +3,14 @@
 #include <chrono>
 #include <cstdint>
 #include <graze/settings.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/contact_limit.hpp"
 #include "base/shared_buffer.hpp"
 #include "base/task_pool.hpp"
+#include "core/mesh/pair_room.hpp"
 #include "core/sweep/pair_sweep.hpp"
 #include "objects/swept_objects.hpp"
 #include "pairs/pair_job.hpp"
@@ -42,6 +44,10 @@ class PairSweeps {
   /// The work of the last `run`.
   [[nodiscard]] SweepWork work() const;
 
+  /// Reserves memory for that many objects and pairs that are swept in a step, and for their impacts.
+  void reserve(std::size_t objects, std::size_t pairs, std::size_t impacts);
+  /// Reserves the workers' memory for surfaces of a mesh, if `reserve` was called.
+  void reserve_for(const IndexedMesh& mesh);
   /// Gives all workers the capacity that any of them needed, and discards what was found.
   void equalize_capacity();
   /// The bytes held, but for those of the workers.
@@ -56,6 +62,7 @@ class PairSweeps {
     SweepWork work;
   };
 
+  void make_workers();
   void list(std::span<const PairJob> jobs);
   void make_boxes(const SweptObjects& objects);
   void sweep(std::size_t index, unsigned worker, std::uint64_t work_limit);
@@ -69,8 +76,9 @@ class PairSweeps {
   const SweptObjects* objects_ = nullptr;
   std::vector<SweptJob> swept_;      ///< ascending by job
   std::vector<Object*> on_the_way_;  ///< the objects of these, each once
-  std::vector<Worker> workers_;      ///< empty until the first sweep
+  std::vector<Worker> workers_;      ///< empty until the first sweep, or until memory is reserved
   SharedBuffer<Impact> impacts_;
+  std::optional<PairRoom> room_;  ///< that was reserved
 };
 
 }  // namespace graze

@@ -186,7 +186,8 @@ struct Object {
   bool frozen = false;
   /// It has been frozen since it was added or got its mesh. So no step has seen it at a place of its own.
   bool is_unplaced = false;
-  bool moved = false;  ///< the last read found it moved, or it was bound since
+  bool is_settled = false;  ///< since it was added (SettlePose)
+  bool moved = false;       ///< the last read found it moved, or it was bound since
   /// The bound memory may differ from what the store's observer saw last, in a way that reads can tell.
   bool is_unobserved = true;
   NearlyStatic nearly_static;

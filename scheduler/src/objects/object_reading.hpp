@@ -35,6 +35,8 @@ struct ReadOutcome {
   bool accepted = true;  ///< the object is at the positions that were read
 };
 
+/// Places a posed object at its pose now.
+void settle_pose(Object& object);
 /// Reads or surveys an object. The caller makes its blocks, except those of a viewed object.
 ReadOutcome read_whole(Object& object);
 

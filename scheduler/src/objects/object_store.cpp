@@ -85,15 +85,21 @@ void ObjectStore::take_up_sweep(const ObjectSettings& settings) {
   if (!swept_.take_up(settings)) return;
   for (const auto& object : objects_) {
     if (object == nullptr || object->sweep != nullptr || !swept_.may_meet(object->settings)) continue;
-    object->sweep = std::make_unique<ObjectSweep>();
+    make_sweep(*object, *object->mesh);
     if (object->is_unread()) expect_input(*object);
   }
+}
+
+void ObjectStore::make_sweep(Object& object, const IndexedMesh& mesh) const {
+  auto sweep = std::make_unique<ObjectSweep>();
+  if (sweeps_are_reserved_) sweep->motion.reserve(mesh);
+  object.sweep = std::move(sweep);
 }
 
 void ObjectStore::apply(AddObject& call) {
   take_up_sweep(call.settings);
   auto object = std::make_unique<Object>();
-  if (swept_.some() && swept_.may_meet(call.settings)) object->sweep = std::make_unique<ObjectSweep>();
+  if (swept_.some() && swept_.may_meet(call.settings)) make_sweep(*object, call.surface->mesh());
   make_room_for_one(serials_);
   make_room_for_one(objects_);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
@@ -118,6 +124,7 @@ void ObjectStore::apply(ReplaceMesh& call) {
   if (object == nullptr) return;
   make_room_for_one(with_input_);
   make_room_for_one(replaced_);
+  if (sweeps_are_reserved_ && object->sweep != nullptr) object->sweep->motion.reserve(call.surface->mesh());
   auto replaced =
       object->replaced != nullptr ? std::move(object->replaced) : std::make_unique<ReplacedMesh>();
   // From here on nothing throws.
@@ -191,6 +198,13 @@ void ObjectStore::apply(const RefusePose& call) noexcept {
   if (object == nullptr) return;
   object->pose.reset();
   if (!std::exchange(object->frozen, true)) will_have_changed_ = true;
+}
+
+void ObjectStore::apply(const SettlePose& call) {
+  Object* const object = find(call.object);
+  if (object == nullptr || !is_new(*object) || !object->is_posed()) return;
+  object->is_settled = true;
+  if (object->pose) settle_pose(*object);
 }
 
 void ObjectStore::apply(SetPositions& call) {
@@ -279,6 +293,15 @@ void ObjectStore::reserve(std::size_t count) {
   with_input_.reserve(count);
   to_read_.reserve(count);
   read_problems_.reserve(count);
+}
+
+void ObjectStore::reserve_sweeps() {
+  sweeps_are_reserved_ = true;
+  for (const auto& object : objects_) {
+    if (object == nullptr || object->sweep == nullptr) continue;
+    object->sweep->motion.reserve(*object->mesh);
+    count_bytes(*object);
+  }
 }
 
 void ObjectStore::count_bytes(Object& object) {
@@ -410,7 +433,7 @@ void ObjectStore::leave_unread(Object& object) {
 void ObjectStore::mark_new_seen() {
   const auto mark = [](Object& object) {
     if (!has_input(object)) object.promises.motion = 0;
-    object.is_unplaced = object.frozen;
+    object.is_unplaced = object.frozen && !std::exchange(object.is_settled, false);
   };
   for (auto object = objects_.rbegin(); object != objects_.rend() && (*object)->serial >= first_unseen_;
        ++object)

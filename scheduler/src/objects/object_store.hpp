@@ -45,6 +45,7 @@ class ObjectStore {
   void apply(const RemoveObject& call);
   void apply(const SetPose& call);
   void apply(const RefusePose& call) noexcept;
+  void apply(const SettlePose& call);
   void apply(SetPositions& call);
   void apply(const BindPositions& call);
   /// Appends a diagnostic if the bound memory is bad.
@@ -53,6 +54,8 @@ class ObjectStore {
   void apply(const MarkTeleport& call);
   /// Reserves memory for that many objects.
   void reserve(std::size_t count);
+  /// Reserves memory for the ways of all objects that may be in swept pairs, also of those that come later.
+  void reserve_sweeps();
 
   /// Reads the current positions of all objects with input. Two kinds of objects are not read. An object that
   /// promises keep far from everything stays unread. An object that no pair of the last step tested, or that
@@ -88,6 +91,10 @@ class ObjectStore {
   [[nodiscard]] std::uint64_t arrivals_and_departures() const { return 2 * next_serial_ - objects_.size(); }
   /// The object of a serial, or null.
   [[nodiscard]] const Object* find_serial(std::uint64_t serial) const;
+  /// Whether a step has seen the object at a place of its own, with the mesh that it has.
+  [[nodiscard]] bool was_seen(const Object& object) const {
+    return !is_new(object) && object.replaced == nullptr && !object.is_unplaced;
+  }
   /// The objects removed since `forget_departed`, sorted by id once `read_positions` has returned.
   [[nodiscard]] std::span<const DepartedObject> departed() const { return departed_; }
   /// Forgets the removed objects. Call it when a report has named the pairs that their removal ended.
@@ -126,6 +133,7 @@ class ObjectStore {
   };
 
   void take_up_sweep(const ObjectSettings& settings);
+  void make_sweep(Object& object, const IndexedMesh& mesh) const;
   [[nodiscard]] bool is_new(const Object& object) const { return object.serial >= first_unseen_; }
   /// Lists the object for the next read.
   void expect_input(Object& object);
@@ -145,6 +153,7 @@ class ObjectStore {
 
   bool with_blocks_;
   SweptObjects swept_;
+  bool sweeps_are_reserved_ = false;
   bool last_failed_ = false;            ///< no report speaks of what the last read has found
   MemoryObserver* observer_ = nullptr;  ///< of the current step
   std::vector<std::unique_ptr<Object>>

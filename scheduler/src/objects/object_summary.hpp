@@ -68,6 +68,8 @@ class ObjectSummaries {
   /// Whether an object may have changed since the refresh before, or is unread. It means nothing for new
   /// objects.
   [[nodiscard]] bool changed(std::uint32_t slot) const { return changed_[slot] != 0; }
+  /// Reserves memory for the sweeps of that many objects.
+  void reserve_for_sweeps(std::size_t objects) { sweeps_.reserve(objects); }
   /// Reserves memory for that many objects.
   void reserve(std::size_t objects) {
     summaries_.reserve(objects);

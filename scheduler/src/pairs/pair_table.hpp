@@ -47,6 +47,8 @@ class PairTable {
   /// Reserves memory for that many objects and pairs whose loose boxes meet. Call it before the step's `list`
   /// only.
   void reserve(std::size_t objects, std::size_t pairs, const PairMemoryRoom& room);
+  /// Reserves memory for the sweeps of that many objects.
+  void reserve_for_sweeps(std::size_t objects) { summaries_.reserve_for_sweeps(objects); }
   /// Reserves memory for what is remembered of pairs with solids.
   void reserve_for_solids() { selection_.reserve_for_solids(); }
   /// The bytes held. Of the fronts it counts only reserved memory.

@@ -171,8 +171,10 @@ void FrameCapture::add_object(const Object& object) {
 
 /// Adds a call that freezes an object as it was frozen before the recording began.
 void FrameCapture::add_freezing_call(const Object& object) {
-  if (object.is_posed())
+  if (object.is_posed()) {
+    if (store_->was_seen(object)) add_record(SettlePose{object.id});
     return add_record(RefusePose{{object.id, DiagnosticKind::bad_pose, "the pose was not taken"}});
+  }
   if (object.bound) return;  // by the memory itself
   add_record(BindRecord{object.id});
   add_record(UnbindRecord{.object = object.id, .problem = DiagnosticKind::not_finite, .positions = {}});

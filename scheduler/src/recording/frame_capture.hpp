@@ -152,6 +152,7 @@ class FrameCapture final : public MemoryObserver {
   void add(const UnbindPositions& call);
   void add(const PositionsChanged& call) { add_record(call); }
   void add(const MarkTeleport& call) { add_record(call); }
+  void add(const SettlePose& call) { add_record(call); }
   void add(const IgnorePair& call) { add_record(call); }
   void add(const IgnoreGroups& call) { add_record(call); }
   void add(const SetRule& call) { add_record(call); }

@@ -44,6 +44,7 @@ void FrameEncoder::skip_frame(const CapturedFrame& frame) noexcept {
     meshes_of_skipped_.insert(meshes_of_skipped_.end(), frame.meshes.begin(), frame.meshes.end());
     ByteSource source(frame.records.bytes());
     visit_records(source, frame.record_count, [&](const Record& record) { model_.apply(record); });
+    model_.end_frame();
   } catch (...) {
     is_behind_ = false;
     is_lost_ = true;
@@ -87,6 +88,7 @@ void FrameEncoder::write_step(StepHead head, std::span<const std::byte> records,
     model_.apply(record);
     keep_record(record);
   });
+  model_.end_frame();
   head.record_count = kept_count_;
   head.hash = hash_of(head.report);
   leave_out_rows_of_last(head);

@@ -62,7 +62,7 @@ struct ReplaceRecord {
 /// Any record. The number of a kind in a recording is its place here, so kinds are added at the end.
 using Record = std::variant<AddRecord, RemoveObject, SetPose, RefusePose, PositionsRecord, BindRecord,
                             MemoryRecord, UnbindRecord, PositionsChanged, IgnorePair, SetRule, Reserve,
-                            Diagnostic, IgnoreGroups, ReplaceRecord, MarkTeleport>;
+                            Diagnostic, IgnoreGroups, ReplaceRecord, MarkTeleport, SettlePose>;
 
 /// `Type`, or a constant of it.
 template <typename Candidate, typename Type>
@@ -134,6 +134,10 @@ auto fields(T& r) {
   return std::tie(r.object, r.mesh, r.new_of_old, r.face_groups);
 }
 template <Is<MarkTeleport> T>
+auto fields(T& r) {
+  return std::tie(r.object);
+}
+template <Is<SettlePose> T>
 auto fields(T& r) {
   return std::tie(r.object);
 }

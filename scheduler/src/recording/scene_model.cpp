@@ -85,6 +85,7 @@ void SceneModel::take(const AddRecord& record) {
   object.mesh = record.mesh;
   object.settings = record.settings;
   by_serial_[object.serial] = record.object;
+  of_frame_.push_back(record.object);
 }
 
 void SceneModel::take(const ReplaceRecord& record) {
@@ -95,6 +96,8 @@ void SceneModel::take(const ReplaceRecord& record) {
   object->positions.clear();
   object->binding.reset();
   if (object->settings.motion == Motion::deformable) object->frozen_by.reset();
+  object->was_seen = false;
+  of_frame_.push_back(record.object);
 }
 
 void SceneModel::take(const RemoveObject& record) {
@@ -113,12 +116,37 @@ void SceneModel::take(const RemoveObject& record) {
 void SceneModel::take(const SetPose& record) {
   ModelObject* const object = find(record.object);
   if (object == nullptr) return;
+  if (!std::exchange(object->is_posed, true)) {
+    object->last_pose = object->pose;
+    of_frame_.push_back(record.object);
+  }
   object->pose = record.rows;
   object->frozen_by.reset();
 }
 
+/// A pose of the same frame is not accepted either.
 void SceneModel::take(const RefusePose& record) {
-  if (ModelObject* const object = find(record.problem.object)) object->frozen_by = record;
+  ModelObject* const object = find(record.problem.object);
+  if (object == nullptr) return;
+  if (object->is_posed) object->pose = object->last_pose;
+  object->frozen_by = record;
+}
+
+void SceneModel::take(const SettlePose& record) {
+  ModelObject* const object = find(record.object);
+  if (object == nullptr) return;
+  object->is_posed = false;
+  object->was_seen = true;
+}
+
+void SceneModel::end_frame() {
+  for (const ObjectId id : of_frame_) {
+    ModelObject* const object = find(id);
+    if (object == nullptr) continue;
+    object->is_posed = false;
+    object->was_seen = object->was_seen || !object->frozen_by;
+  }
+  of_frame_.clear();
 }
 
 void SceneModel::take(const PositionsRecord& record) {

@@ -42,7 +42,10 @@ struct ModelObject {
   std::uint32_t mesh = 0;
   ObjectSettings settings;
   std::optional<std::array<double, 12>> pose;
-  KeptPositions positions;  ///< empty where it stands at rest
+  std::optional<std::array<double, 12>> last_pose;  ///< before this frame, if `is_posed`
+  bool is_posed = false;                            ///< by this frame
+  bool was_seen = false;                            ///< it was not frozen when a frame ended
+  KeptPositions positions;                          ///< empty where it stands at rest
   std::optional<BindRecord> binding;
   /// The call that froze it, where it has no binding whose bad memory does so.
   std::optional<std::variant<RefusePose, UnbindRecord>> frozen_by;
@@ -56,6 +59,8 @@ class SceneModel {
 
   /// Takes up one record. Records about an object that is not there change nothing.
   void apply(const Record& record);
+  /// Ends the records of a frame.
+  void end_frame();
   /// Whether memory that an object is bound to is known to hold these positions.
   [[nodiscard]] bool holds(const MemoryRecord& record) const;
 
@@ -85,6 +90,7 @@ class SceneModel {
   static void rebuild_object(ObjectId id, const ModelObject& object, const Visit& visit) {
     visit(Record(AddRecord{id, object.serial, object.mesh, object.settings}));
     if (object.pose) visit(Record(SetPose{id, *object.pose}));
+    if (object.was_seen && object.settings.motion != Motion::deformable) visit(Record(SettlePose{id}));
     if (object.binding) visit(Record(*object.binding));
     if (!object.positions.is_empty()) {
       if (object.binding)
@@ -103,6 +109,7 @@ class SceneModel {
   void take(const RemoveObject& record);
   void take(const SetPose& record);
   void take(const RefusePose& record);
+  void take(const SettlePose& record);
   void take(const PositionsRecord& record);
   void take(const BindRecord& record);
   void take(const MemoryRecord& record);
@@ -117,6 +124,7 @@ class SceneModel {
 
   std::map<ObjectId, ModelObject> objects_;
   std::map<std::uint64_t, ObjectId> by_serial_;
+  std::vector<ObjectId> of_frame_;  ///< objects that this frame has added or posed, or given another mesh
   std::map<std::pair<std::uint32_t, std::uint32_t>, PairRule> rules_;  ///< by kinds, the lower first
   std::set<std::pair<ObjectId, ObjectId>> ignored_;
   std::set<std::pair<GroupOf, GroupOf>> ignored_groups_;

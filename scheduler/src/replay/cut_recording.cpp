@@ -43,6 +43,7 @@ class RecordingCut {
           model_.apply(record);
           keep(record);
         });
+    model_.end_frame();
     reader_.check_passed(index, payload_);
     if (index < part_.first_frame) return;
     head.is_fresh = head.is_fresh || is_first;

@@ -55,6 +55,7 @@ class RecordCheck {
   static void take(const MarkTeleport&) {}
   void take(const SetPose& record);
   void take(const RefusePose& record);
+  void take(const SettlePose& record) { (void)find_posed(record.object, "a place"); }
   void take(const PositionsRecord& record);
   void take(const BindRecord& record);
   void take(const MemoryRecord& record);

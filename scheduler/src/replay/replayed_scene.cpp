@@ -125,6 +125,10 @@ void ReplayedScene::take(const RefusePose& record) {
   staging_.repeat(RefusePose{{id_of(record.problem.object), record.problem.kind, record.problem.message}});
 }
 
+void ReplayedScene::take(const SettlePose& record) {
+  if (const Object* const object = find(record.object)) staging_.repeat(SettlePose{object->object.id});
+}
+
 void ReplayedScene::take(const PositionsRecord& record) {
   Object* const object = find(record.object);
   if (object == nullptr) return;

@@ -58,6 +58,7 @@ class ReplayedScene {
   void take(const RemoveObject& record);
   void take(const SetPose& record);
   void take(const RefusePose& record);
+  void take(const SettlePose& record);
   void take(const PositionsRecord& record);
   void take(const BindRecord& record);
   void take(const MemoryRecord& record);

@@ -34,7 +34,7 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       sweeps_(settings, tasks_),
       jobs_(settings, tasks_),
       rows_(tasks_, store_, pairs_, jobs_, sweeps_, last_contacts_),
-      reserve_(settings, content, reports, pairs_, refit_, jobs_, rows_),
+      reserve_(settings, content, reports, pairs_, refit_, sweeps_, jobs_, rows_),
       geometry_(tasks_, store_) {}
 
 void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* capture) {

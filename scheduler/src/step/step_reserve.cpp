@@ -16,14 +16,15 @@ PairMemoryRoom room_for(const SceneCapacity& capacity, ContactDetail detail) {
 }
 
 bool is_nothing(const SceneCapacity& capacity) {
-  return capacity.objects == 0 && capacity.near_pairs == 0 && capacity.contacts == 0 && capacity.reports == 0;
+  return capacity.objects == 0 && capacity.near_pairs == 0 && capacity.contacts == 0 &&
+         capacity.reports == 0 && capacity.impacts == 0;
 }
 
 /// The larger of each two numbers.
 SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
-  return {std::max(left.objects, right.objects), std::max(left.calls_per_step, right.calls_per_step),
+  return {std::max(left.objects, right.objects),       std::max(left.calls_per_step, right.calls_per_step),
           std::max(left.near_pairs, right.near_pairs), std::max(left.contacts, right.contacts),
-          std::max(left.reports, right.reports)};
+          std::max(left.reports, right.reports),       std::max(left.impacts, right.impacts)};
 }
 
 }  // namespace
@@ -31,15 +32,26 @@ SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
 void StepReserve::reserve(const SceneCapacity& capacity) {
   if (is_nothing(capacity)) return;
   content_.store.reserve(capacity.objects);
-  reports_.reserve(capacity.reports, {capacity.near_pairs, capacity.contacts,
-                                      capacity.near_pairs > 0 ? settings_.region_distances : 0});
+  reports_.reserve(capacity.reports,
+                   {capacity.near_pairs, capacity.contacts,
+                    capacity.near_pairs > 0 ? settings_.region_distances : 0, capacity.impacts});
   if (capacity.near_pairs > 0) reserve_for_pairs(capacity);
   content_.reserved = both(content_.reserved, capacity);
+}
+
+/// The store gives room to objects that come later.
+void StepReserve::reserve_for_sweeps(const SceneCapacity& capacity) {
+  ObjectStore& store = content_.store;
+  const std::size_t objects = std::max(capacity.objects, store.objects().size());
+  store.reserve_sweeps();
+  pairs_.reserve_for_sweeps(objects);
+  sweeps_.reserve(objects, capacity.near_pairs, capacity.impacts);
 }
 
 void StepReserve::reserve_for_pairs(const SceneCapacity& capacity) {
   ObjectStore& store = content_.store;
   is_for_pairs_ = true;
+  if (capacity.impacts > 0) reserve_for_sweeps(capacity);
   pairs_.reserve(std::max(capacity.objects, store.objects().size()), capacity.near_pairs,
                  room_for(capacity, settings_.detail));
   refit_.reserve(capacity.near_pairs);
@@ -58,6 +70,7 @@ void StepReserve::prepare_surface(Surface& surface, const ObjectSettings& settin
   if (settings.motion != Motion::deformable) surface.reserve_positions(true);
   refit_.prepare(surface);
   jobs_.reserve_for(surface.mesh(), settings.solid);
+  sweeps_.reserve_for(surface.mesh());
   if (settings.solid && !is_about_vertices(settings_.detail)) pairs_.reserve_for_solids();
 }
 

@@ -3,6 +3,7 @@
 #include <graze/settings.hpp>
 
 #include "jobs/pair_jobs.hpp"
+#include "jobs/pair_sweeps.hpp"
 #include "jobs/region_refit.hpp"
 #include "pairs/pair_table.hpp"
 #include "report/report_pool.hpp"
@@ -15,12 +16,13 @@ namespace graze {
 class StepReserve {
  public:
   StepReserve(const SceneSettings& settings, SceneContent& content, ReportPool& reports, PairTable& pairs,
-              RegionRefit& refit, PairJobs& jobs, RowWriter& rows)
+              RegionRefit& refit, PairSweeps& sweeps, PairJobs& jobs, RowWriter& rows)
       : settings_(settings),
         content_(content),
         reports_(reports),
         pairs_(pairs),
         refit_(refit),
+        sweeps_(sweeps),
         jobs_(jobs),
         rows_(rows) {}
 
@@ -36,6 +38,7 @@ class StepReserve {
   void prepare_copy(Object& object);
 
  private:
+  void reserve_for_sweeps(const SceneCapacity& capacity);
   void reserve_for_pairs(const SceneCapacity& capacity);
 
   const SceneSettings& settings_;
@@ -43,6 +46,7 @@ class StepReserve {
   ReportPool& reports_;
   PairTable& pairs_;
   RegionRefit& refit_;
+  PairSweeps& sweeps_;
   PairJobs& jobs_;
   RowWriter& rows_;
   bool is_for_pairs_ = false;

@@ -210,6 +210,7 @@ class RecordMaker {
     record.object = object_of(true).id;
     record.max_displacement = promise();
   }
+  void fill(SettlePose& record) { record.object = object_of(false).id; }
   void fill(MarkTeleport& record) { record.object = object().id; }
   void fill(IgnorePair& record) {
     record.a = object().id;

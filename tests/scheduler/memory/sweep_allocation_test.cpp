@@ -5,6 +5,7 @@
 #include <cmath>
 #include <graze/graze.hpp>
 #include <iostream>
+#include <memory>
 #include <vector>
 
 #include "scheduler/memory/allocation_count.hpp"
@@ -78,6 +79,47 @@ class FlyingAndFolding {
   std::array<Positions, period> folds_;
 };
 
+/// Balls that fly towards a wall for a while, some of them added on the way, and then pass through it.
+class Volley {
+ public:
+  static constexpr std::size_t frames_aloft = 8;
+  static constexpr std::size_t all_frames = 30;
+  static constexpr std::size_t ball_count = 12;
+
+  explicit Volley(const SceneSettings& settings) : scene_(settings) {
+    scene_.add(mesh_of(models::sheet(8, 8, 16, 16)), {.motion = Motion::fixed});
+    for (std::size_t ball = 0; ball < ball_count / 2; ++ball) add();
+  }
+  Scene& scene() { return scene_; }
+
+  ReportHandle step(std::size_t frame) {
+    if (frame == frames_aloft / 2)
+      while (balls_.size() < ball_count) add();
+    for (std::size_t ball = 0; ball < balls_.size(); ++ball) {
+      const Positions& positions = flights_[ball][frame];
+      scene_.set_positions(balls_[ball], positions);
+    }
+    return scene_.step();
+  }
+
+ private:
+  void add() {
+    const double own = static_cast<double>(balls_.size());
+    balls_.push_back(scene_.add(ball_, {.swept = true}));
+    for (std::size_t frame = 0; frame < all_frames; ++frame) {
+      const double height = 0.7 + 1.9 * (static_cast<double>(frames_aloft) - static_cast<double>(frame));
+      const Eigen::Vector3d place(3 * std::fmod(own, 4) - 4.5, 3 * std::floor(own / 4) - 3,
+                                  height - 0.1 * own);
+      flights_[balls_.size() - 1][frame] = moved(ball_->rest(), place);
+    }
+  }
+
+  Scene scene_;
+  std::shared_ptr<const Mesh> ball_ = mesh_of(models::sphere(8, 6));
+  std::vector<ObjectId> balls_;
+  std::array<std::array<Positions, all_frames>, ball_count> flights_;
+};
+
 }  // namespace
 
 TEST_CASE("no allocation: swept bodies that pass each other, and a sheet that passes itself") {
@@ -115,6 +157,46 @@ TEST_CASE("no allocation: swept bodies that pass each other, and a sheet that pa
   CHECK(AllocationCount::by_exceptions() == 0);
   CHECK(impacts > 50);
   CHECK(of_sheet > 5);
+}
+
+TEST_CASE("first impacts take no memory where room was reserved") {
+  if (!AllocationCount::is_possible()) {
+    std::cout << "skipped: the allocator cannot be replaced here\n";
+    return;
+  }
+  const auto threads = GENERATE(1U, 2U);
+  const bool is_reserved = GENERATE(true, false);
+  CAPTURE(threads, is_reserved);
+  SceneSettings settings = settings_of(0.05, 0.3, ContactDetail::none);
+  settings.threads = threads;
+  settings.swept_gap = 0.1;
+  Volley volley(settings);
+  if (is_reserved)
+    volley.scene().reserve({.objects = Volley::ball_count + 1,
+                            .calls_per_step = 2 * Volley::ball_count,
+                            .near_pairs = 100,
+                            .contacts = 100,
+                            .reports = 4,
+                            .impacts = 5'000});
+  for (std::size_t frame = 0; frame < Volley::frames_aloft; ++frame)
+    CHECK(volley.step(frame)->impacts().empty());
+  std::array<ReportHandle, 4> held;
+  std::size_t impacts = 0;
+  AllocationCount::begin();
+  for (std::size_t frame = Volley::frames_aloft; frame < Volley::all_frames; ++frame) {
+    ReportHandle& report = held[frame % held.size()];
+    report = volley.step(frame);
+    impacts += report->impacts().size();
+  }
+  AllocationCount::end();
+  CHECK(impacts > 50);
+  INFO(AllocationCount::first_of_others());
+  if (is_reserved) {
+    CHECK(AllocationCount::by_tbb() == 0);
+    CHECK(AllocationCount::by_others() == 0);
+  } else {
+    CHECK(AllocationCount::by_others() > 5);
+  }
 }
 
 }  // namespace graze::tests

@@ -5,6 +5,7 @@
 #include <graze/graze.hpp>
 #include <graze/recorder.hpp>
 #include <graze/recording.hpp>
+#include <optional>
 #include <vector>
 
 #include "scheduler/scene_support.hpp"
@@ -62,6 +63,41 @@ std::vector<std::vector<Impact>> record_flight(const std::filesystem::path& file
   return impacts;
 }
 
+/// Swept balls fly through a plate. Now and then their poses are refused, also the first one of a ball, and
+/// after a good one in the same step. Returns the impacts of each frame.
+std::vector<std::vector<Impact>> record_refused_poses(const std::filesystem::path& file,
+                                                      std::size_t frames_before) {
+  SceneSettings settings = settings_of(0.05, 0.2);
+  settings.threads = 1;
+  Scene scene(settings);
+  scene.add(plate_mesh());
+  const auto mesh = mesh_of(models::sphere(8, 6));
+  std::vector<ObjectId> balls;
+  for (int ball = 0; ball < 3; ++ball)
+    balls.push_back(scene.add(mesh, {.motion = Motion::rigid, .swept = true}));
+  oracle::Random random(11);
+  std::vector<std::vector<Impact>> impacts;
+  std::optional<Recorder> recorder;
+  for (std::size_t frame = 0; frame < 40 + frames_before; ++frame) {
+    if (frame == frames_before)
+      recorder.emplace(scene, file, RecorderSettings{.keyframe_interval = 8, .waiting_frames = 1000});
+    if (frame == frames_before + 20)
+      balls.push_back(scene.add(mesh, {.motion = Motion::rigid, .swept = true}));
+    for (std::size_t ball = 0; ball < balls.size(); ++ball) {
+      Eigen::Isometry3d pose(Eigen::Translation3d(random.vector(-2, 2)));
+      const bool is_refused = ball == 3 ? frame < frames_before + 22 : random.chance(0.4);
+      if (!is_refused || random.chance(0.3)) scene.set_pose(balls[ball], pose);
+      pose.linear() *= 2;
+      if (is_refused) scene.set_pose(balls[ball], pose);
+    }
+    const ReportHandle report = scene.step();
+    if (recorder) impacts.emplace_back(report->impacts().begin(), report->impacts().end());
+  }
+  recorder->close();
+  CHECK(recorder->statistics().dropped == 0);
+  return impacts;
+}
+
 /// Replays from a frame on. No row may differ. Returns the impacts of each frame.
 std::vector<std::vector<Impact>> replayed_impacts(const std::filesystem::path& file,
                                                   const ReplaySettings& settings) {
@@ -96,6 +132,24 @@ TEST_CASE("recording: impacts of teleports, replaced meshes and one surface with
   const auto part = replayed_impacts(folder / "part.graze", {});
   REQUIRE(part.size() == 21);
   CHECK(std::equal(part.begin() + 1, part.end(), impacts.begin() + 11));
+}
+
+TEST_CASE("recording: balls whose poses were refused are swept from where they stood, wherever it begins") {
+  for (const std::size_t frames_before : {0U, 9U, 10U, 11U}) {
+    const TemporaryFolder folder;
+    const auto impacts = record_refused_poses(folder / "run.graze", frames_before);
+    const Recording recording(folder / "run.graze");
+    for (std::size_t first = 0; first + 1 < impacts.size(); ++first) {
+      INFO("recorded after " << frames_before << " frames, begun at " << first);
+      cut_recording(recording, {.first_frame = first}, folder / "part.graze");
+      for (const auto& replayed : {replayed_impacts(folder / "run.graze", {.first_frame = first}),
+                                   replayed_impacts(folder / "part.graze", {})}) {
+        REQUIRE(replayed.size() == impacts.size() - first);
+        CHECK(std::equal(replayed.begin() + 1, replayed.end(),
+                         impacts.begin() + static_cast<std::ptrdiff_t>(first) + 1));
+      }
+    }
+  }
 }
 
 }  // namespace graze::tests

@@ -154,7 +154,7 @@ def rule_to_c(given: settings.PairRule) -> _structs.PairRule:
 
 def capacity_to_c(given: settings.SceneCapacity) -> _structs.SceneCapacity:
     made: _structs.SceneCapacity = initial(_structs.SceneCapacity, lib.scene_capacity_init)
-    for name in ("objects", "calls_per_step", "near_pairs", "contacts", "reports"):
+    for name in ("objects", "calls_per_step", "near_pairs", "contacts", "reports", "impacts"):
         setattr(made, name, unsigned(getattr(given, name), 64, name))
     return made
 

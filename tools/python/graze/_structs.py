@@ -61,7 +61,7 @@ class PairRule(ctypes.Structure):
 
 class SceneCapacity(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("objects", c_size_t), ("calls_per_step", c_size_t),
-                ("near_pairs", c_size_t), ("contacts", c_size_t), ("reports", c_size_t)]
+                ("near_pairs", c_size_t), ("contacts", c_size_t), ("reports", c_size_t), ("impacts", c_size_t)]
 
 
 class QuerySettings(ctypes.Structure):

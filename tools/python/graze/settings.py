@@ -100,6 +100,7 @@ class SceneCapacity:
     near_pairs: int = 0
     contacts: int = 0
     reports: int = 0
+    impacts: int = 0
 
 
 @dataclass

@@ -16,6 +16,8 @@
 
 namespace graze {
 
+struct PairRoom;
+
 /// The question about two surfaces, or one and itself, on their way through a step.
 struct SweepQuery {
   SweepPrecision precision;
@@ -77,6 +79,8 @@ class GRAZE_API PairSweep {
   void sweep(const MovingSurface& a, const MovingSurface& b, const SweepQuery& query, SweepAnswer& answer,
              SweepWork& work);
 
+  /// Makes room for pairs of surfaces of the sizes that `room` says.
+  void reserve(const PairRoom& room);
   /// Makes as much room as `other` has needed.
   void reserve_as(const PairSweep& other);
   /// Bytes of working memory held.

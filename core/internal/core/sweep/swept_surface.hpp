@@ -29,6 +29,8 @@ struct MovingSurface {
 /// the way between. One thread changes it at a time. While none does, any number may read.
 class GRAZE_API SurfaceMotion {
  public:
+  /// Makes room for all that is kept of a surface of that mesh.
+  void reserve(const IndexedMesh& mesh);
   /// Makes room for the positions that a surface has now.
   void make_room(const Surface& now) { start_.resize(now.mesh().vertex_count()); }
   /// Keeps the positions from vertex `begin` to `end`. Several threads may keep ranges that do not overlap.

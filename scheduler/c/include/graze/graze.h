@@ -453,6 +453,7 @@ typedef struct {
   size_t near_pairs;
   size_t contacts;
   size_t reports;
+  size_t impacts;
 } graze_scene_capacity;
 
 GRAZE_C_API graze_status graze_scene_settings_init(graze_scene_settings* settings, size_t struct_size);
