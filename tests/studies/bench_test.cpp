@@ -42,6 +42,21 @@ bool is_limit(const nlohmann::json& row) {
   return row.at("name") == "read" || row.at("name") == "box";
 }
 
+/// The cells of each line but the first, which is `head`. No cell has a comma.
+std::vector<std::vector<std::string>> rows_of(const std::string& csv, const std::string& head) {
+  std::istringstream lines(read_file(csv));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == head);
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
 }  // namespace
 
 TEST_CASE("bench: every contender answers right, and all have times") {
@@ -142,6 +157,50 @@ TEST_CASE("bench: graze takes part with each instruction set asked for") {
   REQUIRE(run.at("contenders").size() == 4);
   for (const char* const name : {"graze", "graze, scalar"}) check_times(contender(run, name));
   CHECK(contender(run, "graze, scalar").at("found") == contender(run, "graze").at("found"));
+}
+
+TEST_CASE("bench: rays of graze hit, and so do Embree's where that was built in") {
+  const TemporaryFolder folder;
+  const std::string csv = (folder / "rays.csv").string();
+  const ProgramResult result = run_studies(
+      {"bench", "--rays", "--scenes", "S1,S2", "--threads", "1,2", "--frames", "2", "--csv", csv});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const auto rows = rows_of(csv, "scene,threads,library,update_ms,ray_ns,hit,missed,mistaken,worst");
+  const std::size_t libraries = rows.size() / 4;
+  CHECK((libraries == 1 || libraries == 3));
+  REQUIRE(rows.size() == 4 * libraries);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<std::string>& row = rows[i];
+    CAPTURE(row);
+    CHECK((row[2] == "graze") == (i % libraries == 0));
+    const double hit = std::stod(row[5]);
+    const double missed = std::stod(row[6]);
+    const double mistaken = std::stod(row[7]);
+    CHECK(std::stod(row[4]) > 0);
+    CHECK(hit > 5'000);  // of 20,000
+    CHECK(missed + mistaken <= (row[2] == "graze" ? 0 : hit / 100));
+    CHECK(std::stod(row[8]) < 1e-3);
+    CHECK(row[5] == rows[i % (2 * libraries) < libraries ? i + libraries : i - libraries][5]);
+  }
+}
+
+TEST_CASE("bench: a cloth that folds is near itself, by graze and where that was built in by Bullet") {
+  const TemporaryFolder folder;
+  const std::string csv = (folder / "self.csv").string();
+  const ProgramResult result = run_studies({"bench", "--self", "--frames", "110", "--csv", csv});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const auto rows = rows_of(csv, "contacts_from,find_ms,slowest_ms,contacts,vertices,most_contacts");
+  REQUIRE((rows.size() == 2 || rows.size() == 3));
+  for (const std::vector<std::string>& row : rows) {
+    CAPTURE(row);
+    CHECK(std::stod(row[1]) > 0);
+    CHECK(std::stod(row[1]) <= std::stod(row[2]));
+    CHECK(std::stod(row[5]) > 50);
+    CHECK(std::stod(row[3]) <= std::stod(row[5]));
+    CHECK(std::stod(row[4]) <= 1'600);
+  }
 }
 
 TEST_CASE("bench: soft bodies move under contacts of graze, and of Bullet where that was built in") {

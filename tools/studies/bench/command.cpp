@@ -12,9 +12,11 @@
 
 #include "bench/aims.hpp"
 #include "bench/growth_figures.hpp"
+#include "bench/rays/ray_study.hpp"
 #include "bench/rigid_bodies/rigid_body_study.hpp"
 #include "bench/run.hpp"
 #include "bench/scenes/slow_motion.hpp"
+#include "bench/self/self_study.hpp"
 #include "bench/soft_bodies/soft_body_study.hpp"
 #include "bench/surface_details.hpp"
 #include "bench/tables.hpp"
@@ -38,6 +40,8 @@ struct BenchOptions {
   bool is_recorded = false;
   bool aims = false;
   bool details = false;
+  bool rays = false;
+  bool self = false;
   bool soft_bodies = false;
   bool rigid_bodies = false;
   bool is_quick = false;
@@ -112,23 +116,41 @@ void for_each_scene(const BenchOptions& options, const Use& use) {
   }
 }
 
+void show(const ResultTable& table, const BenchOptions& options) {
+  print(markdown_of(table));
+  if (options.csv) write_text_file(*options.csv, csv_of(table));
+}
+
 void compare_details(const BenchOptions& options) {
   std::vector<bench::BenchScene> scenes;
   for_each_scene(options, [&](const bench::BenchScene& scene) { scenes.push_back(scene); });
-  const ResultTable table = bench::compare_surface_details(scenes, options.frames);
-  print(markdown_of(table));
-  if (options.csv) write_text_file(*options.csv, csv_of(table));
+  show(bench::compare_surface_details(scenes, options.frames), options);
+}
+
+/// The number of frames of scenes that a solver plays.
+std::size_t frames_or_usual(const BenchOptions& options) {
+  constexpr std::size_t usual_frames = 300;
+  return options.frames == 0 ? usual_frames : options.frames;
+}
+
+void compare_self_contacts(const BenchOptions& options) {
+  show(bench::compare_self_contacts(bench::PeerModule(), frames_or_usual(options)), options);
+}
+
+void compare_rays(const BenchOptions& options) {
+  const bench::PeerModule module;
+  bench::RayStudy study;
+  for_each_scene(options, [&](const bench::BenchScene& scene) {
+    for (const unsigned threads : options.threads) study.add(module, scene, options.frames, threads);
+  });
+  show(study.table(), options);
 }
 
 void compare_soft_bodies(const BenchOptions& options) {
   const bench::PeerModule module;
   if (!module.has_soft_contact_finder())
     print("No rows of Bullet: its soft bodies were not there when this program was built.\n\n");
-  constexpr std::size_t usual_frames = 300;
-  const ResultTable table =
-      bench::compare_soft_bodies(module, options.frames == 0 ? usual_frames : options.frames);
-  print(markdown_of(table));
-  if (options.csv) write_text_file(*options.csv, csv_of(table));
+  show(bench::compare_soft_bodies(module, frames_or_usual(options)), options);
 }
 
 void compare_rigid_bodies(const BenchOptions& options) {
@@ -138,9 +160,7 @@ void compare_rigid_bodies(const BenchOptions& options) {
   };
   if (std::ranges::none_of(module.rigid_contact_finders(), has_name_of_bullet))
     print("No rows of Bullet: it was not there when this program was built.\n\n");
-  const ResultTable table = bench::compare_rigid_bodies(module, options.is_quick);
-  print(markdown_of(table));
-  if (options.csv) write_text_file(*options.csv, csv_of(table));
+  show(bench::compare_rigid_bodies(module, options.is_quick), options);
 }
 
 std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
@@ -188,6 +208,8 @@ void run(const BenchOptions& options) {
   check_scenes(options.scenes);
   check_outputs(options);
   if (options.details) return compare_details(options);
+  if (options.rays) return compare_rays(options);
+  if (options.self) return compare_self_contacts(options);
   if (options.soft_bodies) return compare_soft_bodies(options);
   if (options.rigid_bodies) return compare_rigid_bodies(options);
   const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);
@@ -234,6 +256,9 @@ void add_bench_command(CLI::App& app) {
                     "End with a table of graze's own aims beside what was measured (docs/performance.md)");
   command->add_flag("--details", options->details,
                     "Instead compare the details features and nearest, with and without solids");
+  command->add_flag("--rays", options->rays, "Instead cast rays at the scenes with graze and with Embree");
+  command->add_flag("--self", options->self,
+                    "Instead compare graze and Bullet on a cloth that folds into a heap, near itself");
   command->add_flag(
       "--soft-bodies", options->soft_bodies,
       "Instead compare graze and Bullet as the source of contacts of one solver of soft bodies");

@@ -23,12 +23,28 @@ PeerModule::PeerModule() {
   list_rigid(rigid_contact_finders_);
   make_soft_contact_finder_ =
       reinterpret_cast<MakeSoftContactFinder>(dlsym(module, "graze_bench_soft_contacts"));
+  make_ray_caster_ = reinterpret_cast<MakeRayCaster>(dlsym(module, "graze_bench_rays"));
+  make_self_contact_finder_ =
+      reinterpret_cast<MakeSelfContactFinder>(dlsym(module, "graze_bench_self_contacts"));
 }
 
 std::unique_ptr<SoftContactFinder> PeerModule::soft_contact_finder(
     std::span<const SoftBodyView> bodies, const SoftContactSettings& settings) const {
   std::unique_ptr<SoftContactFinder> finder;
   if (make_soft_contact_finder_ != nullptr) make_soft_contact_finder_(bodies, settings, finder);
+  return finder;
+}
+
+std::unique_ptr<RayCaster> PeerModule::ray_caster(const World& world, RayTree tree, unsigned threads) const {
+  std::unique_ptr<RayCaster> caster;
+  if (make_ray_caster_ != nullptr) make_ray_caster_(world, tree, threads, caster);
+  return caster;
+}
+
+std::unique_ptr<SelfContactFinder> PeerModule::self_contact_finder(const SelfSurface& surface,
+                                                                   double distance) const {
+  std::unique_ptr<SelfContactFinder> finder;
+  if (make_self_contact_finder_ != nullptr) make_self_contact_finder_(surface, distance, finder);
   return finder;
 }
 

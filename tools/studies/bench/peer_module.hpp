@@ -6,7 +6,9 @@
 #include <string_view>
 
 #include "bench/contender.hpp"
+#include "bench/rays/ray_caster.hpp"
 #include "bench/rigid_bodies/rigid_contacts.hpp"
+#include "bench/self/self_contacts.hpp"
 #include "bench/soft_bodies/soft_contacts.hpp"
 
 namespace graze::bench {
@@ -25,6 +27,12 @@ class PeerModule {
   /// Returns null where it was not.
   [[nodiscard]] std::unique_ptr<SoftContactFinder> soft_contact_finder(
       std::span<const SoftBodyView> bodies, const SoftContactSettings& settings) const;
+  /// Returns null where the module was built without a library that casts rays.
+  [[nodiscard]] std::unique_ptr<RayCaster> ray_caster(const World& world, RayTree tree,
+                                                      unsigned threads) const;
+  /// Returns null where the module was built without a library that finds contacts of a surface with itself.
+  [[nodiscard]] std::unique_ptr<SelfContactFinder> self_contact_finder(const SelfSurface& surface,
+                                                                       double distance) const;
   /// All ways to find contacts of rigid bodies.
   [[nodiscard]] std::span<const RigidContactEntry> rigid_contact_finders() const {
     return rigid_contact_finders_;
@@ -36,6 +44,8 @@ class PeerModule {
   PeerList entries_;
   std::string_view compiled_for_;
   MakeSoftContactFinder make_soft_contact_finder_ = nullptr;
+  MakeRayCaster make_ray_caster_ = nullptr;
+  MakeSelfContactFinder make_self_contact_finder_ = nullptr;
   std::span<const RigidContactEntry> rigid_contact_finders_;
 };
 

@@ -15,6 +15,7 @@ endfunction()
 find_package(embree 3 QUIET CONFIG)
 if(embree_FOUND)
   graze_add_peer(EMBREE libraries/embree.cpp LIBRARIES embree)
+  graze_add_peer(EMBREE_RAYS libraries/embree_rays.cpp LIBRARIES embree)
 endif()
 
 find_path(GRAZE_BULLET_INCLUDE BulletCollision/Gimpact/btGImpactBvh.h PATH_SUFFIXES bullet)
@@ -33,6 +34,8 @@ find_library(GRAZE_BULLET_DYNAMICS BulletDynamics)
 mark_as_advanced(GRAZE_BULLET_SOFT GRAZE_BULLET_DYNAMICS)
 if(GRAZE_BULLET_INCLUDE AND GRAZE_BULLET_SOFT AND GRAZE_BULLET_DYNAMICS AND GRAZE_BULLET_COLLISION AND GRAZE_BULLET_MATH)
   graze_add_peer(BULLET_SOFT libraries/bullet_soft_bodies.cpp INCLUDES ${GRAZE_BULLET_INCLUDE}
+    LIBRARIES ${GRAZE_BULLET_SOFT} ${GRAZE_BULLET_DYNAMICS} ${GRAZE_BULLET_COLLISION} ${GRAZE_BULLET_MATH})
+  graze_add_peer(BULLET_SELF libraries/bullet_self_contacts.cpp INCLUDES ${GRAZE_BULLET_INCLUDE}
     LIBRARIES ${GRAZE_BULLET_SOFT} ${GRAZE_BULLET_DYNAMICS} ${GRAZE_BULLET_COLLISION} ${GRAZE_BULLET_MATH})
 endif()
 
