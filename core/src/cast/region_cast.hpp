@@ -10,8 +10,8 @@
 namespace graze {
 
 /// Visits the leaves of a surface by `use(leaf)`, first those that a ray enters first. `limit()` is the t
-/// beyond which nothing is asked for any more. It may fall. Boxes count as grown by `margin`. The surface has
-/// been refitted for faces now.
+/// beyond which nothing is asked for any more. It may fall in `use`. Boxes count as grown by `margin`. The
+/// surface has been refitted for faces now.
 template <typename Limit, typename Use>
 void visit_leaves_along(const Ray& ray, const Surface& surface, double margin, const Limit& limit,
                         const Use& use) {
@@ -22,8 +22,9 @@ void visit_leaves_along(const Ray& ray, const Surface& surface, double margin, c
   const RayBoxTest test(ray);
   const RegionTree& tree = surface.mesh().regions();
   const auto boxes = surface.face_boxes();
+  double last = limit();
   const auto entry_of = [&](std::uint32_t region) {
-    return test.entry(margin == 0 ? boxes[region] : grown(boxes[region], margin), limit());
+    return test.entry(margin == 0 ? boxes[region] : grown(boxes[region], margin), last);
   };
   // At most the siblings of one region are open on each level.
   InplaceVector<Open, std::size_t{8} * (RegionTree::max_level + 1)> open;
@@ -31,9 +32,13 @@ void visit_leaves_along(const Ray& ray, const Surface& surface, double margin, c
   while (!open.empty()) {
     const Open next = open.back();
     open.pop_back();
-    if (next.entry > limit()) continue;
+    if (next.entry > last) continue;
     const Region& region = tree.region(next.region);
-    if (region.is_leaf()) use(region);
+    if (region.is_leaf()) {
+      use(region);
+      last = limit();
+      continue;
+    }
     const std::size_t first = open.size();
     for (std::uint32_t child = region.first_child; child < region.first_child + region.child_count; ++child) {
       const double entry = entry_of(child);

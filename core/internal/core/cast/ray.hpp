@@ -28,11 +28,11 @@ class RayBoxTest {
   explicit RayBoxTest(const Ray& ray) : origin_(ray.origin) {
     const Eigen::Vector3d direction = ray.direction();
     for (int axis = 0; axis < 3; ++axis) {
-      Axis& of_axis = axes_[static_cast<std::size_t>(axis)];
       const double size = std::abs(direction[axis]);
-      of_axis.is_parallel = size == 0;
-      of_axis.is_unsure = size < 0x1p-1000;
-      of_axis.inverse = of_axis.is_unsure ? 0 : 1 / direction[axis];
+      const bool is_unsure = size < 0x1p-1000;
+      is_parallel_[static_cast<std::size_t>(axis)] = size == 0;
+      some_unsure_ = some_unsure_ || is_unsure;
+      inverse_[axis] = is_unsure ? 0 : 1 / direction[axis];
     }
   }
 
@@ -42,36 +42,44 @@ class RayBoxTest {
   /// A lower bound of the first t up to `limit` at which the ray is in the box, or `miss` if it certainly
   /// never is.
   [[nodiscard]] double entry(const Box& box, double limit) const {
-    double first = 0;
-    double last = limit;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Axis& of_axis = axes_[static_cast<std::size_t>(axis)];
-      const double to_min = box.min[axis] - origin_[axis];
-      const double to_max = box.max[axis] - origin_[axis];
-      if (of_axis.is_unsure) {
-        if (of_axis.is_parallel && (to_min > 0 || to_max < 0)) return miss;
-        continue;
-      }
-      const bool ascends = of_axis.inverse > 0;
-      const double enters = (ascends ? to_min : to_max) * of_axis.inverse;
-      const double leaves = (ascends ? to_max : to_min) * of_axis.inverse;
-      // Four roundings at most, and what underflow loses.
-      first = std::max(first, enters * (1 - 0x1p-49) - 0x1p-1000);
-      last = std::min(last, leaves * (1 + 0x1p-49) + 0x1p-1000);
-    }
-    if (first <= last) return first;
-    return miss;
+    if (some_unsure_) return careful_entry(box, limit);
+    const Eigen::Vector3d to_min = (box.min - origin_).cwiseProduct(inverse_);
+    const Eigen::Vector3d to_max = (box.max - origin_).cwiseProduct(inverse_);
+    return entry_between(to_min.cwiseMin(to_max).maxCoeff(), to_min.cwiseMax(to_max).minCoeff(), limit);
   }
 
  private:
-  struct Axis {
-    double inverse = 0;
-    bool is_parallel = false;
-    bool is_unsure = false;  ///< the ray is parallel to the planes, or too nearly for a quotient
-  };
+  /// Where a ray is in a box between two times, which are rounded. They have four roundings at most, and what
+  /// underflow loses.
+  [[nodiscard]] static double entry_between(double enters, double leaves, double limit) {
+    const double first = std::max(0.0, enters * (1 - 0x1p-49) - 0x1p-1000);
+    const double last = std::min(limit, leaves * (1 + 0x1p-49) + 0x1p-1000);
+    if (first <= last) return first;
+    return miss;
+  }
+  /// `entry` of a ray that is parallel to some planes, or too nearly for a quotient.
+  [[nodiscard]] double careful_entry(const Box& box, double limit) const {
+    double enters = -std::numeric_limits<double>::infinity();
+    double leaves = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double to_min = box.min[axis] - origin_[axis];
+      const double to_max = box.max[axis] - origin_[axis];
+      if (inverse_[axis] == 0) {
+        if (is_parallel_[static_cast<std::size_t>(axis)] && (to_min > 0 || to_max < 0)) return miss;
+        continue;
+      }
+      const double at_min = to_min * inverse_[axis];
+      const double at_max = to_max * inverse_[axis];
+      enters = std::max(enters, std::min(at_min, at_max));
+      leaves = std::min(leaves, std::max(at_min, at_max));
+    }
+    return entry_between(enters, leaves, limit);
+  }
 
   Eigen::Vector3d origin_;
-  std::array<Axis, 3> axes_;
+  Eigen::Vector3d inverse_;  ///< of the direction, or 0 along an axis that `careful_entry` is for
+  std::array<bool, 3> is_parallel_{};
+  bool some_unsure_ = false;
 };
 
 }  // namespace graze
