@@ -49,6 +49,8 @@ without all distances. Light points are single steps, and a line is their runnin
 - *Reported, no collision* are reported pairs without vertices that near. DV's walk has led out of the two leaf regions.
 - *Different vertex pairs* are those where DV's walks end, each counted once. Many walks end at one pair.
 - *All distances* means that the setting asks how far every pair of objects is apart, however far.
+- *Regions expanded* and *leaf pairs tested* are 0 for the detail `vertices`, which compares blocks of vertices and no
+  regions.
 - *Pairs of objects compared* are all pairs of every step that is played. For the detail `features` they are one in ten, or
   all where `--frames` is given.
 
