@@ -150,8 +150,11 @@ RayTriangleTest::RayTriangleTest(const Ray& ray) : ray_(ray) {
 
 // A turn of the ray about a side is the determinant of the direction and of the ways to two corners. Ways are
 // sheared so that the direction keeps its main coordinate alone (Woop et al. 2013). Then the determinant is
-// that coordinate times one of two rows. With u = 2^-53 and coordinates of ways of at most F, slopes are off
-// by 3 u, sheared coordinates are at most 2 F and off by 8 u F, and determinants are off by 80 u F².
+// that coordinate times one of two rows.
+//
+// Let u be 2^-53, and F the largest coordinate of the ways. Slopes are off by 3 u. So sheared coordinates are
+// at most 2 F, and off by 8 u F. Each product of a determinant is then off by 36 u F², and the determinant by
+// 80 u F², which is less than 2^-46 F².
 void RayTriangleTest::begin(const Box& box) {
   const double furthest =
       std::max((box.min - ray_.origin).cwiseAbs().maxCoeff(), (box.max - ray_.origin).cwiseAbs().maxCoeff());

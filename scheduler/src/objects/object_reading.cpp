@@ -135,15 +135,6 @@ void finish_pose(Object& object) {
   note_read(object);
 }
 
-}  // namespace
-
-/// A pose that is beyond the limits stays, for the step to refuse.
-void settle_pose(Object& object) {
-  if (object.surface_to_write().set_pose(*object.pose).taken()) finish_pose(object);
-}
-
-namespace {
-
 ReadOutcome read_pose(Object& object) {
   if (is_survey(object.plan)) return survey_pose(object);
   const Surface::ReadResult result = object.surface_to_write().set_pose(pose_of(object));
@@ -283,6 +274,11 @@ void view_memory(Object& object) {
   object.standing_positions = std::move(object.positions);
   object.version = surface.version();
   if (!object.in_parts) surface.make_blocks();
+}
+
+/// A pose that is beyond the limits stays, for the step to refuse.
+void settle_pose(Object& object) {
+  if (object.surface_to_write().set_pose(*object.pose).taken()) finish_pose(object);
 }
 
 ReadOutcome read_whole(Object& object) {

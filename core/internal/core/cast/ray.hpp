@@ -49,8 +49,8 @@ class RayBoxTest {
   }
 
  private:
-  /// Where a ray is in a box between two times, which are rounded. They have four roundings at most, and what
-  /// underflow loses.
+  /// The entry of a ray that is between all planes of a box from time `enters` to `leaves`. Both times may be
+  /// off by four roundings, and by what underflow loses.
   [[nodiscard]] static double entry_between(double enters, double leaves, double limit) {
     const double first = std::max(0.0, enters * (1 - 0x1p-49) - 0x1p-1000);
     const double last = std::min(limit, leaves * (1 + 0x1p-49) + 0x1p-1000);
