@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -42,6 +43,17 @@ void reserve_as(Memory& memory, const Memory& other) {
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
   }
+}
+
+/// Does that for two lists that are swapped with each other. Both get the room of the largest of all, so that
+/// it does not matter how often they are swapped.
+template <typename Element>
+void reserve_swapped_as(std::vector<Element>& left, std::vector<Element>& right,
+                        const std::vector<Element>& other_left, const std::vector<Element>& other_right) {
+  const std::size_t most =
+      std::max({left.capacity(), right.capacity(), other_left.capacity(), other_right.capacity()});
+  left.reserve(most);
+  right.reserve(most);
 }
 
 /// Makes room for pairs of a given size, before the first is met.

@@ -27,14 +27,7 @@ struct DmvScratch {
   static auto parts(Self& self) {
     return std::tie(self.front, self.next);
   }
-  /// The two are swapped with each other, so both get the room of the largest of all. Else a walk could take
-  /// memory that no list of this size has needed yet.
-  void reserve_as(const DmvScratch& other) {
-    const std::size_t most =
-        std::max({front.capacity(), next.capacity(), other.front.capacity(), other.next.capacity()});
-    front.reserve(most);
-    next.reserve(most);
-  }
+  void reserve_as(const DmvScratch& other) { reserve_swapped_as(front, next, other.front, other.next); }
   void reserve(const PairRoom& room) {
     // Only some of the pairs of a level are near.
     constexpr std::size_t tested_for_one = 16;

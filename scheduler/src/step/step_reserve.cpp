@@ -1,6 +1,7 @@
 #include "step/step_reserve.hpp"
 
 #include <algorithm>
+#include <graze/settings_fields.hpp>
 
 namespace graze {
 namespace {
@@ -22,9 +23,10 @@ bool is_nothing(const SceneCapacity& capacity) {
 
 /// The larger of each two numbers.
 SceneCapacity both(const SceneCapacity& left, const SceneCapacity& right) {
-  return {std::max(left.objects, right.objects),       std::max(left.calls_per_step, right.calls_per_step),
-          std::max(left.near_pairs, right.near_pairs), std::max(left.contacts, right.contacts),
-          std::max(left.reports, right.reports),       std::max(left.impacts, right.impacts)};
+  SceneCapacity larger = left;
+  for_each_field<SceneCapacity>(
+      [&](const auto& field) { larger.*field.member = std::max(left.*field.member, right.*field.member); });
+  return larger;
 }
 
 }  // namespace

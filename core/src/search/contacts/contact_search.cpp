@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/working_memory.hpp"
 #include "pair/room_in_time.hpp"
 #include "search/contacts/key_collectors.hpp"
 #include "search/solids/solid_search.hpp"
@@ -243,10 +244,7 @@ void ContactSearch::reserve_as(const ContactSearch& other) {
   graze::reserve_as(first.piercing, other_first.piercing);
   graze::reserve_as(first.edges_if_sunk, other_first.edges_if_sunk);
   sunk_edges_.reserve_as(other.sunk_edges_);
-  // The two lists of keys are swapped with each other.
-  const std::size_t keys = std::max(other.ordered_.keys.capacity(), other_first.keys.capacity());
-  ordered_.keys.reserve(keys);
-  first.keys.reserve(keys);
+  reserve_swapped_as(ordered_.keys, first.keys, other.ordered_.keys, other_first.keys);
   ordered_.stretches.reserve(1);
   nearest_keys_.reserve_as(other.nearest_keys_);
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "base/working_memory.hpp"
 #include "core/base/growth_policy.hpp"
 #include "walk/validate_front.hpp"
 
@@ -107,12 +108,9 @@ void SearchSlices::keep_front(double wanted, SearchWorker& worker) {
   front.travel_b = pair_.b->travel();
 }
 
-/// Lists that are swapped with each other get the same room, so that it does not matter how often they are.
 void SearchSlices::reserve_as(const SearchSlices& other) {
   if (slices_.empty()) slices_.emplace_back();
-  const std::size_t leaves = std::max(other.found_.leaves.capacity(), other.first().found.leaves.capacity());
-  found_.leaves.reserve(leaves);
-  first().found.leaves.reserve(leaves);
+  reserve_swapped_as(found_.leaves, first().found.leaves, other.found_.leaves, other.first().found.leaves);
 }
 
 void SearchSlices::reserve(const PairRoom& room) {
