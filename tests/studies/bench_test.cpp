@@ -159,6 +159,39 @@ TEST_CASE("bench: graze takes part with each instruction set asked for") {
   CHECK(contender(run, "graze, scalar").at("found") == contender(run, "graze").at("found"));
 }
 
+TEST_CASE("bench: steps scale as a model and the machine's threads say") {
+  const TemporaryFolder folder;
+  const std::string csv = (folder / "scaling.csv").string();
+  const std::string json = (folder / "scaling.json").string();
+  const ProgramResult result =
+      run_studies({"bench", "--scaling", "--scenes", "S1,S4", "--tasks", "B,D", "--threads", "1,2",
+                   "--frames", "4", "--csv", csv, "--json", json});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const nlohmann::json figures = nlohmann::json::parse(read_file(json));
+  REQUIRE(figures.size() == 4);
+  for (const nlohmann::json& one : figures) {
+    CAPTURE(one.dump());
+    REQUIRE(one.at("model").size() == 6);
+    // More processors never make a step of the model slower, but for what it costs to wake them.
+    CHECK(one.at("model").back().at("wall_ms") < 1.2 * one.at("model").front().at("wall_ms").get<double>());
+    REQUIRE(one.at("stages").size() == 5);
+    double tasks = 0;
+    for (const nlohmann::json& stage : one.at("stages")) {
+      CHECK(stage.at("longest_ms") <= stage.at("tasks_ms").get<double>() * 1.5 + 0.1);
+      tasks += stage.at("tasks_ms").get<double>();
+    }
+    CHECK(tasks > 0);
+    REQUIRE(one.at("measured").size() == 2);
+    for (const nlohmann::json& measured : one.at("measured")) {
+      CHECK(measured.at("hash") == one.at("one").at("hash"));
+      for (const char* const name : {"wall_ms", "cpu_ms", "first_ms", "thread_mb"})
+        CHECK(measured.at(name) > 0);
+    }
+  }
+  CHECK(read_file(csv).starts_with("scene,task,one_ms,serial_ms,rounds,longest_ms,model_2,model_4,model_8,"));
+}
+
 TEST_CASE("bench: rays of graze hit, and so do Embree's where that was built in") {
   const TemporaryFolder folder;
   const std::string csv = (folder / "rays.csv").string();

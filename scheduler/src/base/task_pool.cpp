@@ -19,15 +19,34 @@ constexpr unsigned threads_each_processor = 8;
 constexpr double nanoseconds_each_worker = 20'000;
 
 std::atomic<bool> is_all_workers_used{false};
-
-/// How many workers of at most `most` a round pays for.
-unsigned workers_worth(const Round& round, unsigned most) {
-  if (is_all_workers_used.load(std::memory_order_relaxed)) return most;
-  const double more = round.nanoseconds / nanoseconds_each_worker;
-  return more < most ? std::min(most, 1 + static_cast<unsigned>(more)) : most;
-}
+std::atomic<std::vector<RoundTimes>*> recorded_rounds{nullptr};
 
 using Work = std::function<void(unsigned worker, std::size_t item)>;
+
+void run_here(std::size_t count, const Work& work, const Round& round) {
+  const FloatingPointScope scope;
+  const AccessScope nothing({});
+  for (std::size_t item = 0; item < count; ++item) work(0, item);
+  if (count > 0 && round.finish) round.finish(0);
+}
+
+/// Runs a round on this thread, and takes the time of each item.
+void record(std::size_t count, const Work& work, const Round& round, std::vector<RoundTimes>& rounds) {
+  using Clock = std::chrono::steady_clock;
+  RoundTimes times;
+  times.estimate = round.nanoseconds;
+  times.items.reserve(count);
+  times.begin = Clock::now();
+  Clock::time_point last = times.begin;
+  const auto timed = [&](unsigned worker, std::size_t item) {
+    work(worker, item);
+    const Clock::time_point now = Clock::now();
+    times.items.push_back(std::chrono::duration<float, std::nano>(now - std::exchange(last, now)).count());
+  };
+  run_here(count, timed, round);
+  times.end = Clock::now();
+  rounds.push_back(std::move(times));
+}
 
 /// The items of one call of TaskPool::run. Each worker picks the next item until none is left. Every item
 /// writes only its own results, so no result depends on which worker picked it.
@@ -75,6 +94,12 @@ unsigned workers_of(unsigned threads, const TaskScheduler* scheduler) {
 
 }  // namespace
 
+unsigned workers_worth(double nanoseconds, unsigned most) {
+  if (is_all_workers_used.load(std::memory_order_relaxed)) return most;
+  const double more = nanoseconds / nanoseconds_each_worker;
+  return more < most ? std::min(most, 1 + static_cast<unsigned>(more)) : most;
+}
+
 unsigned max_threads() {
   return threads_each_processor * default_threads();
 }
@@ -85,15 +110,11 @@ TaskPool::TaskPool(unsigned threads, ArenaPolicy policy, std::shared_ptr<TaskSch
                                       : make_default_scheduler(worker_count_, policy)) {}
 
 void TaskPool::run(std::size_t count, const Work& work, const Round& round) {
+  if (auto* const rounds = recorded_rounds.load(std::memory_order_relaxed))
+    return record(count, work, round, *rounds);
   const auto workers =
-      static_cast<unsigned>(std::min<std::size_t>(count, workers_worth(round, worker_count_)));
-  if (workers <= 1) {
-    const FloatingPointScope scope;
-    const AccessScope nothing({});
-    for (std::size_t item = 0; item < count; ++item) work(0, item);
-    if (count > 0 && round.finish) round.finish(0);
-    return;
-  }
+      static_cast<unsigned>(std::min<std::size_t>(count, workers_worth(round.nanoseconds, worker_count_)));
+  if (workers <= 1) return run_here(count, work, round);
   Items items(count, work, round);
   try {
     // The function is small enough to need no memory.
@@ -107,6 +128,10 @@ void TaskPool::run(std::size_t count, const Work& work, const Round& round) {
 
 void TaskPool::use_all_workers(bool uses_all) {
   is_all_workers_used = uses_all;
+}
+
+void TaskPool::record_rounds(std::vector<RoundTimes>* rounds) {
+  recorded_rounds = rounds;
 }
 
 void TaskPool::start(std::function<void()> work) {

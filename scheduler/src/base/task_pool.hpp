@@ -1,11 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <graze/settings.hpp>
 #include <graze/task_scheduler.hpp>
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace graze {
 
@@ -18,6 +20,16 @@ struct Round {
   /// throw. If the calling thread does what is left, it may be called twice with one worker, one after the
   /// other.
   std::function<void(unsigned worker)> finish = nullptr;
+};
+
+/// How many workers of at most `most` a round pays for that takes so long on one thread.
+[[nodiscard]] unsigned workers_worth(double nanoseconds, unsigned most);
+
+/// A round as it went on one thread.
+struct RoundTimes {
+  std::chrono::steady_clock::time_point begin, end;
+  double estimate = 0;       ///< Round::nanoseconds
+  std::vector<float> items;  ///< nanoseconds of each
 };
 
 /// Runs the items of a stage on workers, which are tasks of a TaskScheduler. With one worker everything runs
@@ -41,6 +53,10 @@ class TaskPool {
   /// For tests: whether each round uses all workers, however little there is to do. Then small scenes show
   /// what threads do to each other.
   static void use_all_workers(bool uses_all);
+
+  /// For studies: while there is a list, each round runs on the calling thread, and is added to it. One
+  /// thread at a time may step then.
+  static void record_rounds(std::vector<RoundTimes>* rounds);
 
   /// Calls `work` once on another thread; `work` must not throw. Throws if the scheduler cannot begin it.
   void start(std::function<void()> work);

@@ -11,17 +11,13 @@
 #include <vector>
 
 #include "bench/aims.hpp"
+#include "bench/comparisons.hpp"
 #include "bench/growth_figures.hpp"
-#include "bench/rays/ray_study.hpp"
-#include "bench/rigid_bodies/rigid_body_study.hpp"
+#include "bench/options.hpp"
+#include "bench/peer_module.hpp"
 #include "bench/run.hpp"
-#include "bench/scenes/slow_motion.hpp"
-#include "bench/self/self_study.hpp"
-#include "bench/soft_bodies/soft_body_study.hpp"
-#include "bench/surface_details.hpp"
 #include "bench/tables.hpp"
 #include "check_failed.hpp"
-#include "figures/result_table.hpp"
 #include "option_checks.hpp"
 #include "output/text.hpp"
 #include "output/text_file.hpp"
@@ -29,36 +25,6 @@
 
 namespace graze::tools {
 namespace {
-
-struct BenchOptions {
-  std::vector<std::string> scenes = {"S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"};
-  std::vector<std::string> tasks = {"A", "B", "D"};
-  std::vector<unsigned> threads = {1};
-  std::size_t frames = 0;
-  std::vector<std::string> peers = {"all"};
-  bool evict = false;
-  bool is_recorded = false;
-  bool aims = false;
-  bool details = false;
-  bool rays = false;
-  bool self = false;
-  bool soft_bodies = false;
-  bool rigid_bodies = false;
-  bool is_quick = false;
-  std::size_t slow = 1;
-  std::vector<std::string> instruction_sets;
-  std::string data = GRAZE_SHARED_DATA;
-  std::optional<std::filesystem::path> csv, json;
-  std::filesystem::path figures;
-};
-
-/// Parts of a scene have its name and a letter.
-bool is_asked_for(std::string_view scene, const std::vector<std::string>& wanted) {
-  return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
-    return scene == name || (scene.starts_with(name) && scene.size() == name.size() + 1 &&
-                             scene.back() >= 'a' && scene.back() <= 'z');
-  });
-}
 
 std::vector<std::string_view> peers_of(const BenchOptions& options, const bench::PeerModule& module) {
   std::vector<std::string_view> names;
@@ -100,67 +66,6 @@ void check_scenes(const std::vector<std::string>& wanted) {
                      [&](std::string_view scene) { return is_asked_for(scene, {name}); }))
       throw io::InputError("no scene \"" + name +
                            "\"; there are S1 to S10, and G100 to G10000 and V1000 to V100000");
-}
-
-/// Calls `use` with each scene that is asked for, and for which there is data.
-template <typename Use>
-void for_each_scene(const BenchOptions& options, const Use& use) {
-  for (const std::string_view name : bench::scene_names()) {
-    if (!is_asked_for(name, options.scenes)) continue;
-    const bench::BenchScene scene =
-        bench::in_slow_motion(bench::make_scene(name, options.data), options.slow);
-    if (scene.missing.empty())
-      use(scene);
-    else
-      print("\nskipped: " + scene.name + ", " + scene.missing + "\n");
-  }
-}
-
-void show(const ResultTable& table, const BenchOptions& options) {
-  print(markdown_of(table));
-  if (options.csv) write_text_file(*options.csv, csv_of(table));
-}
-
-void compare_details(const BenchOptions& options) {
-  std::vector<bench::BenchScene> scenes;
-  for_each_scene(options, [&](const bench::BenchScene& scene) { scenes.push_back(scene); });
-  show(bench::compare_surface_details(scenes, options.frames), options);
-}
-
-/// The number of frames of scenes that a solver plays.
-std::size_t frames_or_usual(const BenchOptions& options) {
-  constexpr std::size_t usual_frames = 300;
-  return options.frames == 0 ? usual_frames : options.frames;
-}
-
-void compare_self_contacts(const BenchOptions& options) {
-  show(bench::compare_self_contacts(bench::PeerModule(), frames_or_usual(options)), options);
-}
-
-void compare_rays(const BenchOptions& options) {
-  const bench::PeerModule module;
-  bench::RayStudy study;
-  for_each_scene(options, [&](const bench::BenchScene& scene) {
-    for (const unsigned threads : options.threads) study.add(module, scene, options.frames, threads);
-  });
-  show(study.table(), options);
-}
-
-void compare_soft_bodies(const BenchOptions& options) {
-  const bench::PeerModule module;
-  if (!module.has_soft_contact_finder())
-    print("No rows of Bullet: its soft bodies were not there when this program was built.\n\n");
-  show(bench::compare_soft_bodies(module, frames_or_usual(options)), options);
-}
-
-void compare_rigid_bodies(const BenchOptions& options) {
-  const bench::PeerModule module;
-  const auto has_name_of_bullet = [](const bench::RigidContactEntry& entry) {
-    return entry.name.starts_with("Bullet");
-  };
-  if (std::ranges::none_of(module.rigid_contact_finders(), has_name_of_bullet))
-    print("No rows of Bullet: it was not there when this program was built.\n\n");
-  show(bench::compare_rigid_bodies(module, options.is_quick), options);
 }
 
 std::vector<bench::Run> run_all(const BenchOptions& options, const std::vector<InstructionSet>& sets,
@@ -207,11 +112,7 @@ void check_outputs(const BenchOptions& options) {
 void run(const BenchOptions& options) {
   check_scenes(options.scenes);
   check_outputs(options);
-  if (options.details) return compare_details(options);
-  if (options.rays) return compare_rays(options);
-  if (options.self) return compare_self_contacts(options);
-  if (options.soft_bodies) return compare_soft_bodies(options);
-  if (options.rigid_bodies) return compare_rigid_bodies(options);
+  if (compare_instead(options)) return;
   const std::vector<InstructionSet> sets = instruction_sets_of(options.instruction_sets);
   const bench::PeerModule module;
   const bench::Surroundings surroundings = bench::surroundings(module, sets);
@@ -257,6 +158,11 @@ void add_bench_command(CLI::App& app) {
   command->add_flag("--details", options->details,
                     "Instead compare the details features and nearest, with and without solids");
   command->add_flag("--rays", options->rays, "Instead cast rays at the scenes with graze and with Embree");
+#if GRAZE_BENCH_KERNELS
+  command->add_flag(
+      "--scaling", options->scaling,
+      "Instead say how steps scale: stages, a model of more processors, and this machine's threads");
+#endif
   command->add_flag("--self", options->self,
                     "Instead compare graze and Bullet on a cloth that folds into a heap, near itself");
   command->add_flag(
