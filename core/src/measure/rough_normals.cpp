@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/base/prefetch.hpp"
 #include "surface/corner_lane.hpp"
 #include "surface/passes_for.hpp"
 
@@ -72,7 +73,7 @@ void NormalSums::add_vertex(const Surface& surface, std::uint32_t vertex, RoughN
     normal = {};
     return;
   }
-  __builtin_prefetch(around.data());
+  prefetch(around.data());
   with_points(surface, [&]<typename Number>(const kernels::PointArray<Number>& points) {
     auto& batch = std::get<kernels::FanBatch<Number>>(fans_);
     batch.fan[batch.count++] = {points, vertex, around.data(), around.size(), &normal};

@@ -83,8 +83,9 @@ class LeafCache {
 
   /// A leaf of more features of a kind, as coincident vertices make, takes more room in its own slot alone.
   static constexpr std::size_t most_everywhere = 512;
-  /// A leaf has one slot only. Leaves beside each other have numbers beside each other.
-  static constexpr std::size_t slot_count = 64;
+  /// A leaf has one slot only. Leaves beside each other have numbers beside each other. More slots find few
+  /// more leaves, and take time to empty and room in the processor's cache (docs/tried.md).
+  static constexpr std::size_t slot_count = 16;
   struct Slot {
     const Region* leaf = nullptr;
     LeafFeatures features;
