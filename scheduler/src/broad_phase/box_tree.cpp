@@ -18,6 +18,9 @@ constexpr double largest = std::numeric_limits<double>::max();
 /// The number of nodes that one task refits, or of leaves that one task fills.
 constexpr std::size_t boxes_of_slice = 512;
 
+/// About how long a box takes on one thread, where it is taken up and where it is joined with others.
+constexpr double nanoseconds_each_box = 10;
+
 constexpr std::size_t slices_of(std::size_t count) {
   return (count + boxes_of_slice - 1) / boxes_of_slice;
 }
@@ -98,7 +101,8 @@ void BoxTree::move_all(std::span<const Box> boxes, TaskPool& tasks) {
     for (std::size_t leaf = index * boxes_of_slice; leaf < end; ++leaf)
       levels_[0][leaf] = slot_of_[leaf] == no_slot ? no_box : limits_of(boxes[slot_of_[leaf]]);
   };
-  tasks.run(slices_of(slot_of_.size()), std::ref(fill));
+  tasks.run(slices_of(slot_of_.size()), std::ref(fill),
+            {.nanoseconds = nanoseconds_each_box * static_cast<double>(slot_of_.size())});
   refit_all(tasks);
 }
 
@@ -110,7 +114,8 @@ void BoxTree::refit_all(TaskPool& tasks) {
       for (std::size_t node = index * boxes_of_slice; node < end; ++node)
         refit_node(level, static_cast<std::uint32_t>(node));
     };
-    tasks.run(slices_of(count), std::ref(refit));
+    tasks.run(slices_of(count), std::ref(refit),
+              {.nanoseconds = nanoseconds_each_box * static_cast<double>(levels_[level - 1].size())});
   }
 }
 

@@ -9,9 +9,15 @@ namespace graze {
 namespace {
 
 // Sizes of slices of work. They never depend on the number of threads.
-constexpr std::size_t objects_of_slice = 2048;
+constexpr std::size_t objects_of_slice = 512;
 constexpr std::uint32_t blocks_of_slice = 64;
 constexpr std::size_t queries_of_slice = 128;
+
+// About how long each takes on one thread.
+constexpr double nanoseconds_each_loosened = 30;
+constexpr double nanoseconds_each_test = 2;
+constexpr double nanoseconds_each_sorted = 15;
+constexpr double nanoseconds_each_query = 500;
 
 constexpr std::size_t slices_of(std::size_t count, std::size_t slice) {
   return (count + slice - 1) / slice;
@@ -132,7 +138,8 @@ void BroadPhase::loosen(const ObjectSummaries& summaries, TaskPool& tasks) {
     }
     slice_objects_[slice] = objects;
   };
-  tasks.run(slices, std::ref(loosen_slice));
+  tasks.run(slices, std::ref(loosen_slice),
+            {.nanoseconds = nanoseconds_each_loosened * static_cast<double>(count)});
   std::size_t end = 0;
   for (std::size_t slice = 0; slice < slices; ++slice) {
     const auto from = left_.begin() + static_cast<std::ptrdiff_t>(slice * objects_of_slice);
@@ -207,7 +214,8 @@ void BroadPhase::find_all(const PairCheck& check, TaskPool& tasks) {
     if (check.is_needed)
       std::erase_if(slices[index].pairs, [&](SlotPair pair) { return !check.passes(pair); });
   };
-  tasks.run(slices.size(), std::ref(find_slice));
+  tasks.run(slices.size(), std::ref(find_slice),
+            {.nanoseconds = nanoseconds_each_test * std::max(tests_when_ordered_, 16.0) * count});
   sort_rows(tasks);
   const auto tested = static_cast<double>(sum_tests());
   if (is_ordered) {
@@ -244,7 +252,8 @@ void BroadPhase::sort_rows(TaskPool& tasks) {
       std::sort(pairs_.begin() + from, pairs_.begin() + static_cast<std::ptrdiff_t>(rows_[slot]));
     }
   };
-  tasks.run(slices_of(objects, objects_of_slice), std::ref(sort_slice));
+  tasks.run(slices_of(objects, objects_of_slice), std::ref(sort_slice),
+            {.nanoseconds = nanoseconds_each_sorted * static_cast<double>(pairs_.size())});
 }
 
 /// Finds the pairs of the few objects that have left their loose boxes. No other pair can have come or gone.
@@ -257,7 +266,8 @@ void BroadPhase::find_left(const PairCheck& check, TaskPool& tasks) {
     const std::size_t end = std::min((index + 1) * queries_of_slice, left_.size());
     for (std::size_t i = index * queries_of_slice; i < end; ++i) find_one(left_[i], check, slice);
   };
-  tasks.run(slices.size(), std::ref(find_slice));
+  tasks.run(slices.size(), std::ref(find_slice),
+            {.nanoseconds = nanoseconds_each_query * static_cast<double>(left_.size())});
   new_pairs_.clear();
   for (const Slice& slice : std::span(slices_).first(slice_count_))
     new_pairs_.insert(new_pairs_.end(), slice.pairs.begin(), slice.pairs.end());

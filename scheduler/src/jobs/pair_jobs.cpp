@@ -104,32 +104,48 @@ void PairJobs::run_within_work(std::uint64_t budget) {
 
 // ---- The jobs
 
-/// Runs the small pairs in batches while the large ones begin, then runs the slices of the large ones.
+/// Runs the small pairs, most of them in batches, while the large ones begin, then runs the slices of the
+/// large ones.
 ///
 /// A task writes the answers, fronts and memories of its own jobs, and the memory of its own worker. A slice
 /// writes its own part of its pair. Surfaces are only read. What all jobs share is written as PairAnswers
 /// says. AccessScope checks surfaces, memories and answers in builds with GRAZE_VALIDATE.
 void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
-  small_jobs_.clear();
-  large_.begin_group();
-  for (const std::uint32_t index : jobs)
-    if (jobs_[index].is_large())
-      large_.add(index, jobs_[index]);
-    else
-      small_jobs_.push_back(index);
+  list_group(jobs);
   const std::size_t each = jobs_of_task(small_jobs_.size());
   const std::size_t batches = (small_jobs_.size() + each - 1) / each;
   // Two captures are what std::function holds without an allocation.
-  tasks_.run(large_.count() + batches,
+  tasks_.run(large_.count() + long_jobs_.size() + batches,
              [this, each](unsigned worker, std::size_t item) {
                if (item < large_.count()) return large_.begin(item, worker);
-               const std::size_t begin = (item - large_.count()) * each;
+               item -= large_.count();
+               if (item < long_jobs_.size()) return detect(long_jobs_[item], worker, unlimited);
+               const std::size_t begin = (item - long_jobs_.size()) * each;
                const std::size_t end = std::min(begin + each, small_jobs_.size());
                for (std::size_t i = begin; i < end; ++i) detect(small_jobs_[i], worker, unlimited);
              },
              {.nanoseconds = work_.nanoseconds_of(jobs.size()),
               .finish = [this](unsigned worker) { workers_.end_round(worker); }});
   large_.run_slices();
+}
+
+/// Large pairs come first, then small ones that took long in the last step, the longest first. So no worker
+/// begins a long job when the others are done.
+void PairJobs::list_group(std::span<const std::uint32_t> jobs) {
+  small_jobs_.clear();
+  long_jobs_.clear();
+  large_.begin_group();
+  for (const std::uint32_t index : jobs) {
+    const PairJob& job = jobs_[index];
+    if (job.is_large())
+      large_.add(index, job);
+    else
+      (work_.is_long(job.memory->nanoseconds) ? long_jobs_ : small_jobs_).push_back(index);
+  }
+  std::sort(long_jobs_.begin(), long_jobs_.end(), [&](std::uint32_t left, std::uint32_t right) {
+    return std::tuple(-jobs_[left].memory->nanoseconds, left) <
+           std::tuple(-jobs_[right].memory->nanoseconds, right);
+  });
 }
 
 void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit) {
@@ -149,7 +165,9 @@ void PairJobs::detect(std::uint32_t index, unsigned worker, std::uint64_t work_l
   } else {
     LeafFront& front = job.memory_to_write().front;
     own.front_bytes -= front.byte_count();
+    const double before = JobWork::nanoseconds_of(own.counters);
     own.detector.detect(a, b, query, front, answer, own.counters);
+    job.memory_to_write().nanoseconds = static_cast<float>(JobWork::nanoseconds_of(own.counters) - before);
     own.front_bytes += front.byte_count();
     answers_.complete(index, query, answer, own);
     if (query.region_distance_limit > 0) own.detector.region_distances(a, b, query, answer);
@@ -172,13 +190,14 @@ bool PairJobs::equalize_capacity() {
 void PairJobs::reserve(std::size_t jobs, std::size_t contacts) {
   order_.reserve(jobs);
   small_jobs_.reserve(jobs);
+  long_jobs_.reserve(jobs);
   answers_.reserve(jobs, contacts);
   workers_.reserve(contacts);
 }
 
 std::size_t PairJobs::byte_count() const {
-  return bytes_of(order_) + bytes_of(small_jobs_) + answers_.byte_count() + large_.byte_count() +
-         workers_.front_bytes();
+  return bytes_of(order_) + bytes_of(small_jobs_) + bytes_of(long_jobs_) + answers_.byte_count() +
+         large_.byte_count() + workers_.front_bytes();
 }
 
 }  // namespace graze

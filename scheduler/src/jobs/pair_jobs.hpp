@@ -59,6 +59,7 @@ class PairJobs {
   void sort_by_urgency();
   void run_by_urgency();
   void run_within_work(std::uint64_t budget);
+  void list_group(std::span<const std::uint32_t> jobs);
   void run_group(std::span<const std::uint32_t> jobs);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);
 
@@ -73,7 +74,8 @@ class PairJobs {
   LargePairs large_;
   std::span<const PairJob> jobs_;
   std::vector<std::uint32_t> order_;       ///< jobs that test their pairs; by urgency if there is a budget
-  std::vector<std::uint32_t> small_jobs_;  ///< the small jobs of the current group
+  std::vector<std::uint32_t> small_jobs_;  ///< the small jobs of the current group, but for the long ones
+  std::vector<std::uint32_t> long_jobs_;   ///< those that took long in the last step, the longest first
 };
 
 }  // namespace graze

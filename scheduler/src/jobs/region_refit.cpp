@@ -2,6 +2,7 @@
 
 #include "core/base/bytes_of.hpp"
 #include "core/base/cut_by_work.hpp"
+#include "core/base/prefetch.hpp"
 #include "core/pair/pair_query.hpp"
 
 namespace graze {
@@ -57,9 +58,11 @@ std::uint32_t work_of(const Region& region, RefitOf what) {
   return region.vertex_count + (what == RefitOf::faces ? region.border_count : 0);
 }
 
-/// About how long a vertex takes on one thread: its share of the boxes of faces, and of blocks.
+/// About how long a vertex takes on one thread: its share of the boxes of faces, of blocks, and of the boxes
+/// of inner regions.
 constexpr double nanoseconds_each_bound = 25;
 constexpr double nanoseconds_each_block = 5;
+constexpr double nanoseconds_each_inner_bound = 0.5;
 
 /// About how long these objects take on one thread.
 double nanoseconds_of(std::span<Object* const> objects, double nanoseconds_each_vertex) {
@@ -70,8 +73,9 @@ double nanoseconds_of(std::span<Object* const> objects, double nanoseconds_each_
 
 }  // namespace
 
-RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks)
+RegionRefit::RegionRefit(const SceneSettings& settings, TaskPool& tasks, ObjectBytes& bytes)
     : tasks_(tasks),
+      bytes_(bytes),
       boxes_(boxes_for(settings.detail)),
       with_blocks_(wants_blocks(settings.detail, settings.accuracy.mode())),
       needs_paper_bounds_(settings.accuracy.mode() == AccuracyMode::paper || settings.region_distances > 0) {}
@@ -92,6 +96,7 @@ void RegionRefit::make_blocks() {
     const AccessScope access({AccessRight::write(objects_[item]), {}});
     Surface& surface = objects_[item]->surface_to_write();
     is_seen_in_part(*objects_[item]) ? surface.make_stretches() : surface.make_blocks();
+    bytes_.count(*objects_[item]);
   };
   tasks_.run(objects_.size(), make, {.nanoseconds = nanoseconds_of(objects_, nanoseconds_each_block)});
 }
@@ -122,10 +127,13 @@ void RegionRefit::refit(std::span<const PairJob> jobs, RefitOf what) {
   tasks_.run(parts_.size() + small_.size(), refit_one,
              {.nanoseconds = nanoseconds_of(small_, nanoseconds_each_bound) +
                              nanoseconds_of(large_, nanoseconds_each_bound)});
-  tasks_.run(large_.size(), [&](unsigned, std::size_t index) {
-    const AccessScope access({AccessRight::write(large_[index]), {}});
-    large_[index]->surface_to_write().finish_refit(what);
-  });
+  tasks_.run(large_.size(),
+             [&](unsigned, std::size_t index) {
+               const AccessScope access({AccessRight::write(large_[index]), {}});
+               large_[index]->surface_to_write().finish_refit(what);
+               bytes_.count(*large_[index]);
+             },
+             {.nanoseconds = nanoseconds_of(large_, nanoseconds_each_inner_bound)});
 }
 
 void RegionRefit::prepare(Surface& surface) const {
@@ -152,10 +160,15 @@ void RegionRefit::count_job(Object& object, const Object& other, const PairJob& 
 void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   ++refits_;
   objects_.clear();
-  for (const PairJob& job : jobs)
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (i + PairJob::ahead < jobs.size())
+      for (const Object* const object : {jobs[i + PairJob::ahead].a, jobs[i + PairJob::ahead].b})
+        prefetch(&object->asked);
+    const PairJob& job = jobs[i];
     if (job.is_tested() && (needs_paper_bounds_ || !is_by_list(job, with_blocks_)))
       for (const auto& [object, other] : {std::pair(job.a, job.b), {job.b, job.a}})
         count_job(*object, *other, job);
+  }
   small_.clear();
   large_.clear();
   for (Object* const object : objects_)
@@ -195,7 +208,9 @@ void RegionRefit::refit_small(Object& object, RefitOf what) const {
   const AccessScope access({AccessRight::write(&object), {}});
   Surface& surface = object.surface_to_write();
   const bool is_asked_often = object.asked.jobs >= jobs_worth_a_refit;
-  if ((is_asked_often && what == RefitOf::faces) || is_stale(object, what)) surface.refit(what);
+  if (!(is_asked_often && what == RefitOf::faces) && !is_stale(object, what)) return;
+  surface.refit(what);
+  bytes_.count(object);
 }
 
 }  // namespace graze

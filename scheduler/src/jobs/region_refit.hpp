@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/task_pool.hpp"
+#include "objects/object_bytes.hpp"
 #include "pairs/pair_job.hpp"
 
 namespace graze {
@@ -13,7 +14,7 @@ namespace graze {
 /// Refits the bounds of regions that a step's jobs need. Stepping thread only.
 class RegionRefit {
  public:
-  RegionRefit(const SceneSettings& settings, TaskPool& tasks);
+  RegionRefit(const SceneSettings& settings, TaskPool& tasks, ObjectBytes& bytes);
 
   /// Refits every object that `jobs` test and that has moved too far since its last refit.
   void run(std::span<const PairJob> jobs);
@@ -43,6 +44,7 @@ class RegionRefit {
   [[nodiscard]] static bool is_seen_in_part(const Object& object);
 
   TaskPool& tasks_;
+  ObjectBytes& bytes_;
   RefitOf boxes_;
   bool with_blocks_;              ///< jobs search in blocks of vertices
   bool needs_paper_bounds_;       ///< the paper's bounds are reported or compared

@@ -212,7 +212,7 @@ struct Object {
   // The store's own notes.
   bool may_have_input = false;    ///< the store lists it for the next read
   bool removed = false;           ///< it is dropped before the next read
-  std::size_t counted_bytes = 0;  ///< its part of ObjectStore::surface_bytes_
+  std::size_t counted_bytes = 0;  ///< its part of ObjectBytes
 
   [[nodiscard]] bool hides_some_faces() const { return face_groups != nullptr && face_groups->hides_some(); }
   [[nodiscard]] bool hides_all_faces() const { return face_groups != nullptr && face_groups->all().none(); }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,8 +9,9 @@
 
 #include "base/task_pool.hpp"
 #include "calls/calls.hpp"
-#include "core/surface/surface.hpp"
 #include "objects/object.hpp"
+#include "objects/object_bytes.hpp"
+#include "objects/position_reads.hpp"
 #include "objects/swept_objects.hpp"
 
 namespace graze {
@@ -22,13 +22,6 @@ struct DepartedObject {
   std::uint64_t serial = 0;  ///< Object::serial
 };
 
-/// Sees bound memory that a step has read, surveyed or viewed, where it may be new.
-class MemoryObserver {
- public:
-  virtual ~MemoryObserver() = default;
-  virtual void see_memory(const Object& object) noexcept = 0;
-};
-
 /// The objects of a scene in the order of addition. Stepping thread only.
 ///
 /// A step's work here is proportional to the number of objects that received calls, and of removals. A step
@@ -37,7 +30,7 @@ class ObjectStore {
  public:
   /// `with_blocks` says that jobs only need blocks of vertices. The store then makes blocks as soon as it
   /// reads an object near others, and views memory that is bound for every step instead of copying it.
-  explicit ObjectStore(bool with_blocks) : with_blocks_(with_blocks) {}
+  explicit ObjectStore(bool with_blocks) : reads_(with_blocks, swept_, bytes_) {}
 
   // A call of these that throws has changed nothing, and its argument is unchanged too.
   void apply(AddObject& call);
@@ -65,7 +58,7 @@ class ObjectStore {
   /// next call. It sees each object whose bound memory was found new, here and in `read_unread`.
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics, MemoryObserver* observer);
   /// Reads the objects in `wanted`, which are unread, listed once each and planned to be read.
-  void read_unread(std::vector<Object*>& wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
+  void read_unread(std::span<Object* const> wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
 
   /// Ignores all promises made before the next read. Call it after a step that failed at any point, even
   /// before it began, since the caller may count from positions that no step has seen.
@@ -76,7 +69,7 @@ class ObjectStore {
 
   /// Whether anything may differ from the step before: the set of objects, the position of one, or whether it
   /// is frozen or unread. Valid after `read_positions`.
-  [[nodiscard]] bool changed() const { return changed_; }
+  [[nodiscard]] bool changed() const { return reads_.changed(); }
   /// The objects that exist after `read_positions`, ascending by serial.
   [[nodiscard]] std::span<const std::unique_ptr<Object>> objects() const { return objects_; }
   [[nodiscard]] Object* find(ObjectId id) const;
@@ -106,53 +99,26 @@ class ObjectStore {
   /// How objects move that may be in swept pairs. Valid after `read_positions`.
   [[nodiscard]] const SweptObjects& swept() const { return swept_; }
   /// How many objects the last reads left unread because of promises.
-  [[nodiscard]] std::size_t unread_count() const { return unread_count_; }
+  [[nodiscard]] std::size_t unread_count() const { return reads_.unread_count(); }
   /// How many objects were surveyed, including those that were read afterwards.
-  [[nodiscard]] std::size_t surveyed_count() const { return surveyed_count_; }
+  [[nodiscard]] std::size_t surveyed_count() const { return reads_.surveyed_count(); }
 
-  /// Updates the count of bytes that an object's surface holds.
-  void count_bytes(Object& object);
+  /// The bytes that surfaces hold.
+  [[nodiscard]] ObjectBytes& bytes() { return bytes_; }
   /// The bytes of all objects, with each surface as it was counted last.
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  /// A range of vertices of a large object.
-  struct Part {
-    Object* object;
-    std::uint32_t begin;
-    std::uint32_t count;
-    Surface::PartSeen seen;
-    bool keeps_start = false;  ///< of the object, for sweeps
-  };
-  struct LargeObject {
-    Object* object;
-    std::size_t end;  ///< the end of its parts in `parts_`
-    bool keeps_start = false;
-    std::optional<Diagnostic> problem = std::nullopt;
-    bool accepted = true;
-  };
-
   void take_up_sweep(const ObjectSettings& settings);
   void make_sweep(Object& object, const IndexedMesh& mesh) const;
   [[nodiscard]] bool is_new(const Object& object) const { return object.serial >= first_unseen_; }
-  /// Lists the object for the next read.
-  void expect_input(Object& object);
   void drop_removed();
-  void plan_read(Object& object);
-  void leave_unread(Object& object);
-  void plan_late_read(Object& object);
   void mark_new_seen();
-  void show_memory(Object& object);
-  void clear_read_list();
-  void list_to_read(Object& object);
-  void read_small(std::size_t index);
-  void read_listed(TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
-  void finish_large(TaskPool& tasks);
-  void finish_parts(std::size_t index, std::size_t& to_write);
-  void report_problems(std::vector<Diagnostic>& diagnostics);
+  [[nodiscard]] ReadsOfStep reads_of_step() const;
 
-  bool with_blocks_;
   SweptObjects swept_;
+  ObjectBytes bytes_;
+  PositionReads reads_;
   bool sweeps_are_reserved_ = false;
   bool last_failed_ = false;            ///< no report speaks of what the last read has found
   MemoryObserver* observer_ = nullptr;  ///< of the current step
@@ -162,22 +128,10 @@ class ObjectStore {
   std::vector<Object*> by_index_;
   std::vector<std::unique_ptr<Object>> removed_;
   std::vector<DepartedObject> departed_;
-  std::vector<Object*> replaced_;                         ///< objects with another mesh since the last report
-  std::vector<Object*> with_input_;                       ///< objects that may have input, in any order
-  std::vector<Object*> to_read_;                          ///< small objects
-  std::size_t vertices_to_read_ = 0;                      ///< of small and large objects
-  std::vector<LargeObject> large_;                        ///< large objects
-  std::vector<Part> parts_;                               ///< the parts of all objects in `large_`
-  std::vector<std::optional<Diagnostic>> read_problems_;  ///< one for each of `to_read_`, empty once reported
-  std::vector<std::pair<std::uint64_t, Diagnostic>> problems_;  ///< by serial, empty once reported
+  std::vector<Object*> replaced_;  ///< objects with another mesh since the last report
   std::uint64_t next_serial_ = 0;
   std::uint64_t steps_ = 0;         ///< the number of steps that have read positions
   std::uint64_t first_unseen_ = 0;  ///< the serial of the first object that no step has seen
-  std::size_t surface_bytes_ = 0;
-  std::size_t unread_count_ = 0;
-  std::size_t surveyed_count_ = 0;
-  std::atomic<bool> some_problems_ = false;  ///< some problems are not reported yet
-  std::atomic<bool> changed_ = false;
   bool promises_count_ = true;
   bool will_have_changed_ = false;  ///< `changed` holds at the next `read_positions`, whatever it reads
 };

@@ -8,8 +8,9 @@
 namespace graze {
 namespace {
 
-/// The number of objects that one task refreshes.
-constexpr std::size_t objects_at_once = 1024;
+/// The number of objects that one task refreshes, and about how long one takes.
+constexpr std::size_t objects_at_once = 256;
+constexpr double nanoseconds_each_summary = 20;
 
 ObjectSummary summary_of(const Object& object) {
   ObjectSummary summary;
@@ -71,9 +72,11 @@ void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, 
       summary.hidden = object.hides_all_faces();
       unread = unread || is_unread;
     }
-    if (unread) some_unread.store(true, std::memory_order_relaxed);
+    if (unread && !some_unread.load(std::memory_order_relaxed))
+      some_unread.store(true, std::memory_order_relaxed);
   };
-  tasks.run((objects.size() + objects_at_once - 1) / objects_at_once, std::ref(refresh_slice));
+  tasks.run((objects.size() + objects_at_once - 1) / objects_at_once, std::ref(refresh_slice),
+            {.nanoseconds = nanoseconds_each_summary * static_cast<double>(objects.size())});
   some_unread_ = some_unread;
 }
 

@@ -20,6 +20,9 @@ inline bool is_contact(PairPhase phase) {
 
 /// The work of one step for one pair.
 struct PairJob {
+  /// How many jobs ahead of its turn an object is prefetched where jobs are walked on one thread.
+  static constexpr std::size_t ahead = 8;
+
   enum class Task : std::uint8_t {
     detect,       ///< test the pair
     end,          ///< filtered out while in contact: find its distance once more

@@ -18,11 +18,13 @@ struct PairMemory {
   std::uint64_t rules_version = 0;
   /// PairGroups::version of the groups with which the front was made.
   std::uint64_t groups_version = 0;
+  float nanoseconds = 0;  ///< JobWork's estimate of the last test of the pair
 
   /// Forgets all of it and keeps its room.
   void forget() {
     front.forget();
     version_a = version_b = groups_version = 0;
+    nanoseconds = 0;
   }
 };
 

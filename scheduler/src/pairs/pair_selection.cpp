@@ -10,8 +10,9 @@
 namespace graze {
 namespace {
 
-/// The number of pairs that one task processes.
-constexpr std::size_t pairs_of_slice = 4096;
+/// The number of pairs that one task processes, and about how long one takes.
+constexpr std::size_t pairs_of_slice = 1024;
+constexpr double nanoseconds_each_selected = 20;
 static_assert(pairs_of_slice <= std::numeric_limits<decltype(SelectedPair::count)>::max());
 
 /// The index in an ascending array at which `pair` is or would be.
@@ -146,7 +147,8 @@ std::span<const SelectedPair> PairSelection::select(std::span<const SlotPair> pa
   const bool same_filter = std::exchange(filter_version_, filter.version()) == filter.version();
   const Given given{pairs, listed, summaries, filter, same_filter};
   const auto select_slice = [&](unsigned, std::size_t index) { Walk(*this, given, slices_[index]).run(); };
-  tasks.run(slices_.size(), std::ref(select_slice));
+  tasks.run(slices_.size(), std::ref(select_slice),
+            {.nanoseconds = nanoseconds_each_selected * static_cast<double>(pairs.size())});
   validate(given);
   statistics.pairs_close = pairs.size();
   count(statistics);

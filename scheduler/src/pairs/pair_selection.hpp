@@ -9,6 +9,7 @@
 
 #include "base/slot_pair.hpp"
 #include "base/task_pool.hpp"
+#include "core/base/prefetch.hpp"
 #include "objects/object_summary.hpp"
 #include "pairs/pair_filter.hpp"
 #include "pairs/pair_memory.hpp"
@@ -60,7 +61,7 @@ class PairSelection {
   void let_rest(const SelectedPair& selected) { known_[selected.close_index].rests = true; }
   /// Prefetches the memory that `memory_of` will return.
   void prefetch(const SelectedPair& selected) {
-    if (selected.memory != SelectedPair::none) __builtin_prefetch(&memories_[selected.memory].version_a);
+    if (selected.memory != SelectedPair::none) graze::prefetch(&memories_[selected.memory].version_a);
   }
 
   /// Reserves memory for that many pairs of the broad phase.

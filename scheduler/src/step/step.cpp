@@ -30,7 +30,7 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       tasks_(content.tasks),
       store_(content.store),
       pairs_(settings, content.filter, store_),
-      refit_(settings, tasks_),
+      refit_(settings, tasks_, store_.bytes()),
       sweeps_(settings, tasks_),
       jobs_(settings, tasks_),
       rows_(tasks_, store_, pairs_, jobs_, sweeps_, last_contacts_),
@@ -61,7 +61,7 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
     can_repeat_report_ = rows_.write(list, previous, builder);
     sum_counters(statistics);
     equalize_capacity();
-    count_bytes_of_pairs(list.jobs, statistics);
+    count_bytes_of_pairs(statistics);
   }
   statistics.objects_unread = store_.unread_count();
   statistics.objects_surveyed = store_.surveyed_count();
@@ -153,11 +153,7 @@ void Step::sum_counters(StepStatistics& statistics) {
 
 /// Counts the bytes of pairs. A step that repeats rows changes none of them, and counting would be a third of
 /// its work.
-void Step::count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics) {
-  // Only a job that tested a pair can have allocated memory for its objects' regions.
-  for (const PairJob& job : jobs)
-    if (job.is_tested())
-      for (Object* const object : {job.a, job.b}) store_.count_bytes(*object);
+void Step::count_bytes_of_pairs(StepStatistics& statistics) {
   statistics.bytes.pairs = pairs_.byte_count() + refit_.byte_count() + jobs_.byte_count() +
                            rows_.byte_count() + last_contacts_.byte_count() + sweeps_.byte_count();
   statistics.bytes.threads = jobs_.thread_byte_count() + sweeps_.thread_byte_count();

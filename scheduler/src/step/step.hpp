@@ -40,7 +40,7 @@ class Step {
   void repeat_rows(const FrameReport& previous, StepStatistics& statistics);
   void equalize_capacity();
   void sum_counters(StepStatistics& statistics);
-  void count_bytes_of_pairs(std::span<const PairJob> jobs, StepStatistics& statistics);
+  void count_bytes_of_pairs(StepStatistics& statistics);
 
   Staging& staging_;
   ReportPool& reports_;

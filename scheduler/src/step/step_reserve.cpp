@@ -63,7 +63,7 @@ void StepReserve::reserve_for_pairs(const SceneCapacity& capacity) {
     if (object == nullptr) continue;  // removed in this step
     object->end_view();
     prepare_surface(object->surface_to_write(), object->settings);
-    store.count_bytes(*object);
+    store.bytes().count(*object);
     prepare_copy(*object);
   }
 }
@@ -82,7 +82,7 @@ void StepReserve::prepare_copy(Object& object) {
                          settings_.region_distances == 0 && object.surface().can_view(object.bound->view);
   if (is_viewed) return;
   object.surface_to_write().reserve_positions(object.bound->view.is_double());
-  content_.store.count_bytes(object);
+  content_.store.bytes().count(object);
 }
 
 }  // namespace graze
