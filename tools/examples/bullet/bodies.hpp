@@ -42,7 +42,7 @@ struct RigidPart {
   std::unique_ptr<btRigidBody> body;
 };
 
-/// What a world of Bullet's is made of.
+/// The parts that a world of Bullet's needs. They have to outlive it.
 struct Engine {
   Engine() { constraints.setDeformableSolver(&bodies); }
 

@@ -9,7 +9,7 @@
 /// Bullet's deformable bodies, with Bullet's own detection or with graze in its place.
 namespace examples::bullet {
 
-/// What the detection of one step took and found.
+/// The time that the detection of one step took, and how much it found.
 struct StepFigures {
   double milliseconds = 0;
   std::size_t contacts = 0;  ///< that Bullet's solver was given
