@@ -5,19 +5,21 @@
 #   tests/run.sh --all    what a change must pass: also what measures graze, clang-tidy, the installed package, each test
 #                         under the address and undefined-behaviour sanitizers with the structure validators on, each fuzzer
 #                         for a short time, and tests with threads under the thread sanitizer
+#   tests/run.sh --platforms   core and scheduler on other platforms, under emulators (docs/platforms.md)
 set -eu
 cd "$(dirname "$0")/.."
 
 case "$*" in
-  '') runs_all=false ;;
-  --all) runs_all=true ;;
+  '') runs=check ;;
+  --all) runs=all ;;
+  --platforms) runs=platforms ;;
   *)
-    echo "usage: tests/run.sh [--all]" >&2
+    echo "usage: tests/run.sh [--all | --platforms]" >&2
     exit 2
     ;;
 esac
 
-tools/install_packages.sh peers
+if [ "$runs" = platforms ]; then tools/install_packages.sh platforms; else tools/install_packages.sh peers; fi
 results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 status=0
@@ -46,7 +48,9 @@ test_preset() {
 
 # How the sources are written; counts as one test. "$@" are the checks.
 lint_failed=0
+lint_tests=0
 run_lint() {
+  lint_tests=1
   echo "== lint"
   tests/lint/run.sh "$@" || lint_failed=1
 }
@@ -74,7 +78,9 @@ run_sanitizers() {
   test_preset tsan
 }
 
-if $runs_all; then
+if [ "$runs" = platforms ]; then
+  tests/platforms/run.sh "$results" || status=1
+elif [ "$runs" = all ]; then
   run_lint text order tidy
   # In batches, which takes half as long. The libraries take as many instructions as compiled one by one.
   build_preset release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DGRAZE_TEST_OPTIONS=-O1
@@ -92,7 +98,7 @@ fi
 count() {
   sed -n "s/.*[^a-z]$1=\"\([0-9]*\)\".*/\1/p" "$results"/*.xml | awk '{ sum += $1 } END { print sum + 0 }'
 }
-tests=$(($(count tests) + 1))
+tests=$(($(count tests) + lint_tests))
 failed=$(($(count failures) + lint_failed))
 skipped=$(count skipped)
 disabled=$(count disabled)
@@ -100,5 +106,5 @@ disabled=$(count disabled)
 [ "$lint_failed" -eq 0 ] || echo "== failed: lint, at the start of this output"
 python3 tests/failed_tests.py "$results"/*.xml || status=1
 echo "$((tests - failed - skipped - disabled)) passed, $failed failed, $skipped skipped"
-[ "$tests" -gt 1 ] && [ "$lint_failed" -eq 0 ] || status=1
+[ "$tests" -gt "$lint_tests" ] && [ "$lint_failed" -eq 0 ] || status=1
 exit "$status"

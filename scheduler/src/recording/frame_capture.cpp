@@ -1,5 +1,7 @@
 #include "recording/frame_capture.hpp"
 
+#include "base/wait_while.hpp"
+
 namespace graze {
 
 void CapturedFrame::clear() {
@@ -23,7 +25,7 @@ CapturedFrame* FrameQueue::wait_for_free_frame() {
   while (true) {
     const std::uint64_t popped = popped_.load(std::memory_order_acquire);
     if (CapturedFrame* const frame = free_frame()) return frame;
-    popped_.wait(popped, std::memory_order_acquire);
+    wait_while(popped_, popped);
   }
 }
 
@@ -43,7 +45,7 @@ CapturedFrame* FrameQueue::wait_for_frame() {
     const std::uint64_t seen = pushed_.load(std::memory_order_acquire);
     if ((seen & ~closed_bit) != popped) return &frames_[popped % frames_.size()];
     if ((seen & closed_bit) != 0) return nullptr;
-    pushed_.wait(seen, std::memory_order_acquire);
+    wait_while(pushed_, seen);
   }
 }
 
@@ -57,7 +59,7 @@ void FrameQueue::wait_until_empty() {
   while (true) {
     const std::uint64_t popped = popped_.load(std::memory_order_acquire);
     if (popped >= pushed) return;
-    popped_.wait(popped, std::memory_order_acquire);
+    wait_while(popped_, popped);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/settings_check.hpp"
+#include "base/wait_while.hpp"
 #include "calls/staging.hpp"
 #include "report/report_pool.hpp"
 #include "step/stepper.hpp"
@@ -25,7 +26,7 @@ class Scene::State {
       : settings(checked(given)),
         reports(ReportPool::create()),
         stepper(settings, std::move(scheduler), staging, *reports) {}
-  ~State() { stepping->wait(true, std::memory_order_acquire); }
+  ~State() { wait_while(*stepping, true); }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 

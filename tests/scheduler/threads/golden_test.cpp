@@ -14,6 +14,7 @@
 #include "scheduler/threads/gathering_memory.hpp"
 #include "support/catch.hpp"
 #include "support/effort.hpp"
+#include "support/golden_hashes.hpp"
 
 namespace graze::tests {
 namespace {
@@ -21,39 +22,6 @@ namespace {
 using scenes::PlayedScene;
 
 constexpr std::array<unsigned, 6> thread_counts = {1, 2, 3, 4, 8, 16};
-constexpr std::size_t frames = 20;
-
-struct Golden {
-  std::string_view scene;
-  std::uint64_t hash;
-};
-/// Hashes of 20 frames each. In exact mode the contract fixes every bit of a report, so a changed hash is a
-/// changed answer. One thing is not fixed: the witness of surfaces that touch, where distances alone are
-/// asked for. It follows the order of leaf pairs (docs/method.md, section 2).
-///
-/// A change may be meant to answer otherwise. Then the program prints all hashes anew, by the command
-/// `graze_studies stress --determinism --frames 20 --repeats 1`.
-///
-/// The scene `nearest` has the pairs of that detail alone. The scene `solids` also has sides by winding
-/// numbers, and what is inside. The scene `limits` also has the order by which contacts are kept. The scene
-/// `carrying` has contacts that are chosen to carry a pair, which depend on the frame before. The scene
-/// `self` has surfaces that are tested against themselves. The scene `swept` has impacts, and objects that
-/// jump.
-constexpr std::array<Golden, 12> golden = {{
-    {"paths", 0x2a460bba2118de22U},
-    {"pile", 0xe8d81a16d3e3979fU},
-    {"pair", 0xb5863d0d32c6cfbeU},
-    {"skinned", 0xf86ae96fb28a0c3U},
-    {"crowd", 0x989c1b434db2f3cfU},
-    {"nearest", 0x6f4c8be059965339U},
-    {"solids", 0x8fe1260fe132fe2aU},
-    {"limits", 0xaa738c0ece2effacU},
-    {"carrying", 0x75466a2b648c63a4U},
-    {"seams", 0xe3de4efcb9dc092fU},
-    {"self", 0x1cc7903d709ce6dfU},
-    {"swept", 0xd67eae4da89bc729U},
-}};
-
 struct Played {
   std::uint64_t hash = 0;
   std::size_t contacts = 0;
@@ -82,7 +50,7 @@ Played play(std::string_view name, unsigned threads) {
   Scene scene(settings);
   Played result;
   scenes::ReportHash hash;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
+  for (std::size_t frame = 0; frame < golden_frames; ++frame) {
     played->advance(scene, frame);
     const ReportHandle report = scene.step();
     hash.add(*report);
@@ -128,9 +96,9 @@ TEST_CASE("golden: a step of n threads is worked on by n threads at once") {
 
 TEST_CASE("golden: the hash of all reports, for any number of threads and in every run") {
   const auto allowed = allow(thread_counts.back());
-  REQUIRE(scenes::played_scene_names().size() == golden.size());
+  REQUIRE(scenes::played_scene_names().size() == golden_hashes.size());
   Played all;
-  for (const Golden& expected : golden)
+  for (const Golden& expected : golden_hashes)
     for (std::uint64_t repeat = 0; repeat < repeats(3); ++repeat)
       for (const unsigned threads : thread_counts) {
         if (!at_full_effort && threads != 4) continue;

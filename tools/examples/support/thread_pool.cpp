@@ -22,18 +22,22 @@ class Batch {
   void help() {
     for (unsigned index = next_.fetch_add(1); index < count_; index = next_.fetch_add(1)) {
       task_(index);
-      if (ended_.fetch_add(1) + 1 == count_) ended_.notify_all();
+      const std::lock_guard lock(mutex_);
+      if (++ended_ == count_) all_ended_.notify_all();
     }
   }
-  void wait() const {
-    for (unsigned now = ended_.load(); now < count_; now = ended_.load()) ended_.wait(now);
+  void wait() {
+    std::unique_lock lock(mutex_);
+    all_ended_.wait(lock, [this] { return ended_ == count_; });
   }
 
  private:
   const std::function<void(unsigned task)>& task_;
   unsigned count_;
   std::atomic<unsigned> next_{0};
-  std::atomic<unsigned> ended_{0};
+  std::mutex mutex_;  // guards the number below
+  unsigned ended_ = 0;
+  std::condition_variable all_ended_;
 };
 
 }  // namespace

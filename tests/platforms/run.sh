@@ -1,0 +1,22 @@
+#!/bin/sh
+# Builds core and scheduler for other platforms, and runs the programs that say whether they answer as here:
+#
+#   tests/platforms/run.sh RESULTS [PLATFORM...]    by default arm64 and windows
+#
+# RESULTS is a folder for the results of ctest. docs/platforms.md says what is compared.
+set -eu
+results=$1
+shift
+cd "$(dirname "$0")/../.."
+
+status=0
+[ "$#" -gt 0 ] || set -- arm64 windows
+for name in "$@"; do
+  echo "== $name"
+  cmake -G Ninja -S tests/platforms -B "build/$name" --toolchain "$PWD/tests/platforms/toolchains/$name.cmake" \
+    -DCMAKE_BUILD_TYPE=Release -DGRAZE_WARNINGS_AS_ERRORS=ON -DCMAKE_UNITY_BUILD=ON \
+    -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 >/dev/null
+  cmake --build "build/$name"
+  ctest --test-dir "build/$name" --verbose --timeout 900 --output-junit "$results/$name.xml" || status=1
+done
+exit "$status"
