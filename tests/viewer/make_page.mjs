@@ -327,7 +327,19 @@ function reportTable(reports, first, end, isOld) {
   return tableBytes({ diagnostics, frames_info: info }, a);
 }
 
-function seriesOf(reports) {
+/// The distance of a contact, negative where it lies behind a surface.
+export function separationOf({ kind, sunk, distance, side_a: a, side_b: b, features }) {
+  const [isVertexA, isVertexB] = [features[0] === 0, features[2] === 0];
+  const isBehind = kind === 'EE' ? sunk : distance !== 0 &&
+    (isVertexA || isVertexB ? (isVertexB && a === 2) || (isVertexA && b === 2) : a === 2 && b === 2);
+  return isBehind ? -distance : distance;
+}
+
+/// The smallest separation of some contacts, null where there are none.
+export const deepestOf = (contacts) => contacts.reduce((least, contact) => Math.min(least ?? Infinity, separationOf(contact)), null);
+
+/// Older data has no depths.
+function seriesOf(reports, isOld) {
   const impacts = reports.map((r) => r.pairs.reduce((sum, p) => sum + (p.sweep?.impacts.length ?? 0), 0));
   const count = (test) => reports.map((r) => r.pairs.filter(test).length);
   const times = (name) => reports.map((r) => r.info.statistics[name]);
@@ -344,6 +356,7 @@ function seriesOf(reports) {
     crossing: count((p) => p.inside === 'crossing'),
     diagnostics: reports.map((r) => r.diagnostics.length),
     ...(impacts.some((n) => n > 0) ? { impacts } : {}),
+    ...(isOld ? {} : { deepest: reports.map((r) => deepestOf(r.pairs.flatMap((p) => p.contacts))) }),
     read_ms: times('read_ms'), pairs_ms: times('pairs_ms'), refit_ms: times('refit_ms'), jobs_ms: times('jobs_ms'),
     publish_ms: times('publish_ms'), step_ms: times('step_ms'),
   };
@@ -691,7 +704,7 @@ export function sweptScene() {
     title: 'what meets between two steps', frames: 20, quantum: 2 ** -16, range: 3, contactDistance: 0.25, every: 1, pairs: [], answers,
     objects: [
       deformable('sheet', sheet, (f) => flat(sheet.points.map(([x, y]) => [x, y, level(f)]))),
-      posed('dart', 'rigid', dart, (f) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, tip(f)]),
+      posed('dart', 'rigid', dart, (f) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, tip(f)], { swept: true }),
       deformable('strip', strip, (f) => flat(stripAt(through(f))), { solid: true }),
     ],
   });
@@ -707,16 +720,18 @@ export function makePage(scene, level = 6) {
   const meshes = [...new Set(scene.objects.map((o) => o.mesh))];
   const head = {
     version: scene.isOld ? 1 : 2, graze: '0.2.0', title: scene.title, source: 'synthetic.json',
-    settings: { contact_distance: scene.contactDistance, range: scene.range, detail: 'features', accuracy: scene.accuracy ?? 'exact' },
+    settings: {
+      contact_distance: scene.contactDistance, range: scene.range, detail: 'features', accuracy: scene.accuracy ?? 'exact',
+      sweep_tolerance: 1e-6, swept_gap: 0.1 },
     frames: scene.frames, frame_numbers: reports.map((r) => r.info.frame), every: scene.every,
     source_frames: scene.frames * scene.every, block: scene.block,
     objects: scene.objects.map((o) => ({
-      serial: o.serial, name: o.name, motion: o.motion, ...(scene.isOld ? {} : { solid: o.solid ?? false }), mesh: meshes.indexOf(o.mesh), first: o.first, last: o.last,
+      serial: o.serial, name: o.name, motion: o.motion, ...(scene.isOld ? {} : { solid: o.solid ?? false, swept: o.swept ?? false }), mesh: meshes.indexOf(o.mesh), first: o.first, last: o.last,
       user_data: String(1000 + o.serial), position_error: o.motion === 'deformable' ? scene.quantum / 2 : 0 })),
     meshes: meshes.map((m, i) => ({
       chunk: `mesh/${i}`, vertices: m.points.length, edges: m.edges.length / 2, triangles: m.triangles.length,
       quads: m.quads.length, levels: 1 + Math.max(...m.regions.map((r) => r.level)) })),
-    series: seriesOf(reports),
+    series: seriesOf(reports, scene.isOld),
     ...(scene.diverged ? { diverged: scene.diverged } : {}),
   };
   const chunks = new Map();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <graze/scene_enumerators.hpp>
+#include <optional>
+#include <span>
 
 #include "report/report_fields.hpp"
 #include "report/statistics_fields.hpp"
@@ -38,7 +40,7 @@ void write_page_frame(JsonText& json, std::string_view key, std::int64_t frame) 
 void write_head_object(JsonText& json, const PageHeadObject& object, std::size_t serial) {
   json.open('{').key("serial").whole(serial).key("name").text(object.name);
   json.key("motion").text(name_of(object.motion)).key("solid").flag(object.solid);
-  json.key("mesh").whole(object.mesh);
+  json.key("swept").flag(object.swept).key("mesh").whole(object.mesh);
   write_page_frame(json, "first", object.first);
   write_page_frame(json, "last", object.last);
   json.key("user_data").text(std::to_string(object.user_data));
@@ -50,6 +52,11 @@ void write_head_mesh(JsonText& json, const MeshCounts& mesh, std::size_t number)
   json.key("vertices").whole(mesh.vertices).key("edges").whole(mesh.edges);
   json.key("triangles").whole(mesh.triangles).key("quads").whole(mesh.quads);
   json.key("levels").whole(mesh.levels).close('}');
+}
+
+std::optional<double> deepest_separation(std::span<const Contact> contacts) {
+  if (contacts.empty()) return std::nullopt;
+  return std::ranges::min_element(contacts, {}, &Contact::separation)->separation();
 }
 
 }  // namespace
@@ -81,6 +88,7 @@ void PageSeries::add(const FrameReport& report, bool include_times) {
   for (std::size_t i = 0; i < values.size(); ++i) counts_[i].push_back(values[i]);
   for (std::size_t i = 0; i < time_fields.size(); ++i)
     times_[i].push_back(include_times ? statistics.times.*time_fields[i].member : 0);
+  deepest_.push_back(deepest_separation(report.contacts()));
 }
 
 bool PageSeries::has_impacts() const {
@@ -97,6 +105,9 @@ void PageSeries::write(JsonText& json) const {
     for (const double time : times_[i]) json.real(time);
     json.close(']');
   }
+  json.key("deepest").open('[');
+  for (const std::optional<double>& separation : deepest_) separation ? json.real(*separation) : json.null();
+  json.close(']');
   json.close('}');
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <graze/io/page.hpp>
 #include <graze/report.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@ class PageSeries {
 
   std::array<std::vector<std::uint64_t>, count_names.size()> counts_;
   std::array<std::vector<double>, 6> times_;
+  std::vector<std::optional<double>> deepest_;  ///< the smallest separation; no value without contacts
 };
 
 /// An object in the head. It exists in the page's frames `first` to `last`, or in none if last < first.
@@ -35,6 +37,7 @@ struct PageHeadObject {
   std::string name;
   Motion motion = Motion::deformable;
   bool solid = false;
+  bool swept = false;
   std::size_t mesh = 0;
   std::int64_t first = 0;
   std::int64_t last = 0;

@@ -36,6 +36,7 @@ void PageObjects::add(ObjectId id, const PageObject& object, std::size_t mesh_nu
   written.name = object.name;
   written.motion = object.motion;
   written.solid = object.solid;
+  written.swept = object.swept;
   written.mesh_number = mesh_number;
   written.user_data = object.user_data;
   written.added = frame;

@@ -21,6 +21,7 @@ struct WrittenObject {
   std::string name;
   Motion motion = Motion::deformable;
   bool solid = false;
+  bool swept = false;
   std::size_t mesh_number = 0;
   std::uint64_t user_data = 0;
   std::uint64_t added = 0;                              ///< the first frame in which it exists

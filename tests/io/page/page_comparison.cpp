@@ -214,6 +214,8 @@ void compare_head(const DecodedPage& page, const PagePlay& scene, std::uint64_t 
   CHECK(head.at("objects").at(2).at("motion") == "fixed");
   CHECK(head.at("objects").at(0).at("solid") == false);
   CHECK(head.at("objects").at(2).at("solid") == true);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    CHECK(head.at("objects").at(i).at("swept") == scene.objects[i].page.swept);
   CHECK(head.at("meshes").size() == 2);
 }
 
@@ -235,6 +237,10 @@ void compare_series(const DecodedPage& page, const PagePlay& scene, std::uint64_
     CHECK(series.at("impacts").at(frame) == report.impacts().size());
     CHECK(series.at("diagnostics").at(frame) == report.diagnostics().size());
     CHECK(series.at("step_ms").at(frame) == report.statistics().times.step_ms);
+    nlohmann::json deepest;
+    for (const Contact& contact : report.contacts())
+      if (deepest.is_null() || contact.separation() < deepest.get<double>()) deepest = contact.separation();
+    CHECK(series.at("deepest").at(frame) == deepest);
   }
 }
 

@@ -76,12 +76,13 @@ Eigen::Isometry3d box_at(double moment) {
 
 PlayedObject& add(PagePlay& played, Scene& scene, io::PageObject object, std::uint64_t frame) {
   PlayedObject added;
+  object.swept = object.motion == Motion::rigid;
   added.id = scene.add(object.mesh, {.name = object.name,
                                      .motion = object.motion,
                                      .solid = object.solid,
                                      .user_data = object.user_data,
                                      .self = object.motion == Motion::deformable,
-                                     .swept = object.motion == Motion::rigid});
+                                     .swept = object.swept});
   added.page = std::move(object);
   added.added = frame;
   played.objects.push_back(std::move(added));

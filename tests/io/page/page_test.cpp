@@ -190,6 +190,7 @@ TEST_CASE("page: a step without impacts has no bytes of them, and a page without
   waves.close();
   const DecodedPage plain(folder / "waves.grazeview");
   CHECK_FALSE(plain.head().at("series").contains("impacts"));
+  CHECK(plain.head().at("series").at("deepest").at(0).is_null());
   CHECK_FALSE(plain.report(0).first->has("sweep_pair"));
   CHECK_FALSE(plain.report(0).first->has("impact_kind"));
 }

@@ -7,6 +7,7 @@ import { selectionKey, type Lists } from './panels/lists';
 import { parseSelection, selectionText, type Link } from './link';
 import { Screen } from './view3d/picking';
 import type { Player } from './player';
+import type { Plots } from './panels/plots';
 import type { Stage } from './view3d/scene3d';
 import type { Selection, Viewer } from './viewer';
 
@@ -33,6 +34,8 @@ export interface Hooks {
   impactWays(): { from: number[]; to: number[]; x: number; y: number }[];
   /** Where features meet between two steps, in the coordinates of the scene. */
   impactPlaces(): number[][];
+  /** The lines of the plot of the selection, by label, and its title. */
+  plotted(): { title: string; lines: Record<string, (number | null)[]> };
   pixels(): { width: number; height: number; data: Uint8Array };
   link(): string;
   stats(): Record<string, number>;
@@ -46,7 +49,7 @@ function onScreen(stage: Stage, { a, b }: { a: Vec3; b: Vec3 }, share: number): 
 }
 const median = (values: number[]): number => [...values].sort((p, q) => p - q)[values.length >> 1] ?? 0;
 
-export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: Lists, link: Link, ready: Promise<void>): Hooks {
+export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: Lists, plots: Plots, link: Link, ready: Promise<void>): Hooks {
   return {
     ready,
     error: null,
@@ -87,6 +90,7 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
     impactWays: () => stage.impacts.shown.map((line) => ({
       from: inScene(stage, line.a), to: inScene(stage, line.b), ...onScreen(stage, line, 0.25) })),
     impactPlaces: () => stage.impacts.places.map((place) => inScene(stage, place)),
+    plotted: () => plots.last(),
     pixels: () => stage.pixels(),
     link: () => link.text(),
     stats: () => ({

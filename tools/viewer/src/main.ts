@@ -2,11 +2,11 @@
 
 import { PageChunks } from './data/chunks';
 import { button, byId, copy, h, note } from './panels/dom';
-import { droppedAt } from './data/head';
+import { droppedAt, shownSettings } from './data/head';
 import { fillHelp } from './panels/help';
 import { makeHooks, type Hooks } from './hooks';
 import { solidsText } from './data/inside';
-import { HistoryReader } from './data/pair_history';
+import { HistoryReader } from './data/history';
 import { Inspector } from './panels/inspector';
 import { listenForKeys, setCommands, type Command } from './keys';
 import { Legend, toggleLevel } from './panels/legend';
@@ -84,7 +84,7 @@ function showTitle(): void {
   const { head } = viewer.page!;
   document.title = `${head.title} – graze`;
   byId('title').textContent = head.title;
-  const values = Object.entries(head.settings).map(([key, value]) => `${key.replaceAll('_', ' ')} ${settingText(value)}`);
+  const values = shownSettings(head).map(([key, value]) => `${key.replaceAll('_', ' ')} ${settingText(value)}`);
   const settings = [...values, solidsText(head)].filter((text) => text).join(' · ');
   byId('source').textContent = settings;
   byId('source').title = `${head.source} · graze ${head.graze} · ${head.frames} frames of ${head.source_frames}\n${settings}`;
@@ -195,13 +195,14 @@ function viewCommands(): Command[] {
     { group, keys: ['<', '>'], text: 'move the clip plane', run: () => {} },
     { group, keys: ['k'], text: 'contacts', run: () => flip('contacts') },
     { group, keys: ['m'], text: 'push directions', run: () => flip('pushes') },
+    { group, keys: ['Shift+m'], text: 'also of edges that pierce', run: () => flip('pierces') },
     { group, keys: ['s'], text: 'ways out of pairs', run: () => flip('ways') },
     { group, keys: ['q'], text: 'impacts between steps', run: () => flip('impacts') },
     { group, keys: ['o'], text: 'only contacts of the selection', run: () => {
       viewer.filter.onlySelected = !viewer.filter.onlySelected;
       viewer.changed();
     } },
-    { group, keys: ['x'], text: 'take all filters away', run: () => resetFilter(viewer) },
+    { group, keys: ['x'], text: 'take all filters and the search away', run: () => resetFilter(viewer) },
     { group, keys: ['l'], text: 'lines between middle vertices', run: () => flip('lines') },
     { group, keys: [1, 2, 3, 4, 5, 6, 7, 8, 9].map((level) => `Alt+${level}`), keysText: 'Alt+1 … Alt+9', text: 'lines of this level',
       run: (key) => toggleLevel(viewer, Number(key.at(-1))) },
@@ -304,4 +305,4 @@ ready.catch((error: Error) => {
   window.graze.error = error.message;
   note(error.message, true);
 });
-window.graze = makeHooks(viewer, stage, player, lists, link, ready);
+window.graze = makeHooks(viewer, stage, player, lists, plots, link, ready);

@@ -1,9 +1,11 @@
 // What is shown now: the page, the frame, the selection and the settings of the view. Panels listen to its changes.
 
 import type { ChunkSource } from './data/chunks';
+import type { History } from './data/history';
+import { groupOf } from './data/inside';
 import { Page } from './data/page';
-import type { PairHistory } from './data/pair_history';
 import type { FrameReport } from './data/report';
+import { Search } from './data/search';
 
 export type Selection =
   | { type: 'object'; object: number }
@@ -31,6 +33,8 @@ export interface Display {
   boundsOfAll: boolean;
   contacts: boolean;
   pushes: boolean;
+  /** Push directions of edges that pierce, which carry nothing. */
+  pierces: boolean;
   /** Ways out of pairs whose surfaces pass through each other. */
   ways: boolean;
   /** What meets between two steps. */
@@ -46,8 +50,12 @@ export interface Display {
   pick: PickMode;
 }
 
-/** Which contacts are shown. An empty bound is null. */
+/** Which pairs and contacts are shown. An empty bound is null. */
 export interface Filter {
+  /** What the search asks for. */
+  text: string;
+  phases: boolean[];
+  insides: boolean[];
   kinds: boolean[];
   /** For side a and side b: index 3·a + b. */
   sides: boolean[];
@@ -62,6 +70,7 @@ export type ViewerEvent = 'page' | 'frame' | 'selection' | 'history' | 'display'
 
 export function newFilter(): Filter {
   return {
+    text: '', phases: Array(4).fill(true), insides: Array(3).fill(true),
     kinds: Array(6).fill(true), sides: Array(9).fill(true),
     distanceFrom: null, distanceTo: null, ageFrom: null, ageTo: null, onlySelected: false,
   };
@@ -71,7 +80,7 @@ function newDisplay(): Display {
   return {
     surfaces: true, edges: true, opacity: 1, clip: false, clipAxis: 'x', clipAt: 0.5, clipFlipped: false,
     lines: true, hiddenLevels: new Set(), witnesses: true, bounds: 'off', boundsLevel: 1, boundsOfAll: false,
-    contacts: true, pushes: true, ways: true, impacts: true, arrowLength: 1, pointSize: 9, diagnostics: true, insides: true, names: false,
+    contacts: true, pushes: true, pierces: false, ways: true, impacts: true, arrowLength: 1, pointSize: 9, diagnostics: true, insides: true, names: false,
     hiddenObjects: new Set(), up: 'z', pick: 'auto',
   };
 }
@@ -81,14 +90,16 @@ export class Viewer {
   frame = -1;
   report: FrameReport | null = null;
   selection: Selection | null = null;
-  /** Of the selected pair, as far as it is read. */
-  history: PairHistory | null = null;
+  /** Of the selection, as far as it is read. */
+  history: History | null = null;
   readonly display = newDisplay();
   filter = newFilter();
   /** The camera goes to the next selection that is announced. */
   shouldFly = false;
   seekMs: number[] = [];
   private wanted = -1;
+  private searched: Search | null = null;
+  private readonly shownPairs = new Map<number, boolean>();
   private seeking: Promise<void> | null = null;
   private readonly listeners = new Map<ViewerEvent, (() => void)[]>();
 
@@ -97,6 +108,7 @@ export class Viewer {
   }
 
   emit(event: ViewerEvent): void {
+    if (event === 'page' || event === 'frame' || event === 'display') this.shownPairs.clear();
     for (const listener of this.listeners.get(event) ?? []) listener();
   }
 
@@ -145,10 +157,43 @@ export class Viewer {
     }
   }
 
-  /** The frame with most contacts, the first of several. */
+  /** The frame with most contacts, then most impacts, pairs in contact and near pairs. Of several it is the first. */
   busiestFrame(): number {
-    const contacts = this.page?.head.series.contacts ?? [];
-    return contacts.reduce((best, count, frame) => (count > contacts[best]! ? frame : best), 0);
+    const { series, frames } = this.page!.head;
+    const counts = (['contacts', 'impacts', 'in_contact', 'near'] as const).map((name) => series[name] ?? []);
+    const isBusier = (frame: number, than: number) => {
+      const differing = counts.find((values) => values[frame] !== values[than]);
+      return differing !== undefined && differing[frame]! > differing[than]!;
+    };
+    let best = 0;
+    for (let frame = 1; frame < frames; ++frame) if (isBusier(frame, best)) best = frame;
+    return best;
+  }
+
+  get search(): Search {
+    const { head } = this.page!;
+    if (!this.searched?.isOf(this.filter.text, head)) this.searched = new Search(this.filter.text, head);
+    return this.searched;
+  }
+
+  /** Whether lists and the picture show a pair of this frame. */
+  showsPair(row: number): boolean {
+    let isShown = this.shownPairs.get(row);
+    if (isShown === undefined) {
+      const { block } = this.report!;
+      isShown = this.filter.phases[block.phase[row]!]! && this.filter.insides[groupOf(block.insideOf(row))]! && this.search.hasPair(block, row);
+      this.shownPairs.set(row, isShown);
+    }
+    return isShown;
+  }
+
+  /** The objects that the search names, and those of pairs that are shown. Null without a search: all of them. */
+  namedObjects(): Set<number> | null {
+    const { page, report, search } = this;
+    if (!page || !report || search.isEmpty) return null;
+    const found = new Set(page.objects.map(({ index }) => index).filter((index) => search.hasObject(index)));
+    for (const row of report.pairs()) if (this.showsPair(row)) found.add(report.block.pairA[row]!).add(report.block.pairB[row]!);
+    return found;
   }
 
   select(selection: Selection | null, fly = false): void {
@@ -194,7 +239,8 @@ export class Viewer {
   passes(contact: number, pair: number): boolean {
     const { filter, report } = this;
     const { block } = report!;
-    if (!filter.kinds[block.kind[contact]!]) return false;
+    if (!this.showsPair(pair) || !filter.kinds[block.kind[contact]!]) return false;
+    if (!this.search.isEmpty && !this.search.hasContact(block, contact, pair)) return false;
     if (!filter.sides[3 * report!.sideA(contact) + report!.sideB(contact)]) return false;
     const distance = block.distance[contact]!;
     if (filter.distanceFrom !== null && distance < filter.distanceFrom) return false;

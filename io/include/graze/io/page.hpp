@@ -33,6 +33,8 @@ struct PageObject {
   /// ObjectSettings::solid of the object. The page says it, and draws a solid that is inside another one
   /// through the other.
   bool solid = false;
+  /// ObjectSettings::swept of the object. The page names the settings of sweeps if an object is swept.
+  bool swept = false;
 };
 
 /// Says what a page is of, and how large it may become.

@@ -6,6 +6,8 @@ export interface ObjectHead {
   motion: 'deformable' | 'rigid' | 'fixed';
   /** Not in older data. */
   solid?: boolean;
+  /** Not in older data. */
+  swept?: boolean;
   mesh: number;
   first: number;
   last: number;
@@ -44,7 +46,10 @@ export interface Head {
   objects: ObjectHead[];
   meshes: MeshHead[];
   /** `impacts` is missing where no frame has any. */
-  series: Partial<Record<Stage | Count | 'step_ms', number[]>>;
+  series: Partial<Record<Stage | Count | 'step_ms', number[]>> & {
+    /** The smallest separation of a frame's contacts, null where it has none. Not in older data. */
+    deepest?: (number | null)[];
+  };
   diverged?: number[];
   /** Page frames, and how many frames of the source are missing before each. */
   dropped?: [number, number][];
@@ -54,6 +59,15 @@ export interface Head {
 export function droppedAt(head: Head, frame: number): { before: number; after: number } {
   const missing = (at: number) => head.dropped?.find(([before]) => before === at)?.[1] ?? 0;
   return { before: missing(frame), after: frame === head.frames - 1 ? missing(head.frames) : 0 };
+}
+
+const SWEEP_SETTINGS = ['sweep_tolerance', 'swept_gap'];
+
+/** The settings of the scene. Those of sweeps are left out where nothing is swept. */
+export function shownSettings({ settings, objects, series }: Head): [key: string, value: unknown][] {
+  // Older data says only of what met that it was swept.
+  const isSwept = objects.some((object) => object.swept ?? series.impacts !== undefined);
+  return Object.entries(settings).filter(([key]) => isSwept || !SWEEP_SETTINGS.includes(key));
 }
 
 export function checkHead(value: unknown): Head {

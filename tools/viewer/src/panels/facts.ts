@@ -154,10 +154,12 @@ export function selectionFacts(viewer: Viewer): Facts | null {
 
 export function frameFacts(viewer: Viewer): Facts {
   const report = viewer.report!;
+  const depths = [...report.pairs()].map((row) => report.block.deepestOf(row)).filter((depth) => depth !== null);
   return {
     type: 'frame', page_frame: viewer.frame, frame: report.info.frame, tag: report.info.tag,
     complete: report.info.complete, diverged: viewer.page!.head.diverged?.includes(viewer.frame) ?? false,
     ...(report.diagnostics.length ? { diagnostics: report.diagnostics.map((d) => diagnosticText(viewer, d)) } : {}),
+    ...(depths.length ? { deepest_separation: Math.min(...depths) } : {}),
     statistics: report.info.statistics as Facts,
   };
 }

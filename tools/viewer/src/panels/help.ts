@@ -24,13 +24,13 @@ export function fillHelp(dialog: HTMLDialogElement): void {
       h('dl', {}, ...rows.flatMap(([keys, text]) => [h('dt', {}, keys), h('dd', {}, text)]))))),
     h('section', {}, h('h2', {}, 'What is drawn'), h('p', {},
       'A contact is a point on each of the two features. Its arrow begins on b, and leads where b is pushed out: along the ' +
-      'normal, or against it where the separation is negative. An edge that pierces a face has no arrow. Its colour is its kind. A disc lies in front of both surfaces, a ring behind one, a diamond where the two sides disagree, and a small ' +
+      'normal, or against it where the separation is negative. An edge that pierces a face carries nothing, and its arrow is off at first. Its colour is its kind. A disc lies in front of both surfaces, a ring behind one, a diamond where the two sides disagree, and a small ' +
       'dot where there is no side. Lines join the middle vertices of regions: red for level 1, green for 2, blue for 3. Grey ' +
       'lines are the witnesses of pairs. A thick purple arrow is the way out of a pair whose surfaces pass through each other. It begins in the ' +
       'middle of where they cross, leads where b leaves a, and is as long as the way is thick, or a little longer so that it is seen. Where ' +
       'features meet between the step before and this one, a narrowing teal line leads along the way of each vertex of them that moves. Both ' +
       'features are drawn where they meet, with a cross, in the colour of their kind. A page of each K-th frame has no steps before, and draws none of it. ' +
-      'In lists, a ⊂ b says that a is inside b, and a ✕ b that they cross; an object inside another ' +
+      'A search and the buttons over the list of pairs choose what lists and the picture show. In lists, a ⊂ b says that a is inside b, and a ✕ b that they cross; an object inside another ' +
       'one is seen through it. What lies behind a surface is fainter. Vertices of deformable objects are drawn to ' +
       'within the position error that the inspector shows; all numbers of reports are exact.')),
     h('section', {}, h('h2', {}, 'Licences'), ...LICENCES.map(({ name, version, text }) =>

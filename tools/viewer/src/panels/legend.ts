@@ -44,8 +44,8 @@ export class Legend {
       ++shown[kind]!;
       ++classes[sideClass(report.sideA(contact), report.sideB(contact))]!;
     }
-    const ways = [...report.pairs()].filter((row) => report.block.wayOutOf(row)?.direction.some((x) => x !== 0)).length;
-    const impacts = [...report.impacts()].length;
+    const ways = [...report.pairs()].filter((row) => viewer.showsPair(row) && report.block.wayOutOf(row)?.direction.some((x) => x !== 0)).length;
+    const impacts = [...report.impacts()].filter(([, pair]) => viewer.showsPair(pair)).length;
     this.element.replaceChildren(
       this.group('Contacts', KINDS.map((_, kind) => this.kindItem(kind, shown[kind]!, kinds[kind]!))),
       this.group('Sides', classes.map((n, i) => h('span', { class: 'key', title: `Contacts shown whose side is: ${CLASS_NAMES[i]}` },
@@ -88,11 +88,13 @@ export class Legend {
   private levelItems(): HTMLElement[] {
     const { display, report } = this.viewer;
     const counts = new Map<number, number>();
-    for (const row of report!.pairs())
+    for (const row of report!.pairs()) {
+      const shown = this.viewer.showsPair(row) ? 1 : 0;
       for (let r = report!.block.regionBegin[row]!; r < report!.block.regionEnd[row]!; ++r) {
         const level = report!.block.regionLevels[r]!;
-        counts.set(level, (counts.get(level) ?? 0) + 1);
+        counts.set(level, (counts.get(level) ?? 0) + shown);
       }
+    }
     for (const level of [1, 2, 3]) if (!counts.has(level)) counts.set(level, 0);
     return [...counts].sort((p, q) => p[0] - q[0]).map(([level, n]) => h('button', {
       type: 'button', class: 'key', 'aria-pressed': String(display.lines && !display.hiddenLevels.has(level)),

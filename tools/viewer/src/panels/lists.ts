@@ -1,7 +1,7 @@
 // Which objects, pairs and contacts are there, and how does one find one of them?
 
 import { count, h, short, swatch } from './dom';
-import { groupOf, INSIDE_GROUPS, INSIDES, insideWords, SHORT_GROUPS } from '../data/inside';
+import { groupOf, INSIDE_GROUPS, insideWords, SHORT_GROUPS } from '../data/inside';
 import { pairNames, pairText, type PairNames } from '../data/pair_names';
 import { KIND_COLOURS, palette, PHASE_COLOURS } from '../palette';
 import { KINDS, PHASES } from '../data/report';
@@ -10,7 +10,7 @@ import { VirtualList } from './virtual_list';
 
 type Tab = 'objects' | 'pairs' | 'contacts';
 interface Row {
-  key: string; selection: Selection; text: string; cells: (string | number)[]; colour: string; isFaint: boolean;
+  key: string; selection: Selection; cells: (string | number)[]; colour: string; isFaint: boolean;
   names?: Names;
 }
 /** The names of a pair's objects, whether one is inside the other, and what stands before them. */
@@ -58,11 +58,13 @@ export class Lists {
   tab: Tab = 'pairs';
   rows: Row[] = [];
   private selectedAt = -1;
-  private readonly phases = [true, true, true, true];
-  private readonly insides = [true, true, true];
   private readonly search = h('input', {
-    type: 'search', id: 'search', 'data-testid': 'search', placeholder: 'Search  ( / )', 'aria-label': 'Search the list',
-    input: () => this.show() }) as HTMLInputElement;
+    type: 'search', id: 'search', 'data-testid': 'search', placeholder: 'Search  ( / )', 'aria-label': 'Search lists and picture',
+    title: 'Names of objects, else serials, motions or states such as crossing. Lists and the picture show only what is named',
+    input: () => {
+      this.viewer.filter.text = this.search.value;
+      this.viewer.changed();
+    } }) as HTMLInputElement;
   private readonly tabs = h('div', { class: 'tabs', role: 'tablist' });
   private readonly chips = h('div', { class: 'chips' });
   private readonly heads = h('div', { class: 'heads' });
@@ -100,9 +102,8 @@ export class Lists {
 
   show(): void {
     if (!this.viewer.page || !this.viewer.report) return;
-    const all = this.tab === 'objects' ? this.objectRows() : this.tab === 'pairs' ? this.pairRows() : this.contactRows();
-    const words = this.search.value.toLowerCase().split(/\s+/).filter((word) => word);
-    this.rows = all.filter((row) => words.every((word) => row.text.includes(word)));
+    if (this.search.value !== this.viewer.filter.text) this.search.value = this.viewer.filter.text;
+    this.rows = this.tab === 'objects' ? this.objectRows() : this.tab === 'pairs' ? this.pairRows() : this.contactRows();
     this.sort();
     this.selectedAt = this.selectedIndex();
     this.showTabs();
@@ -125,9 +126,8 @@ export class Lists {
     const colours = palette().objects;
     return head.objects.map((object, i) => ({
       key: `o${i}`, selection: { type: 'object', object: i }, colour: colours[i % colours.length]!,
-      text: `${object.name} ${object.serial} ${object.motion}`.toLowerCase(), isFaint: !objects[i]!.isThere,
-      cells: [object.name || `object ${object.serial}`, pairs[i]!, contacts[i]!],
-    }));
+      isFaint: !objects[i]!.isThere, cells: [object.name || `object ${object.serial}`, pairs[i]!, contacts[i]!],
+    } satisfies Row)).filter((_, i) => this.viewer.search.hasObject(i));
   }
 
   private pairRows(): Row[] {
@@ -135,20 +135,15 @@ export class Lists {
     const { block } = this.viewer.report!;
     const rows: Row[] = [];
     for (const row of this.viewer.report!.pairs()) {
+      if (!this.viewer.showsPair(row)) continue;
       const phase = block.phase[row]!;
       const inside = block.insideOf(row);
-      if (!this.phases[phase] || !this.insides[groupOf(inside)]) continue;
       const [a, b] = [block.pairA[row]!, block.pairB[row]!];
-      const flags = block.flags[row]!;
-      const marks = (flags & 1 ? ' incomplete' : '') + (flags & 2 ? ' stale' : '') + (flags & 4 ? ' contacts_cut' : '');
-      const hasImpacts = (block.sweepOf(row)?.timeOfImpact ?? 1) < 1;
       const names = { ...pairNames(head, a, b, inside), inside };
-      const name = joined(names);
       rows.push({
         key: `p${a}-${b}`, selection: { type: 'pair', a, b }, colour: PHASE_COLOURS[phase]!, isFaint: phase === 3,
-        text: `${name} ${PHASES[phase]} ${inside ? `${INSIDES[inside]} ${INSIDE_GROUPS[groupOf(inside)]}` : ''}${marks}${hasImpacts ? ' impact' : ''} ${head.objects[a]!.serial} ${head.objects[b]!.serial}`.toLowerCase(),
-        names: { ...names, b: names.b + (flags ? ' ⚠' : '') },
-        cells: [name, block.deepestOf(row) ?? block.lower[row]!, block.contactEnd[row]! - block.contactBegin[row]!],
+        names: { ...names, b: names.b + (block.flags[row] ? ' ⚠' : '') },
+        cells: [joined(names), block.deepestOf(row) ?? block.lower[row]!, block.contactEnd[row]! - block.contactBegin[row]!],
       });
     }
     return rows;
@@ -168,8 +163,7 @@ export class Lists {
       const names = { lead: KINDS[kind] ?? '?', ...pairNames(head, block.pairA[pair]!, block.pairB[pair]!, inside), inside };
       rows.push({
         key: selectionKey(selection), selection, colour: KIND_COLOURS[kind] ?? '#999999', isFaint: false,
-        text: joined(names).toLowerCase(), names,
-        cells: [joined(names), report.separation(contact), report.age(contact)],
+        names, cells: [joined(names), report.separation(contact), report.age(contact)],
       });
     }
     return rows;
@@ -200,6 +194,7 @@ export class Lists {
   private showChips(): void {
     this.chips.hidden = this.tab !== 'pairs';
     if (this.chips.hidden) return;
+    const { filter } = this.viewer;
     const report = this.viewer.report!;
     const phases = [0, 0, 0, 0];
     const insides = [0, 0, 0];
@@ -210,9 +205,9 @@ export class Lists {
     const hasSolids = this.viewer.page!.head.objects.some((object) => object.solid);
     const marks = ['–', '⊂', '✕'];
     this.chips.replaceChildren(
-      ...PHASES.map((name, i) => this.chip(this.phases, i, `phase-${name}`, `Show pairs that are ${name}`,
+      ...PHASES.map((name, i) => this.chip(filter.phases, i, `phase-${name}`, `Show pairs that are ${name}`,
         swatch(PHASE_COLOURS[i]!), name, phases[i]!)),
-      ...(hasSolids ? INSIDE_GROUPS.map((name, i) => this.chip(this.insides, i, `inside-${name}`,
+      ...(hasSolids ? INSIDE_GROUPS.map((name, i) => this.chip(filter.insides, i, `inside-${name}`,
         ['Show pairs of which neither is inside the other', 'Show pairs of which one is inside the other', 'Show pairs that cross'][i]!,
         h('i', { class: `mark in${[0, 1, 3][i]}` }, marks[i]!), SHORT_GROUPS[i]!, insides[i]!)) : []));
   }
@@ -223,16 +218,17 @@ export class Lists {
       type: 'button', class: 'chip', 'aria-pressed': String(shown[i]), 'data-testid': id, title,
       click: () => {
         shown[i] = !shown[i];
-        this.show();
+        this.viewer.changed();
       } }, sign, name, h('small', {}, count(n)));
   }
 
   private showHeads(): void {
     const order = this.order[this.tab];
+    this.heads.className = `heads ${this.tab}`;
     this.heads.replaceChildren(...COLUMNS[this.tab].map((column, i) => h('button', {
       type: 'button', class: column.isNumber ? 'number' : '', title: `${column.title}. Click to sort`,
       'data-testid': `sort-${column.name}`, click: () => this.sortBy(i) },
-      column.name + (order?.column === i ? (order.isDown ? ' ↓' : ' ↑') : ''))));
+      column.name + (order?.column === i ? (order.isDown ? '↓' : '↑') : ''))));
   }
 
   /** Up, then down, then the report's own order. */

@@ -1,4 +1,4 @@
-// How do numbers run over the frames: contacts, near pairs, times by stage, bounds of the selected pair?
+// How do numbers run over the frames: contacts, near pairs, times by stage, distances of the selection?
 
 import uPlot from 'uplot';
 import { h, short } from './dom';
@@ -23,7 +23,7 @@ export class Plots {
 
   private plots(): Plot[] {
     const { head } = this.viewer.page!;
-    const series = (name: keyof typeof head.series) => head.series[name] ?? [];
+    const series = (name: Exclude<keyof typeof head.series, 'deepest'>) => head.series[name] ?? [];
     const { neutral } = palette();
     const green = isDark() ? '#19c795' : '#009e73';
     return [
@@ -42,14 +42,22 @@ export class Plots {
     ];
   }
 
-  /** The last plot is that of the selected pair. */
+  /** The last plot is that of the selection. Without one it has the deepest separation of each frame. */
   private pairPlot(): Plot {
-    const { history } = this.viewer;
+    const { history, page } = this.viewer;
     const { selected, second, way } = palette();
-    return { title: 'Pair', id: 'bounds', lines: [
+    const title = history ? (history.of === 'pair' ? 'Pair' : 'Object') : 'All';
+    return { title, id: 'bounds', lines: [
       { label: 'lower', colour: selected, values: history?.lower ?? [] },
       { label: 'upper', colour: second, values: history?.upper ?? [] },
-      { label: 'deepest', colour: way, values: history?.deepest ?? [] }] };
+      { label: 'deepest', colour: way, values: history?.deepest ?? page!.head.series.deepest ?? [] }] };
+  }
+
+  /** What the last plot shows. */
+  last(): { title: string; lines: Record<string, (number | null)[]> } {
+    const chart = this.charts.at(-1)!;
+    const title = this.element.lastElementChild!.querySelector('.u-legend .u-label')!.textContent!;
+    return { title, lines: Object.fromEntries(chart.series.slice(1).map((line, i) => [String(line.label), Array.from(chart.data[i + 1]!, (value) => value ?? null)])) };
   }
 
   private make(): void {
@@ -59,9 +67,11 @@ export class Plots {
     this.element.replaceChildren();
     const frames = this.viewer.page.head.frame_numbers.map((_, f) => f);
     for (const plot of this.plots()) {
-      const isUnasked = plot.id === 'bounds' && this.viewer.selectedPair() === null;
-      const box = h('div', { class: `plot${isUnasked ? ' unasked' : ''}`, 'data-testid': `plot-${plot.id}` });
-      if (plot.id === 'bounds') box.append(h('p', { class: 'hint' }, 'Select a pair or a contact'));
+      const box = h('div', { class: 'plot', 'data-testid': `plot-${plot.id}` });
+      if (plot.id === 'bounds') {
+        box.append(h('p', { class: 'hint' }, 'Select a pair or a contact'));
+        this.showSubject(box, plot);
+      }
       this.element.append(box);
       this.charts.push(this.chart(plot, frames, box));
     }
@@ -78,7 +88,7 @@ export class Plots {
       cursor: { sync: { key: 'graze' }, y: false, points: { size: 5 }, drag: { x: false, y: false } },
       legend: { live: true },
       scales: { x: { time: false }, y: { range: (_, low, high) => range(low, high, plot.id === 'bounds') } },
-      axes: [{ ...axis, size: 18, gap: 2 }, { ...axis, size: 42, gap: 3, values: (_, ticks) => ticks.map((x) => String(Number(x.toPrecision(4)))) }],
+      axes: [{ ...axis, size: 18, gap: 2 }, { ...axis, size: 42, gap: 3, space: 16, values: (_, ticks) => ticks.map((x) => String(Number(x.toPrecision(4)))) }],
       series: [{ label: plot.title, value: (_, frame) => frame === null ? '' : String(frame) }, ...plot.lines.map((line) => ({
         label: line.label, stroke: line.colour, width: 1.25, points: { show: false },
         // Six values do not fit; those of the stages are in the inspector.
@@ -130,9 +140,19 @@ export class Plots {
   private showBounds(): void {
     const chart = this.charts.at(-1);
     if (!chart) return;
-    chart.setData([chart.data[0]!, ...this.pairPlot().lines.map(({ values }) => this.filled(values))] as uPlot.AlignedData);
-    this.element.lastElementChild!.classList.toggle('unasked', this.viewer.selectedPair() === null);
+    const plot = this.pairPlot();
+    chart.setData([chart.data[0]!, ...plot.lines.map(({ values }) => this.filled(values))] as uPlot.AlignedData);
+    const box = this.element.lastElementChild!;
+    box.querySelector('.u-legend .u-label')!.textContent = plot.title;
+    this.showSubject(box, plot);
     this.mark();
+  }
+
+  /** Without a selection there are no bounds, and in older data no depths either. */
+  private showSubject(box: Element, { lines }: Plot): void {
+    const isOfAll = this.viewer.history === null;
+    box.classList.toggle('ofall', isOfAll);
+    box.classList.toggle('unasked', isOfAll && lines.every(({ values }) => values.every((value) => value === null)));
   }
 }
 

@@ -94,6 +94,7 @@ export class ShowPanel {
 
   private contacts(): HTMLElement {
     return this.group('Contacts', this.flag('contacts', 'Points', 'K'), this.flag('pushes', 'Push directions', 'M'),
+      this.flag('pierces', 'Also of edges that pierce', 'Shift+M'),
       this.flag('ways', 'Ways out of pairs', 'S'),
       this.flag('impacts', 'Impacts between steps', 'Q'),
       this.flag('diagnostics', 'Diagnostics'),
@@ -102,7 +103,7 @@ export class ShowPanel {
 
   private filter(): HTMLElement {
     const { filter } = this.viewer;
-    return this.group('Filter of contacts',
+    return this.group('Filter of pairs and contacts',
       this.sides(),
       this.range('Distance', 'distanceFrom', 'distanceTo'), this.range('Age', 'ageFrom', 'ageTo'),
       h('label', { class: 'flag' }, h('input', {
@@ -111,7 +112,7 @@ export class ShowPanel {
           filter.onlySelected = !filter.onlySelected;
           this.viewer.changed();
         } }), h('span', {}, 'Only of the selection'), h('kbd', {}, 'O')),
-      button('Show all contacts', 'filter-reset', 'Take all filters away (X)', () => resetFilter(this.viewer)));
+      button('Show all', 'filter-reset', 'Take all filters and the search away (X)', () => resetFilter(this.viewer)));
   }
 
   /** A table of side a by side b. A cell switches the contacts with these two sides. */

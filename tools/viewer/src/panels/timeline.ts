@@ -2,6 +2,7 @@
 
 import { button, h } from './dom';
 import { droppedAt } from '../data/head';
+import type { Mark } from '../data/history';
 import { palette, PHASE_COLOURS } from '../palette';
 import { SPEEDS, type Player } from '../player';
 import type { Viewer } from '../viewer';
@@ -73,13 +74,14 @@ export class Timeline {
     return null;
   }
 
+  /** While something is selected, lanes are those of its pairs. Frames that are dropped or diverged lack every pair. */
   private lanes(): Lane[] {
     const { head } = this.viewer.page!;
     const diverged = new Set(head.diverged ?? []);
-    const has = (name: keyof typeof head.series) => (f: number) => (head.series[name]?.[f] ?? 0) > 0;
     const { history } = this.viewer;
+    const has = (name: Exclude<Mark, 'touching'>) => (f: number) => ((history?.marks[name] ?? head.series[name])?.[f] ?? 0) > 0;
     return [
-      ...(history ? [{ name: 'selected pair', colour: () => palette().selected, test: (f: number) => history.isTouching[f] ?? false, isState: true }] : []),
+      ...(history ? [{ name: `selected ${history.of}`, colour: () => palette().selected, test: (f: number) => history.marks.touching[f]! > 0, isState: true }] : []),
       { name: 'began', colour: () => PHASE_COLOURS[1]!, test: has('began') },
       { name: 'ended', colour: () => PHASE_COLOURS[3]!, test: has('ended') },
       { name: 'impacts', colour: () => palette().way, test: has('impacts'), isState: true },

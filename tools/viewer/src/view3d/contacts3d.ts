@@ -116,7 +116,7 @@ export class ContactsLayer implements Layer {
         this.segments.add(a, b, colour, 150);
       }
       const length = display.arrowLength * arrowLength(stage, block.pairA[pair]!, block.pairB[pair]!);
-      const hasPush = display.pushes && !report.pierces(contact);
+      const hasPush = display.pushes && (display.pierces || !report.pierces(contact));
       this.arrows.push(hasPush ? addArrow(this.segments, this.heads, b, report.push(contact), length, colour) : null);
       this.shown.push([contact, pair]);
       this.places.push(middle);

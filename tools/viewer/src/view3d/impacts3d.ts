@@ -46,7 +46,7 @@ export class ImpactsLayer implements Layer {
     for (const [impact, pair] of report?.impacts() ?? []) {
       const { block } = report!;
       const [a, b] = [block.pairA[pair]!, block.pairB[pair]!];
-      if (!stage.isDrawn(a) && !stage.isDrawn(b)) continue;
+      if (!stage.viewer.showsPair(pair) || (!stage.isDrawn(a) && !stage.isDrawn(b))) continue;
       const isOther = chosen && (chosen.a !== a || chosen.b !== b);
       const alpha = isOther ? FAINT : block.impactStatus[impact] === 1 ? POSSIBLE : 255;
       const colour = KIND_COLOURS[block.impactKind[impact]!] ?? '#999999';

@@ -45,7 +45,7 @@ export class LinesLayer implements Layer {
     const { report } = stage.viewer;
     if (!report) return;
     for (const pair of report.pairs())
-      if (stage.isDrawn(report.block.pairA[pair]!) && stage.isDrawn(report.block.pairB[pair]!)) yield pair;
+      if (stage.viewer.showsPair(pair) && stage.isDrawn(report.block.pairA[pair]!) && stage.isDrawn(report.block.pairB[pair]!)) yield pair;
   }
 
   /** Very many lines are drawn thinner in colour and without their ends, so that surfaces stay in sight. */

@@ -54,6 +54,8 @@ export class Stage {
   private isWanted = false;
   private isStale = true;
   private size = '';
+  /** The objects that the search names, or null without a search. */
+  private named: Set<number> | null = null;
 
   constructor(readonly viewer: Viewer, readonly canvas: HTMLCanvasElement) {
     this.renderer = makeRenderer(canvas);
@@ -82,6 +84,7 @@ export class Stage {
 
   refresh(): void {
     this.isStale = true;
+    this.named = this.viewer.namedObjects();
     this.ask();
   }
 
@@ -123,7 +126,12 @@ export class Stage {
   }
 
   isDrawn(object: number): boolean {
-    return !!this.viewer.page?.objects[object]?.isThere && !this.viewer.display.hiddenObjects.has(object);
+    return !!this.viewer.page?.objects[object]?.isThere && !this.isHidden(object);
+  }
+
+  /** Objects are hidden one by one, or by a search that names others. */
+  private isHidden(object: number): boolean {
+    return this.viewer.display.hiddenObjects.has(object) || this.named?.has(object) === false;
   }
 
   /** Whether the clip plane leaves a point, given relative to the origin. */
@@ -155,6 +163,7 @@ export class Stage {
   }
 
   private openPage(): void {
+    this.named = null;
     for (const surface of this.surfaces) {
       this.scene.remove(surface.object);
       surface.dispose();
@@ -213,7 +222,7 @@ export class Stage {
       surface.sync();
       const selected = selection?.type === 'object' || selection?.type === 'pair' ? chosen.indexOf(i) + 1 : 0;
       const look = { faces: display.surfaces, edges: display.edges, opacity: display.opacity, selected, isInside: inside.has(i) };
-      surface.look(look, colours, display.hiddenObjects.has(i));
+      surface.look(look, colours, this.isHidden(i));
     });
     this.measure();
     for (const layer of this.layers) layer.update(this);

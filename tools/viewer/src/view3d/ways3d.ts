@@ -38,7 +38,8 @@ export class WaysLayer implements Layer {
       const { block } = report!;
       const way = block.wayOutOf(pair);
       const [a, b] = [block.pairA[pair]!, block.pairB[pair]!];
-      if (!way?.direction.some((x) => x !== 0) || (!stage.isDrawn(a) && !stage.isDrawn(b))) continue;
+      if (!way?.direction.some((x) => x !== 0) || !stage.viewer.showsPair(pair)) continue;
+      if (!stage.isDrawn(a) && !stage.isDrawn(b)) continue;
       const length = Math.max(way.thickness, 2.5 * display.arrowLength * arrowLength(stage, a, b));
       const [from, to] = addArrow(this.shafts, this.heads, stage.local(way.point), way.direction, length, crossing);
       this.starts.add(from, crossing, SHAPE.disc, 8);
