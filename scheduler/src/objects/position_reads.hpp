@@ -27,7 +27,7 @@ class MemoryObserver {
   virtual void see_memory(const Object& object) noexcept = 0;
 };
 
-/// What all reads of a step are about.
+/// The step that reads belong to.
 struct ReadsOfStep {
   std::uint64_t first_unseen = 0;      ///< the serial of the first object that no step has seen
   MemoryObserver* observer = nullptr;  ///< null where nobody looks
@@ -90,7 +90,7 @@ class PositionReads {
     std::uint64_t serial;
     Diagnostic diagnostic;
   };
-  /// What a task that reads small objects has counted.
+  /// Counts of a task that reads small objects.
   struct Counts {
     std::size_t unread = 0;
     std::size_t surveyed = 0;
@@ -129,7 +129,7 @@ class PositionReads {
   std::vector<Object*> large_;
   std::size_t vertices_expected_ = 0;  ///< of the small ones: of the last read, and of those listed since
 
-  // What a read is about:
+  // Listed by each read:
   std::vector<Object*> planned_;        ///< objects that are planned and read as one
   std::vector<LargeObject> in_parts_;   ///< large ones
   std::vector<Part> parts_;             ///< of all of these

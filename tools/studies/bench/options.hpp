@@ -14,7 +14,7 @@
 
 namespace graze::tools {
 
-/// What `graze_studies bench` was asked for.
+/// The options of `graze_studies bench`.
 struct BenchOptions {
   std::vector<std::string> scenes = {"S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"};
   std::vector<std::string> tasks = {"A", "B", "D"};

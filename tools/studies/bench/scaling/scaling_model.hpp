@@ -19,11 +19,11 @@ struct ModelStep {
   double length = 0;
   std::vector<ModelRound> rounds;
 
-  /// What no round has.
+  /// The time that is in no round.
   [[nodiscard]] double serial() const;
 };
 
-/// What threads cost, in nanoseconds. The first three were measured on sixteen processors.
+/// The prices of threads, in nanoseconds. The first three were measured on sixteen processors.
 struct ThreadPrices {
   double round = 1'000;     ///< to begin a round with threads that are awake
   double wake = 60'000;     ///< until a thread comes that sleeps

@@ -26,7 +26,7 @@ constexpr std::array predicted_threads{2U, 4U, 8U, 16U, 32U, 64U};
 constexpr std::size_t warm_up = 3;
 constexpr std::array<const char*, 5> stage_names{"read", "pairs", "refit", "jobs", "publish"};
 
-/// What a stage is made of, in ms.
+/// The parts of a stage, in ms.
 struct Stage {
   double serial = 0;
   double tasks = 0;
@@ -105,7 +105,7 @@ double median_ms(const Steps& steps, const Number& number) {
   return tools::Distribution(values).median();
 }
 
-/// What so many threads of this machine give.
+/// Figures of so many threads of this machine.
 struct Measured {
   unsigned threads = 1;
   double first_ms = 0;
