@@ -54,6 +54,8 @@ void PairJobs::list_tested() {
   order_.clear();
   for (std::uint32_t index = 0; index < jobs_.size(); ++index)
     if (jobs_[index].is_tested()) order_.push_back(index);
+  // Any of them may be long, or not.
+  for (auto* const list : {&small_jobs_, &long_jobs_}) list->reserve(order_.capacity());
 }
 
 /// The number of contacts that the report repeats, since their pairs are not tested.
@@ -129,8 +131,12 @@ void PairJobs::run_group(std::span<const std::uint32_t> jobs) {
   large_.run_slices();
 }
 
+bool PairJobs::is_long(const PairJob& job) const {
+  return !settings_.time_budget && work_.is_long(job.memory->nanoseconds);
+}
+
 /// Large pairs come first, then small ones that took long in the last step, the longest first. So no worker
-/// begins a long job when the others are done.
+/// begins a long job when the others are done. With a time budget only urgency counts.
 void PairJobs::list_group(std::span<const std::uint32_t> jobs) {
   small_jobs_.clear();
   long_jobs_.clear();
@@ -140,7 +146,7 @@ void PairJobs::list_group(std::span<const std::uint32_t> jobs) {
     if (job.is_large())
       large_.add(index, job);
     else
-      (work_.is_long(job.memory->nanoseconds) ? long_jobs_ : small_jobs_).push_back(index);
+      (is_long(job) ? long_jobs_ : small_jobs_).push_back(index);
   }
   std::sort(long_jobs_.begin(), long_jobs_.end(), [&](std::uint32_t left, std::uint32_t right) {
     return std::tuple(-jobs_[left].memory->nanoseconds, left) <

@@ -59,6 +59,7 @@ class PairJobs {
   void sort_by_urgency();
   void run_by_urgency();
   void run_within_work(std::uint64_t budget);
+  [[nodiscard]] bool is_long(const PairJob& job) const;
   void list_group(std::span<const std::uint32_t> jobs);
   void run_group(std::span<const std::uint32_t> jobs);
   void detect(std::uint32_t index, unsigned worker, std::uint64_t work_limit);

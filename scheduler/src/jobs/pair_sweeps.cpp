@@ -63,6 +63,7 @@ void PairSweeps::make_boxes(const SweptObjects& objects) {
     Object& object = *on_the_way_[index];
     const AccessScope access({AccessRight::write(&object), {}});
     object.sweep->motion.make_boxes(object.surface(), objects.moves(object));
+    bytes_.count(object);
   };
   tasks_.run(on_the_way_.size(), std::cref(make));
 }

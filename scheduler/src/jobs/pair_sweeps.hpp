@@ -12,6 +12,7 @@
 #include "base/task_pool.hpp"
 #include "core/mesh/pair_room.hpp"
 #include "core/sweep/pair_sweep.hpp"
+#include "objects/object_bytes.hpp"
 #include "objects/swept_objects.hpp"
 #include "pairs/pair_job.hpp"
 
@@ -31,8 +32,8 @@ struct SweptJob : SweepFinding {
 /// shared buffer. Motions are only read once their boxes are made.
 class PairSweeps {
  public:
-  PairSweeps(const SceneSettings& settings, TaskPool& tasks)
-      : settings_(settings), limit_(settings), tasks_(tasks), impacts_(tasks.worker_count()) {}
+  PairSweeps(const SceneSettings& settings, TaskPool& tasks, ObjectBytes& bytes)
+      : settings_(settings), limit_(settings), tasks_(tasks), bytes_(bytes), impacts_(tasks.worker_count()) {}
 
   /// Sweeps all pairs that ask for it, and tells their jobs whether they met. The time budget began at
   /// `start`.
@@ -71,6 +72,7 @@ class PairSweeps {
   const SceneSettings& settings_;
   const ContactLimit limit_;
   TaskPool& tasks_;
+  ObjectBytes& bytes_;
   std::chrono::steady_clock::time_point deadline_;
   std::span<const PairJob> jobs_;
   const SweptObjects* objects_ = nullptr;

@@ -182,13 +182,15 @@ void ObjectStore::apply(const SettlePose& call) {
   Object* const object = find(call.object);
   if (object == nullptr || !is_new(*object) || !object->is_posed()) return;
   object->is_settled = true;
-  if (object->pose) settle_pose(*object);
+  if (!object->pose) return;
+  settle_pose(*object);
+  bytes_.count(*object);
 }
 
 void ObjectStore::apply(SetPositions& call) {
   Object* const object = find(call.object);
   if (object == nullptr || is_outdated(call)) return;
-  reads_.expect(*object);
+  reads_.expect(*object, std::isinf(call.max_displacement));
   object->bound.reset();
   object->positions = std::move(call.positions);
   object->box_of_positions = call.box;
@@ -252,7 +254,7 @@ void ObjectStore::apply(const PositionsChanged& call) {
     if (std::isinf(call.max_displacement)) object->promises.motion = call.max_displacement;
     return;
   }
-  reads_.expect(*object);
+  reads_.expect(*object, std::isinf(call.max_displacement));
   object->bound->notify(steps_ + 1);
   object->promises.next = call.max_displacement;
   if (std::isfinite(call.max_displacement)) object->promises.are_made = true;
@@ -349,7 +351,7 @@ void ObjectStore::read_unread(std::span<Object* const> wanted, TaskPool& tasks,
 }
 
 ReadsOfStep ObjectStore::reads_of_step() const {
-  return {first_unseen_, observer_};
+  return {first_unseen_, objects_.size(), observer_};
 }
 
 /// Lets promises count from the rest positions of new objects and new meshes without input. Notes which of

@@ -31,6 +31,13 @@ constexpr std::size_t least_batches = 64;
 /// About how long it takes on one thread to read a vertex.
 constexpr double nanoseconds_each_vertex = 2;
 constexpr double nanoseconds_each_written = 1;
+/// To plan the read of an object takes about as long, whether or not it is read then.
+constexpr double nanoseconds_each_plan = 40;
+
+double nanoseconds_of(std::size_t planned, std::size_t vertices) {
+  return nanoseconds_each_plan * static_cast<double>(planned) +
+         nanoseconds_each_vertex * static_cast<double>(vertices);
+}
 
 constexpr std::size_t batches_of(std::size_t count, std::size_t each) {
   return (count + each - 1) / each;
@@ -42,10 +49,11 @@ constexpr std::size_t objects_of_batch(std::size_t count) {
 
 }  // namespace
 
-void PositionReads::expect(Object& object) {
+void PositionReads::expect(Object& object, bool is_read) {
+  const bool is_new_here = !object.may_have_input || object.is_unread();
+  if (!object.in_parts && is_read && is_new_here) vertices_expected_ += object.mesh->vertex_count();
   if (object.may_have_input) return;
   (object.in_parts ? large_ : small_).push_back(&object);
-  if (!object.in_parts) vertices_expected_ += object.mesh->vertex_count();
   object.may_have_input = true;
 }
 
@@ -73,6 +81,7 @@ void PositionReads::drop_those_without_input() {
 
 void PositionReads::reserve(std::size_t count) {
   small_.reserve(count);
+  large_.reserve(count);
   planned_.reserve(count);
   found_.reserve(count);
 }
@@ -98,10 +107,10 @@ void PositionReads::read(const ReadsOfStep& step, bool has_changed, TaskPool& ta
   drop_those_without_input();
   changed_ = has_changed;
   unread_count_ = surveyed_count_ = vertices_read_ = 0;
-  if (step.observer != nullptr) was_read_.resize(small_.size());
+  if (step.observer != nullptr) note_which_are_read();
   make_room_for_late();
   plan_large();
-  read_all(small_, vertices_expected_ + vertices_to_read_, tasks);
+  read_all(small_, nanoseconds_of(small_.size(), vertices_expected_ + vertices_to_read_), tasks);
   vertices_expected_ = vertices_read_;
   report_problems(diagnostics);
   if (step.observer != nullptr) show_what_was_read();
@@ -109,8 +118,15 @@ void PositionReads::read(const ReadsOfStep& step, bool has_changed, TaskPool& ta
 
 /// Any object may be read late.
 void PositionReads::make_room_for_late() {
-  const std::size_t count = small_.size() + large_.size();
+  const std::size_t count = step_.objects;
   if (planned_.capacity() < count) planned_.reserve(with_growth_room(count));
+  if (found_.capacity() < count) found_.reserve(with_growth_room(count));
+}
+
+void PositionReads::note_which_are_read() {
+  const std::size_t count = small_.size();
+  if (was_read_.capacity() < count) was_read_.reserve(with_growth_room(count));
+  was_read_.resize(count);
 }
 
 void PositionReads::plan_large() {
@@ -130,7 +146,7 @@ void PositionReads::read_unread(std::span<Object* const> wanted, const ReadsOfSt
     if (!object->is_surveyed()) --unread_count_;
     plan_late(*object);
   }
-  read_all({}, vertices_to_read_, tasks);
+  read_all({}, nanoseconds_of(0, vertices_to_read_), tasks);
   report_problems(diagnostics);
   if (step.observer == nullptr) return;
   for (Object* const object : wanted) show_memory(*object);
@@ -158,8 +174,9 @@ bool PositionReads::plan(Object& object, Counts& counts) const {
   else
     object.plan = surveys ? ReadPlan::survey : ReadPlan::read;
   // A pose that is refused later leaves the object as it is, read or surveyed.
+  // So does one that a step without memory for it has not read.
   if (object.was_surveyed())
-    object.state = object.pose ? ReadState::surveyed : ReadState::due;
+    object.state = object.is_posed() ? ReadState::surveyed : ReadState::due;
   else
     object.state = ReadState::read;
   return true;
@@ -208,7 +225,7 @@ void PositionReads::add(const Counts& counts) {
 }
 
 /// Reads what is planned. Plans and reads the objects in `small`.
-void PositionReads::read_all(std::span<Object*> small, std::size_t vertices, TaskPool& tasks) {
+void PositionReads::read_all(std::span<Object*> small, double nanoseconds, TaskPool& tasks) {
   // A task writes its own objects, and their own entries of `small` and `found_`. Or it reads its own
   // vertices of a large object and writes its own part. Tasks share only counts.
   const std::size_t listed = planned_.size() + in_parts_.size();
@@ -226,8 +243,7 @@ void PositionReads::read_all(std::span<Object*> small, std::size_t vertices, Tas
     read_small(small, begin, std::min(begin + of_small, small.size()));
   };
   // The lambda is passed by reference, since std::function would allocate for what it captures.
-  tasks.run(planned_end + batches_of(small.size(), of_small), std::cref(read),
-            {.nanoseconds = nanoseconds_each_vertex * static_cast<double>(vertices)});
+  tasks.run(planned_end + batches_of(small.size(), of_small), std::cref(read), {.nanoseconds = nanoseconds});
   finish_large(tasks);
 }
 

@@ -30,6 +30,7 @@ class MemoryObserver {
 /// The step that reads belong to.
 struct ReadsOfStep {
   std::uint64_t first_unseen = 0;      ///< the serial of the first object that no step has seen
+  std::size_t objects = 0;             ///< how many there are
   MemoryObserver* observer = nullptr;  ///< null where nobody looks
 };
 
@@ -42,8 +43,9 @@ class PositionReads {
   PositionReads(bool with_blocks, const SweptObjects& swept, ObjectBytes& bytes)
       : with_blocks_(with_blocks), swept_(swept), bytes_(bytes) {}
 
-  /// Lists an object for the next read, where it is not listed.
-  void expect(Object& object);
+  /// Lists an object for the next read, where it is not listed. `is_read` says that no promise will keep it
+  /// unread.
+  void expect(Object& object, bool is_read = true);
   /// Makes room for one more object. Then `expect` and `sort_in` do not throw the next time.
   void make_room_for_one();
   /// Lists an object that has another mesh as what it is now, small or large.
@@ -102,6 +104,7 @@ class PositionReads {
   void begin(const ReadsOfStep& step);
   void drop_those_without_input();
   void make_room_for_late();
+  void note_which_are_read();
   void plan_large();
   bool plan(Object& object, Counts& counts) const;
   static void leave_unread(Object& object, Counts& counts);
@@ -109,7 +112,7 @@ class PositionReads {
   void list_planned(Object& object);
   void list_in_parts(Object& object);
   void add(const Counts& counts);
-  void read_all(std::span<Object*> small, std::size_t vertices, TaskPool& tasks);
+  void read_all(std::span<Object*> small, double nanoseconds, TaskPool& tasks);
   static void read_part(Part& part);
   void read_planned(std::size_t begin, std::size_t end);
   void read_small(std::span<Object*> small, std::size_t begin, std::size_t end);

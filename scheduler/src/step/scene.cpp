@@ -200,7 +200,7 @@ bool Scene::is_stepping() const {
 }
 
 ReportHandle Scene::wait() {
-  state_->stepping->wait(true, std::memory_order_acquire);
+  wait_while(*state_->stepping, true);
   if (state_->problem) std::rethrow_exception(std::exchange(state_->problem, nullptr));
   return latest_report();
 }

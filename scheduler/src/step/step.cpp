@@ -31,7 +31,7 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       store_(content.store),
       pairs_(settings, content.filter, store_),
       refit_(settings, tasks_, store_.bytes()),
-      sweeps_(settings, tasks_),
+      sweeps_(settings, tasks_, store_.bytes()),
       jobs_(settings, tasks_),
       rows_(tasks_, store_, pairs_, jobs_, sweeps_, last_contacts_),
       reserve_(settings, content, reports, pairs_, refit_, sweeps_, jobs_, rows_),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 
 #include "scheduler/moving_scene.hpp"
@@ -239,6 +240,60 @@ TEST_CASE("urgent pairs come first: those in contact, then the nearest") {
     }
     CHECK(partly > 3);
   }
+}
+
+namespace {
+
+/// A ball in a slightly larger one, without contact, which takes long. Beside it two boxes that pierce each other.
+struct LongAndUrgent {
+  explicit LongAndUrgent(const SceneSettings& settings) : scene(settings) {
+    for (const auto& mesh : {box, box, ball, outer}) ids.push_back(scene.add(mesh));
+  }
+  ReportHandle step(std::size_t frame) {
+    const double shift = 0.003 * std::sin(static_cast<double>(frame));
+    scene.set_positions(ids[0], lifted(*box, 20));
+    scene.set_positions(ids[1], lifted(*box, 20.99 + shift));
+    scene.set_positions(ids[2], lifted(*ball, shift));
+    scene.set_positions(ids[3], lifted(*outer, 0));
+    return scene.step();
+  }
+  std::shared_ptr<const Mesh> box = mesh_of(models::box({1, 1, 1}));
+  std::shared_ptr<const Mesh> ball = mesh_of(models::sphere(60, 40));
+  std::shared_ptr<const Mesh> outer = mesh_of(scaled(models::sphere(58, 42), 1.25));
+  Scene scene;
+  std::vector<ObjectId> ids;
+
+ private:
+  static models::MeshData scaled(models::MeshData mesh, double by) {
+    for (Eigen::Vector3d& position : mesh.positions) position *= by;
+    return mesh;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("with a time budget urgent pairs come before those that took long") {
+  SceneSettings settings = settings_of(0.05, 1, ContactDetail::features);
+  settings.threads = 1;
+  LongAndUrgent unlimited(settings);
+  double jobs_ms = 0;
+  for (std::size_t frame = 0; frame < 4; ++frame) jobs_ms = unlimited.step(frame)->statistics().times.jobs_ms;
+  settings.time_budget = std::chrono::microseconds(static_cast<std::int64_t>(1000 * jobs_ms / 2));
+  LongAndUrgent limited(settings);
+  std::size_t cut = 0;
+  std::size_t urgent = 0;
+  for (std::size_t frame = 0; frame < 12; ++frame) {
+    const ReportHandle report = limited.step(frame);
+    if (frame < 2) continue;
+    const PairReport* const boxes = find_pair(*report, limited.ids[0], limited.ids[1]);
+    const PairReport* const balls = find_pair(*report, limited.ids[2], limited.ids[3]);
+    REQUIRE(boxes != nullptr);
+    REQUIRE(balls != nullptr);
+    cut += balls->complete ? 0U : 1U;
+    urgent += boxes->complete ? 1U : 0U;
+  }
+  CHECK(cut >= 5);
+  CHECK(urgent >= 8);  // the clock may stop elsewhere
 }
 
 TEST_CASE("an undone pair keeps the phase it had") {

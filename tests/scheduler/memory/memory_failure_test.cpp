@@ -15,6 +15,7 @@
 #include "scheduler/memory/failing_allocator.hpp"
 #include "scheduler/memory/failure_scene.hpp"
 #include "scheduler/report_text.hpp"
+#include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/details.hpp"
 #include "support/effort.hpp"
@@ -213,6 +214,40 @@ TEST_CASE("memory failure: a promise counts from where a step has seen the objec
         thrown += jump_and_promise(place, reports_held, telling) ? 1U : 0U;
       }
   CHECK(thrown > 500);
+}
+
+TEST_CASE("memory failure: a pose that could not be read is read by the next step") {
+  const std::shared_ptr<const Mesh> mesh = mesh_of(models::sphere(10, 6));
+  std::size_t thrown = 0;
+  for (std::uint64_t place = 0; place < 60; ++place) {
+    SceneSettings settings = settings_of(0.05, 1);
+    settings.threads = 1;
+    Scene scene(settings);
+    ObjectSettings rigid;
+    rigid.motion = Motion::rigid;
+    const ObjectId body = scene.add(mesh, rigid);
+    const Eigen::Isometry3d pose(Eigen::Translation3d(100, 0, 0));
+    scene.set_pose(body, pose);
+    scene.step();
+    scene.step();
+    // It is near the body, which is only surveyed so far, and lets it take part in sweeps.
+    ObjectSettings swept;
+    swept.swept = true;
+    scene.set_positions(scene.add(mesh, swept), moved(mesh->rest(), {102.5, 0, 0}));
+    FailingAllocator::begin(place, FailingAllocator::Lack::once);
+    try {
+      scene.step();
+    } catch (const std::bad_alloc&) {
+      ++thrown;
+    }
+    FailingAllocator::end();
+    scene.set_pose(body, pose);
+    const ReportHandle report = scene.step();
+    CAPTURE(place);
+    REQUIRE(report->pairs().size() == 1);
+    CHECK(report->pairs()[0].distance.upper < 0.6);
+  }
+  CHECK(thrown > 5);
 }
 
 TEST_CASE("memory failure: positions are copied") {
