@@ -73,6 +73,24 @@ TEST_CASE("Objects that are not swept pass each other unseen, and nothing is kep
   CHECK(report->statistics().pairs_swept == 0);
 }
 
+TEST_CASE("What a sweep keeps of an object is counted, of a fixed one too") {
+  Scene scene(settings_of(0.01, 0));
+  ObjectSettings fixed;
+  fixed.motion = Motion::fixed;
+  scene.add(mesh_of(models::sphere(60, 40)), fixed);
+  const auto box = mesh_of(models::box({0.1, 0.1, 0.1}));
+  const ObjectId dart = scene.add(box, swept());
+  const auto bytes_at = [&](double height) {
+    scene.set_positions(dart, lifted(*box, height));
+    const ReportHandle report = scene.step();
+    CHECK(report->statistics().pairs_swept == (height < 0 ? 1U : 0U));
+    return report->statistics().bytes.objects;
+  };
+  bytes_at(4);
+  const std::size_t before = bytes_at(3);
+  CHECK(bytes_at(-3) > before + 5'000);
+}
+
 TEST_CASE("The motion of the other object counts") {
   Scene scene(settings_of(0.01, 0));
   const auto plate = plate_mesh();
