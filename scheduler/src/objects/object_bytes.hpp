@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <utility>
 
 #include "objects/object.hpp"
 
@@ -13,14 +12,7 @@ namespace graze {
 class ObjectBytes {
  public:
   /// Counts an object again. Tasks may count different objects at the same time.
-  void count(Object& object) {
-    const std::size_t bytes = object.surface().byte_count() +
-                              (object.face_groups == nullptr ? 0 : object.face_groups->byte_count()) +
-                              (object.sweep == nullptr ? 0 : object.sweep->motion.byte_count()) +
-                              (object.self == nullptr ? 0 : object.self->byte_count());
-    if (bytes == object.counted_bytes) return;
-    sum_.fetch_add(bytes - std::exchange(object.counted_bytes, bytes), std::memory_order_relaxed);
-  }
+  void count(Object& object);
   /// Leaves out an object that is removed.
   void leave_out(const Object& object) { sum_.fetch_sub(object.counted_bytes, std::memory_order_relaxed); }
   [[nodiscard]] std::size_t sum() const { return sum_.load(std::memory_order_relaxed); }
