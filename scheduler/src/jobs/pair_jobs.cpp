@@ -54,6 +54,7 @@ void PairJobs::list_tested() {
   order_.clear();
   for (std::uint32_t index = 0; index < jobs_.size(); ++index)
     if (jobs_[index].is_tested()) order_.push_back(index);
+  if (settings_.work_budget) return;  // then there are no groups
   // Any of them may be long, or not.
   for (auto* const list : {&small_jobs_, &long_jobs_}) list->reserve(order_.capacity());
 }
