@@ -121,7 +121,7 @@ void TaskPool::run(std::size_t count, const Work& work, const Round& round) {
     scheduler_->run(workers, [&items](unsigned worker) { items.take(worker); });
   } catch (...) {  // all tasks that began have ended
   }
-  // What a scheduler has left out, because it threw or was cancelled, this thread does. Else nothing is left.
+  // This thread does the items that a scheduler left out because it threw or was cancelled.
   items.take(0);
   items.rethrow();
 }

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-/// What a stage says of its items, beside what they do.
+/// A stage's estimate of its items, and how a worker ends with them.
 struct Round {
   /// About how long all items take on one thread, in nanoseconds. It comes from counts of this step and the
   /// last one. A worker more is used only for some ten thousand nanoseconds of it.

@@ -2,7 +2,6 @@
 
 #include "core/base/bytes_of.hpp"
 #include "core/base/cut_by_work.hpp"
-#include "core/base/prefetch.hpp"
 #include "core/pair/pair_query.hpp"
 
 namespace graze {
@@ -161,9 +160,7 @@ void RegionRefit::list_objects(std::span<const PairJob> jobs, RefitOf what) {
   ++refits_;
   objects_.clear();
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    if (i + PairJob::ahead < jobs.size())
-      for (const Object* const object : {jobs[i + PairJob::ahead].a, jobs[i + PairJob::ahead].b})
-        prefetch(&object->asked);
+    prefetch_ahead(jobs, i, &Object::asked);
     const PairJob& job = jobs[i];
     if (job.is_tested() && (needs_paper_bounds_ || !is_by_list(job, with_blocks_)))
       for (const auto& [object, other] : {std::pair(job.a, job.b), {job.b, job.a}})

@@ -47,6 +47,11 @@ constexpr std::size_t objects_of_batch(std::size_t count) {
   return std::max<std::size_t>(1, count / least_batches);
 }
 
+template <typename Element>
+void make_room(std::vector<Element>& elements, std::size_t count) {
+  if (elements.capacity() < count) elements.reserve(with_growth_room(count));
+}
+
 }  // namespace
 
 void PositionReads::expect(Object& object, bool is_read) {
@@ -118,15 +123,13 @@ void PositionReads::read(const ReadsOfStep& step, bool has_changed, TaskPool& ta
 
 /// Any object may be read late.
 void PositionReads::make_room_for_late() {
-  const std::size_t count = step_.objects;
-  if (planned_.capacity() < count) planned_.reserve(with_growth_room(count));
-  if (found_.capacity() < count) found_.reserve(with_growth_room(count));
+  make_room(planned_, step_.objects);
+  make_room(found_, step_.objects);
 }
 
 void PositionReads::note_which_are_read() {
-  const std::size_t count = small_.size();
-  if (was_read_.capacity() < count) was_read_.reserve(with_growth_room(count));
-  was_read_.resize(count);
+  make_room(was_read_, small_.size());
+  was_read_.resize(small_.size());
 }
 
 void PositionReads::plan_large() {

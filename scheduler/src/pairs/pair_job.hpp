@@ -7,6 +7,7 @@
 
 #include "base/access.hpp"
 #include "base/slot_pair.hpp"
+#include "core/base/prefetch.hpp"
 #include "core/search/large_pair.hpp"
 #include "objects/object.hpp"
 #include "pairs/pair_filter.hpp"
@@ -20,9 +21,6 @@ inline bool is_contact(PairPhase phase) {
 
 /// The work of one step for one pair.
 struct PairJob {
-  /// How many jobs ahead of its turn an object is prefetched where jobs are walked on one thread.
-  static constexpr std::size_t ahead = 8;
-
   enum class Task : std::uint8_t {
     detect,       ///< test the pair
     end,          ///< filtered out while in contact: find its distance once more
@@ -57,6 +55,15 @@ struct PairJob {
   [[nodiscard]] bool speaks_of_replaced() const { return a->replaced != nullptr || b->replaced != nullptr; }
   [[nodiscard]] bool was_in_contact() const { return last != nullptr && is_contact(last->phase); }
 };
+
+/// Where one thread walks all jobs, fetches what it reads soon of the objects of a later one.
+template <typename... Member>
+void prefetch_ahead(std::span<const PairJob> jobs, std::size_t index, Member Object::*... members) {
+  constexpr std::size_t ahead = 8;
+  if (index + ahead >= jobs.size()) return;
+  for (const Object* const object : {jobs[index + ahead].a, jobs[index + ahead].b})
+    (prefetch(&(object->*members)), ...);
+}
 
 /// Rows of the last report that this report repeats before the row of a job. They are rows of pairs at rest,
 /// or the row of a pair that ends because one of its objects was removed.

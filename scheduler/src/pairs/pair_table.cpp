@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/bytes_of.hpp"
-#include "core/base/prefetch.hpp"
 
 namespace graze {
 namespace {
@@ -225,9 +224,7 @@ bool PairTable::is_unchanged(const PairJob& job) const {
 
 void PairTable::count_jobs(StepStatistics& statistics) const {
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
-    if (i + PairJob::ahead < jobs_.size())
-      for (const Object* const object : {jobs_[i + PairJob::ahead].a, jobs_[i + PairJob::ahead].b})
-        prefetch(&object->demand);
+    prefetch_ahead(jobs_, i, &Object::demand);
     const PairJob& job = jobs_[i];
     if (job.is_tested()) {
       ++statistics.pairs_tested;

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/prefetch.hpp"
 #include "step/report_rows.hpp"
 
 namespace graze {
@@ -14,14 +13,6 @@ namespace {
 void count_cut(std::size_t left_out, StepStatistics& statistics) {
   ++statistics.pairs_cut;
   statistics.contacts_left_out += std::max<std::size_t>(left_out, 1);
-}
-
-/// Fetches what a row says of its objects.
-void prefetch_names(const PairJob& job) {
-  for (const Object* const object : {job.a, job.b}) {
-    prefetch(&object->id);
-    prefetch(&object->settings.user_data);
-  }
 }
 
 void set_ended(PairReport& row) {
@@ -42,7 +33,7 @@ bool RowWriter::write(const PairList& list, const FrameReport& previous, ReportB
       rows->ended ? end_pair(previous.pairs()[rows->row], builder) : repeat_pairs(*rows, previous, builder);
   };
   for (std::size_t index = 0; index < list.jobs.size(); ++index) {
-    if (index + PairJob::ahead < list.jobs.size()) prefetch_names(list.jobs[index + PairJob::ahead]);
+    prefetch_ahead(list.jobs, index, &Object::id, &Object::settings);
     write_rows_before(index);
     write_pair(list.jobs[index], index, previous, builder);
   }

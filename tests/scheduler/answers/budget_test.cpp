@@ -244,7 +244,8 @@ TEST_CASE("urgent pairs come first: those in contact, then the nearest") {
 
 namespace {
 
-/// A ball in a slightly larger one, without contact, which takes long. Beside it two boxes that pierce each other.
+/// A ball in a slightly larger one, without contact, which takes long. Beside it two boxes that pierce each
+/// other.
 struct LongAndUrgent {
   explicit LongAndUrgent(const SceneSettings& settings) : scene(settings) {
     for (const auto& mesh : {box, box, ball, outer}) ids.push_back(scene.add(mesh));
