@@ -156,6 +156,8 @@ TEST_CASE("c: names, version and instruction set") {
   std::int32_t version[3];
   graze_library_version(version);
   CHECK(std::ranges::equal(version, library_version()));
+  CHECK(std::array{version[0], version[1], version[2]} ==
+        std::array{GRAZE_VERSION_MAJOR, GRAZE_VERSION_MINOR, GRAZE_VERSION_PATCH});
   const std::string before = graze_instruction_set();
   CHECK(before == to_string(instruction_set()));
   expect_ok(graze_use_instruction_set("scalar"));

@@ -32,6 +32,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// graze/version.hpp has the same three macros, so a program may include both.
+
+/// The first number of the version of this header. It grows when programs have to change.
+#define GRAZE_VERSION_MAJOR 0
+/// The second number. While the first one is 0, programs may have to change where it grows.
+#define GRAZE_VERSION_MINOR 2
+/// The third number. No program has to change where it grows.
+#define GRAZE_VERSION_PATCH 0
+
 #if defined(GRAZE_C_BUILDING) && !defined(_WIN32)
 #define GRAZE_C_API __attribute__((visibility("default")))
 #elif defined(GRAZE_C_BUILDING)
@@ -64,7 +73,8 @@ enum {
 /// Returns a sentence about the last call of this thread that did not return #GRAZE_OK. It is empty before
 /// such a call. The text is valid until the next one.
 GRAZE_C_API const char* graze_last_error(void);
-/// Gives the version of the library: major, minor and patch.
+/// Gives the version of the library: major, minor and patch. It may be newer than the `GRAZE_VERSION_MAJOR`,
+/// `GRAZE_VERSION_MINOR` and `GRAZE_VERSION_PATCH` that a program was compiled with.
 GRAZE_C_API void graze_library_version(int32_t version[3]);
 /// Returns graze::max_threads().
 GRAZE_C_API uint32_t graze_max_threads(void);
