@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -225,6 +226,92 @@ TEST_CASE("c: questions about a report") {
   CHECK(count == 0);
   expect_ok(graze_scene_query_report(query.get(), &of_query));
   CHECK(of_query == nullptr);
+}
+
+TEST_CASE("c: patches of a report") {
+  Surfaces s;
+  SceneSettings settings;
+  settings.threads = 1;
+  settings.contact_distance = 0.125;
+  Scene cpp(settings);
+  const auto c = c_scene(settings);
+  const ObjectSettings of_tool{.motion = Motion::rigid, .patch_radius = 2, .patch_faces = 99};
+  const graze_object_settings given_tool = c_settings(of_tool);
+  const ObjectSettings of_other;
+  const graze_object_settings given_other = c_settings(of_other);
+  graze_id c_other{};
+  graze_id c_tool{};
+  const ObjectId other = cpp.add(s.mesh_a, of_other);
+  const ObjectId tool = cpp.add(s.mesh_b, of_tool);
+  expect_ok(graze_scene_add(c.get(), s.c_a.get(), &given_other, &c_other));
+  expect_ok(graze_scene_add(c.get(), s.c_b.get(), &given_tool, &c_tool));
+  graze_report* report = nullptr;
+  expect_ok(graze_scene_step(c.get(), 0, &report));
+  const Owned<graze_report> owned(report);
+  const ReportHandle expected = cpp.step();
+  const Patch patch = expected->patch(tool);
+  REQUIRE(patch);
+
+  graze_patch found{};
+  expect_ok(graze_report_patch(report, c_other, &found));
+  CHECK_FALSE(found.exists);
+  expect_ok(graze_report_patch(report, c_tool, &found));
+  CHECK(found.exists);
+  CHECK(found.is_cut == patch.is_cut());
+  CHECK(found.radius == patch.radius());
+  CHECK(found.face_count == patch.face_count());
+  REQUIRE(found.object_count == 1);
+  CHECK(found.objects[0].index == other.index);
+  const uint32_t* faces = nullptr;
+  std::size_t count = 0;
+  expect_ok(graze_patch_faces(report, c_tool, c_other, &faces, &count));
+  REQUIRE(count == patch.faces(other).size());
+  CHECK(std::equal(faces, faces + count, patch.faces(other).begin()));
+  graze_positions positions{};
+  expect_ok(graze_patch_positions(report, c_tool, c_other, &positions));
+  CHECK(positions.count == s.mesh_a->vertex_count());
+
+  graze_patch_room* made = nullptr;
+  expect_ok(graze_patch_room_new(&made));
+  const Owned<graze_patch_room> room(made);
+  graze_patch_answer answer{};
+  const double rows[12] = {1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0.0625};
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Vector3d(0.25, 0, 0.0625);
+  PatchRoom truth;
+  const auto check_room = [&](const PatchAnswer& of_cpp) {
+    CHECK(answer.complete == of_cpp.complete);
+    CHECK(answer.threshold == of_cpp.threshold);
+    CHECK(answer.validity == of_cpp.validity);
+    const graze_patch_pair* const pairs = graze_patch_room_pairs(room.get(), &count);
+    REQUIRE(count == truth.pairs().size());
+    REQUIRE(count == 1);
+    CHECK(pairs[0].b.index == tool.index);
+    CHECK(pairs[0].contact_count == truth.pairs()[0].contact_count);
+    const graze_contact* const contacts = graze_patch_room_contacts(room.get(), &count);
+    REQUIRE(count == truth.contacts().size());
+    CHECK(contacts[0].distance == truth.contacts()[0].distance);
+    CHECK(contacts[0].feature_b.index == truth.contacts()[0].feature_b.index);
+  };
+  expect_ok(graze_patch_contacts_at_pose(report, c_tool, rows, 0.5, room.get(), &answer));
+  check_room(patch.contacts(pose, 0.5, truth));
+  expect_ok(graze_patch_contacts_at_positions(report, c_tool, &s.view_b, 0.25, room.get(), &answer));
+  check_room(patch.contacts(s.at_b, 0.25, truth));
+  double validity = 0;
+  const double threshold = 0.5;
+  expect_ok(graze_patch_validity_at_pose(report, c_tool, rows, nullptr, &validity));
+  CHECK(validity == patch.validity(pose));
+  expect_ok(graze_patch_validity_at_positions(report, c_tool, &s.view_b, &threshold, &validity));
+  CHECK(validity == patch.validity(s.at_b, 0.5));
+
+  const double mirrored[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  expect_fails(graze_patch_contacts_at_pose(report, c_tool, mirrored, 0.5, room.get(), &answer),
+               GRAZE_REFUSED, "reflection");
+  expect_fails(graze_patch_contacts_at_pose(report, c_other, rows, 0.5, room.get(), &answer),
+               GRAZE_BAD_ARGUMENT, "patch_radius");
+  expect_fails(graze_patch_contacts_at_pose(report, c_tool, rows, 0.5, nullptr, &answer), GRAZE_BAD_ARGUMENT,
+               "room");
+  CHECK(graze_patch_room_contacts(nullptr, &count) == nullptr);
 }
 
 }  // namespace graze::tests

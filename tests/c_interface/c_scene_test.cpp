@@ -292,7 +292,12 @@ TEST_CASE("c: a scene tells of itself, and reports of what they are about") {
   CHECK(positions.is_double == view.is_double());
   CHECK(static_cast<const float*>(positions.first)[0] == static_cast<float>(view[0].x()));
   expect_ok(graze_report_mesh(scenes.report.get(), scenes.c_ids[1], &mesh));
-  CHECK(mesh == nullptr);  // it has no queries
+  CHECK(graze_mesh_face_count(mesh) == 6);
+  graze_mesh_release(mesh);
+  expect_ok(graze_report_positions(scenes.report.get(), scenes.c_ids[1], &positions));
+  CHECK(positions.first == nullptr);  // it has no queries
+  expect_ok(graze_report_mesh(scenes.report.get(), graze_id{99, 99}, &mesh));
+  CHECK(mesh == nullptr);
   expect_ok(graze_scene_mesh(c, scenes.c_ids[1], &mesh));
   CHECK(graze_mesh_face_count(mesh) == 6);
   graze_mesh_release(mesh);

@@ -21,6 +21,7 @@ struct Release {
   void operator()(graze_query* query) const { graze_query_release(query); }
   void operator()(graze_scene_query* query) const { graze_scene_query_release(query); }
   void operator()(graze_probe* probe) const { graze_probe_release(probe); }
+  void operator()(graze_patch_room* room) const { graze_patch_room_release(room); }
   void operator()(graze_recorder* recorder) const { graze_recorder_release(recorder); }
   void operator()(graze_recording* recording) const { graze_recording_release(recording); }
   void operator()(graze_replay* replay) const { graze_replay_release(replay); }

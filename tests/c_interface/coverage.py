@@ -16,6 +16,7 @@ TABLE = pathlib.Path(__file__).with_name("coverage.txt")
 CLASSES = {
     "core/include/graze/mesh.hpp": ["Mesh"],
     "core/include/graze/query.hpp": ["RepeatedQuery"],
+    "scheduler/include/graze/patch.hpp": ["Patch", "PatchRoom"],
     "scheduler/include/graze/report.hpp": ["FrameReport"],
     "scheduler/include/graze/scene.hpp": ["Scene"],
     "scheduler/include/graze/scene_query.hpp": ["MeshProbe", "SceneQuery"],

@@ -50,6 +50,7 @@ ORDER = {
         "broad_phase": "objects whose boxes are near",
         "pairs": "filters, memory, list of jobs",
         "geometry": "what queries between steps ask",
+        "patches": "what lies around a tool, between steps",
         "report": "reports, handles, contact rows",
         "jobs": "refit, searches on all threads",
         "recording": "what steps take up, as chunks",

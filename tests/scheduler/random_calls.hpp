@@ -50,6 +50,7 @@ class RandomCalls {
     settings.margin = below(4) / 16.0;
     if (chance(2)) settings.face_groups = groups_of(*body.mesh);
     settings.queries = objects_.size() % 3 == 0;
+    if (objects_.size() % 5 == 1) settings.patch_radius = 0.5;
     if (chance(4)) settings.hidden_groups = {group(), 7};
     body.id = scene.add(body.mesh, settings);
     objects_.push_back(std::move(body));

@@ -173,6 +173,7 @@ const std::vector<BadScene> bad_scenes = {
     {scene_with("", R"("self": 1)"), "objects[0].self: expected true or false, got 1"},
     {scene_with("", R"("self_rings": 9)"),
      "objects[0].self_rings: expected a whole number from 0 to 8, got 9"},
+    {scene_with("", R"("patch_faces": 0)"), "objects[0].patch_faces: expected a whole number from 1"},
     {scene_with(R"("swept_gap": -1)", ""), "swept_gap: expected a number that is not negative, got -1"},
     {scene_with(R"("sweep_tolerance": 0)", ""), "sweep_tolerance: expected a part of a step, got 0"},
     {scene_with(R"("sweep_tolerance": 1.5)", ""), "sweep_tolerance: expected a part of a step, got 1.5"},
@@ -203,7 +204,7 @@ TEST_CASE("a scene file with every key is read as it says") {
       {"name": "liver", "mesh": "meshes/liver.obj", "node": 2, "positions": "liver_####.ply",
        "transform": {"translate": [1, 2, 3], "rotate_degrees": [10, 20, 30], "scale": 0.5}},
       {"name": "tool", "mesh": "/tools/tool.stl", "node": "blade", "motion": "rigid", "layer": 4,
-       "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "hidden_groups": [7, 255], "queries": true, "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
+       "collides_with": 3, "group": 9, "margin": 0.001, "solid": true, "kind": 255, "face_groups": [0, 255, 7], "hidden_groups": [7, 255], "queries": true, "patch_radius": 0.25, "patch_faces": 99, "transform": {"translate": [0, 0, 1], "rotate_degrees": [0, 90, 0]},
        "poses": [{"frame": 0}, {"frame": 100, "translate": [0, 0, 0]}, {"frame": 101, "rotate_degrees": [1, 2, 3]}]},
       {"mesh": "fox.glb", "animation": "Run", "self": true, "self_rings": 8, "self_at_rest": true, "swept": true},
       {"mesh": "floor.obj", "motion": "fixed"}],
@@ -241,6 +242,7 @@ TEST_CASE("a scene file with every key is read as it says") {
   CHECK((tool.settings.layer == 4 && tool.settings.collides_with == 3 && tool.settings.group == 9 &&
          tool.settings.margin == 0.001 && tool.settings.solid && tool.settings.queries &&
          tool.settings.kind == 255));
+  CHECK((tool.settings.patch_radius == 0.25 && tool.settings.patch_faces == 99));
   CHECK(tool.settings.face_groups == std::vector<std::uint8_t>{0, 255, 7});
   CHECK(tool.settings.hidden_groups == std::vector<std::uint8_t>{7, 255});
   REQUIRE(tool.poses.size() == 3);  // what a key leaves out is the transform's

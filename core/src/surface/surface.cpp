@@ -317,15 +317,15 @@ std::optional<Surface::PartSeen> seen_in_passes(const void* now, const void* bef
   return part;
 }
 
-Eigen::Vector3d posed(const std::array<double, 12>& rows, const Eigen::Vector3d& p) {
+}  // namespace
+
+Eigen::Vector3d Surface::posed(const std::array<double, 12>& rows, const Eigen::Vector3d& p) {
   const auto coordinate = [&](std::size_t row) {
     const double* const r = &rows[row * 4];
     return ((r[0] * p.x() + r[1] * p.y()) + r[2] * p.z()) + r[3];
   };
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
-
-}  // namespace
 
 /// Whether positions lie in memory as the surface's own do.
 bool Surface::is_laid_out_like(const PositionView& view) const {

@@ -118,7 +118,10 @@ void read_field(const JsonPath& json, Motion& motion) {
 void read_field(const JsonPath& json, std::uint32_t& number) {
   const bool is_kind = json.key() == field_name<ObjectSettings, &ObjectSettings::kind>();
   const bool are_rings = json.key() == field_name<ObjectSettings, &ObjectSettings::self_rings>();
-  number = json.whole_number(0, is_kind ? largest_kind : are_rings ? most_self_rings : any_number);
+  const bool are_faces = json.key() == field_name<ObjectSettings, &ObjectSettings::patch_faces>();
+  number = json.whole_number(are_faces ? 1 : 0, is_kind     ? largest_kind
+                                                : are_rings ? most_self_rings
+                                                            : any_number);
 }
 void read_field(const JsonPath& json, std::uint64_t& number) {
   number = json.whole_number(0, any_number);

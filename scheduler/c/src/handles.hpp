@@ -40,6 +40,10 @@ struct graze_probe {
   graze::MeshProbe probe;
 };
 
+struct graze_patch_room {
+  graze::PatchRoom room;
+};
+
 struct graze_recorder {
   graze::Recorder recorder;
 };

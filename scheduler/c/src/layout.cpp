@@ -136,6 +136,18 @@ GRAZE_SAME_MEMBER(graze_weights, count);
 GRAZE_SAME_MEMBER(graze_weights, vertex);
 GRAZE_SAME_MEMBER(graze_weights, weight);
 
+GRAZE_SAME_SIZE(graze_patch_pair);
+GRAZE_SAME_MEMBER(graze_patch_pair, a);
+GRAZE_SAME_MEMBER(graze_patch_pair, b);
+GRAZE_SAME_MEMBER(graze_patch_pair, inside);
+GRAZE_SAME_MEMBER(graze_patch_pair, first_contact);
+GRAZE_SAME_MEMBER(graze_patch_pair, contact_count);
+
+GRAZE_SAME_SIZE(graze_patch_answer);
+GRAZE_SAME_MEMBER(graze_patch_answer, complete);
+GRAZE_SAME_MEMBER(graze_patch_answer, threshold);
+GRAZE_SAME_MEMBER(graze_patch_answer, validity);
+
 GRAZE_SAME_SIZE(graze_query_filter);
 GRAZE_SAME_MEMBER(graze_query_filter, layer);
 GRAZE_SAME_MEMBER(graze_query_filter, collides_with);

@@ -45,6 +45,10 @@ struct SameAs<graze_followed_contact> : std::type_identity<FollowedContact> {};
 template <>
 struct SameAs<graze_weights> : std::type_identity<SurfaceWeights> {};
 template <>
+struct SameAs<graze_patch_pair> : std::type_identity<PatchPair> {};
+template <>
+struct SameAs<graze_patch_answer> : std::type_identity<PatchAnswer> {};
+template <>
 struct SameAs<graze_query_filter> : std::type_identity<QueryFilter> {};
 template <>
 struct SameAs<graze_ray_hit> : std::type_identity<RayHit> {};

@@ -2,6 +2,7 @@
 
 #include <graze/graze.h>
 
+#include <Eigen/Geometry>
 #include <graze/position_view.hpp>
 
 #include "calls.hpp"
@@ -26,6 +27,15 @@ namespace graze::c {
 /// Describes a view to a caller. An empty view without memory has no strides.
 [[nodiscard]] inline graze_positions described(const PositionView& view) {
   return {view.data(), view.size(), view.stride_bytes(), view.coordinate_stride_bytes(), view.is_double()};
+}
+
+/// Returns the pose of a caller's rows.
+[[nodiscard]] inline Eigen::Isometry3d pose_of(const double* rows) {
+  const auto from = numbers<12>(rows, "rows");
+  Eigen::Isometry3d pose;
+  pose.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(from.data());
+  pose.makeAffine();
+  return pose;
 }
 
 }  // namespace graze::c

@@ -131,13 +131,7 @@ graze_status graze_probe_new(const graze_mesh* mesh, bool solid, graze_probe** p
 }
 
 graze_status graze_probe_set_pose(graze_probe* probe, const double rows[12]) {
-  return guarded([&] {
-    const auto from = graze::c::numbers<12>(rows, "rows");
-    Eigen::Isometry3d pose;
-    pose.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(from.data());
-    pose.makeAffine();
-    probe_of(probe).set_pose(pose);
-  });
+  return guarded([&] { probe_of(probe).set_pose(graze::c::pose_of(rows)); });
 }
 
 graze_status graze_probe_set_positions(graze_probe* probe, const graze_positions* positions) {

@@ -81,7 +81,7 @@ static_assert(
                    &ObjectSettings::kind, &ObjectSettings::user_data, &ObjectSettings::solid,
                    &ObjectSettings::face_groups, &ObjectSettings::hidden_groups, &ObjectSettings::self,
                    &ObjectSettings::self_rings, &ObjectSettings::self_at_rest, &ObjectSettings::swept,
-                   &ObjectSettings::queries>());
+                   &ObjectSettings::queries, &ObjectSettings::patch_radius, &ObjectSettings::patch_faces>());
 static_assert(are_all_fields<PairRule, &PairRule::contact_distance, &PairRule::range, &PairRule::epsilon>());
 static_assert(are_all_fields<SceneCapacity, &SceneCapacity::objects, &SceneCapacity::calls_per_step,
                              &SceneCapacity::near_pairs, &SceneCapacity::contacts, &SceneCapacity::reports,
@@ -168,6 +168,8 @@ graze_object_settings to_c(const ObjectSettings& settings) {
   made.face_groups = settings.face_groups.data();
   made.hidden_group_count = settings.hidden_groups.size();
   made.hidden_groups = settings.hidden_groups.data();
+  made.patch_radius = settings.patch_radius;
+  made.patch_faces = settings.patch_faces;
   return made;
 }
 
@@ -189,6 +191,8 @@ ObjectSettings from_c(const graze_object_settings& settings) {
   made.self_at_rest = settings.self_at_rest;
   made.swept = settings.swept;
   made.queries = settings.queries;
+  made.patch_radius = settings.patch_radius;
+  made.patch_faces = settings.patch_faces;
   return made;
 }
 

@@ -14,6 +14,7 @@
 #include <graze/impact.hpp>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
+#include <graze/patch.hpp>
 #include <graze/position_view.hpp>
 #include <graze/query.hpp>
 #include <graze/report.hpp>

@@ -8,6 +8,7 @@
 #include <graze/impact.hpp>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
+#include <graze/patch.hpp>
 #include <graze/position_view.hpp>
 #include <memory>
 #include <span>
@@ -255,23 +256,33 @@ struct StepStatistics {
 };
 
 /// @cond internal
+class KeptByReports;
 class KeptGeometry;
+class KeptMeshes;
+class KeptPatches;
 
-/// Shares the kept geometry of one step, or nothing. Copies may be made and destroyed by any thread.
-class GRAZE_API KeptGeometryHandle {
+/// Shares something that reports keep, or nothing. Copies may be made and destroyed by any thread.
+class GRAZE_API KeptByReportsHandle {
  public:
-  KeptGeometryHandle() = default;
-  explicit KeptGeometryHandle(const KeptGeometry* geometry) noexcept;
-  KeptGeometryHandle(const KeptGeometryHandle& other) noexcept : KeptGeometryHandle(other.geometry_) {}
-  KeptGeometryHandle& operator=(KeptGeometryHandle other) noexcept {
-    std::swap(geometry_, other.geometry_);
+  KeptByReportsHandle() = default;
+  explicit KeptByReportsHandle(const KeptByReports* kept) noexcept;
+  KeptByReportsHandle(const KeptByReportsHandle& other) noexcept : KeptByReportsHandle(other.kept_) {}
+  KeptByReportsHandle& operator=(KeptByReportsHandle other) noexcept {
+    std::swap(kept_, other.kept_);
     return *this;
   }
-  ~KeptGeometryHandle();
-  [[nodiscard]] const KeptGeometry* get() const { return geometry_; }
+  ~KeptByReportsHandle();
 
- private:
-  const KeptGeometry* geometry_ = nullptr;
+ protected:
+  const KeptByReports* kept_ = nullptr;
+};
+
+/// A handle that knows what it shares.
+template <typename Kept>
+class KeptHandle : public KeptByReportsHandle {
+ public:
+  using KeptByReportsHandle::KeptByReportsHandle;
+  [[nodiscard]] const Kept* get() const { return static_cast<const Kept*>(kept_); }
 };
 /// @endcond
 
@@ -331,12 +342,16 @@ class GRAZE_API FrameReport {
   /// Returns true if no budget cut a pair short, and no limit left contacts out.
   [[nodiscard]] bool complete() const { return complete_; }
   /// Returns the mesh of an object as this step saw it, also after Scene::replace_mesh() or after the object
-  /// was removed. It is null unless the object has ObjectSettings::queries and was in the scene.
+  /// was removed. It is null if the object was not in the scene.
   [[nodiscard]] std::shared_ptr<const Mesh> mesh(ObjectId object) const;
   /// Returns the positions of an object that this report is about, in the precision in which they were given.
   /// The view is empty unless the object has ObjectSettings::queries and was in the scene. It is good for as
   /// long as this report, or a copy of it. Positions of vertices that no face uses mean nothing.
   [[nodiscard]] PositionView positions(ObjectId object) const;
+  /// Returns what lay around an object in this step, for answers between steps. It is empty unless the object
+  /// has ObjectSettings::patch_radius and was in the scene. It is good for as long as this report, or a copy
+  /// of it.
+  [[nodiscard]] Patch patch(ObjectId tool) const;
 
  private:
   friend class SceneQuery;
@@ -356,7 +371,9 @@ class GRAZE_API FrameReport {
   const Rows* shown_ = &rows_;
   std::vector<Diagnostic> diagnostics_;
   StepStatistics statistics_;
-  KeptGeometryHandle geometry_;
+  KeptHandle<KeptGeometry> geometry_;
+  KeptHandle<KeptMeshes> meshes_;
+  KeptHandle<KeptPatches> patches_;
 };
 
 /// @cond internal

@@ -101,6 +101,16 @@ struct ObjectSettings {
   /// and what SceneQuery finds. A step in which the object moved copies its positions and computes the boxes
   /// of its regions once more. The object is then read in every step, however far it is from others.
   bool queries = false;
+  /// If it is above 0, reports keep a patch around this object, for answers between steps: a copy of all
+  /// faces of other objects within this distance. FrameReport::patch() gives it. It is finite, and 0 or more.
+  ///
+  /// Each step copies the faces near the object that have moved, and all of a solid near it. Objects within
+  /// the distance are read, also where a promise would leave them unread.
+  double patch_radius = 0;
+  /// The most faces that a patch has of all objects together, at least 1. If there are more within the
+  /// radius, the patch has the nearest, by whole leaves, and says so: Patch::is_cut(). A solid is copied
+  /// whole, and of its faces those within the radius count.
+  std::uint32_t patch_faces = 16384;
 };
 
 /// Gives thresholds to the pairs of two kinds of objects, see Scene::set_rule(). They replace those of the

@@ -68,6 +68,8 @@ inline constexpr std::tuple object_settings_fields{
     SettingsField<&ObjectSettings::self_at_rest>{"self_at_rest"},
     SettingsField<&ObjectSettings::swept>{"swept"},
     SettingsField<&ObjectSettings::queries>{"queries"},
+    SettingsField<&ObjectSettings::patch_radius>{"patch_radius"},
+    SettingsField<&ObjectSettings::patch_faces>{"patch_faces"},
 };
 static_assert(has_every_member<ObjectSettings>(object_settings_fields),
               "name every field of ObjectSettings above");

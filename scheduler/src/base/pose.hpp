@@ -1,15 +1,28 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/base/number_text.hpp"
 
 namespace graze {
+
+/// The upper three rows, row by row, of a 4x4 matrix column by column.
+inline std::array<double, 12> rows_of(std::span<const double, 16> matrix) {
+  std::array<double, 12> rows;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column) rows[row * 4 + column] = matrix[column * 4 + row];
+  return rows;
+}
+inline std::array<double, 12> rows_of(const Eigen::Isometry3d& pose) {
+  return rows_of(std::span<const double, 16>(pose.data(), 16));
+}
 
 /// Says why the rows (r0, r1, r2, t) are not a pose, or nothing for a pose. A pose is finite and its matrix R
 /// is within 1e-3 of a rotation: no entry of RᵀR − 1 is larger, and R is no reflection. So the float

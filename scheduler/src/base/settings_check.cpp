@@ -40,6 +40,8 @@ std::optional<std::string> problem_of(const ObjectSettings& settings) {
   if (settings.self_rings > most_self_rings)
     return object + "self_rings is " + std::to_string(settings.self_rings) + "; it is at most " +
            std::to_string(most_self_rings);
+  if (auto problem = problem_of_distance(object, "patch_radius", settings.patch_radius)) return problem;
+  if (settings.patch_faces == 0) return object + "patch_faces is 0; a patch has at least 1";
   return std::nullopt;
 }
 

@@ -122,14 +122,6 @@ Surface::PartSeen copy_used(const IndexedMesh& mesh, const PositionView& view, C
   return all;
 }
 
-/// The upper three rows, row by row, of a 4x4 matrix column by column.
-std::array<double, 12> rows_of(std::span<const double, 16> matrix) {
-  std::array<double, 12> rows;
-  for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t column = 0; column < 4; ++column) rows[row * 4 + column] = matrix[column * 4 + row];
-  return rows;
-}
-
 }  // namespace
 
 // ---- What is lost

@@ -7,19 +7,18 @@
 
 namespace graze {
 
-KeptGeometryHandle GeometryKeeper::keep() {
+KeptHandle<KeptGeometry> GeometryKeeper::keep() {
   const bool is_listed = listed_at_ == store_.arrivals_and_departures();
   if (!is_listed) list_asking();
   if (asking_.empty()) return {};
   to_copy_.clear();
   for (Asking& asking : asking_)
     if (is_outdated(asking)) to_copy_.push_back(&asking);
-  if (is_listed && to_copy_.empty() && !geometries_.empty()) return geometries_[last_];
+  if (is_listed && to_copy_.empty() && geometries_.has_last()) return geometries_.last();
   fill_copies();
-  last_ = free_geometry();
-  fill(*writable_[last_]);
+  fill(geometries_.next());
   count_bytes();
-  return geometries_[last_];
+  return geometries_.last();
 }
 
 /// Lists the objects that ask, with the copies of those that were listed before.
@@ -33,7 +32,7 @@ void GeometryKeeper::list_asking() {
     if (before != was_asking_.end() && before->serial == object->serial)
       asking_.push_back(std::move(*before));
     else
-      asking_.push_back({object.get(), object->serial, 0, {}, 0});
+      asking_.push_back({object.get(), object->serial, 0, {}});
   }
   was_asking_.clear();
   order_.clear();
@@ -41,35 +40,24 @@ void GeometryKeeper::list_asking() {
 }
 
 bool GeometryKeeper::is_outdated(const Asking& asking) {
-  return asking.copies.empty() || asking.version != asking.object->surface().version() ||
-         asking.copies[asking.last]->mesh != asking.object->users_mesh;
-}
-
-/// Chooses a copy that nobody has, or makes one. Copies of another mesh go.
-void GeometryKeeper::take_copy(Asking& asking) {
-  std::erase_if(asking.copies, [&](const auto& copy) { return copy->mesh != asking.object->users_mesh; });
-  const auto free = std::find_if(asking.copies.begin(), asking.copies.end(),
-                                 [](const auto& copy) { return copy.use_count() == 1; });
-  asking.last = static_cast<std::size_t>(free - asking.copies.begin());
-  if (free == asking.copies.end())
-    asking.copies.push_back(std::make_shared<KeptSurface>(asking.object->users_mesh));
+  return asking.version != asking.object->surface().version() ||
+         !asking.copies.has_last_of(asking.object->users_mesh);
 }
 
 void GeometryKeeper::fill_copies() {
   constexpr double nanoseconds_each_vertex = 8;  // to copy it, and to box its faces
   double nanoseconds = 0;
   // A geometry that nobody has holds copies that can be filled again.
-  for (KeptGeometry* const geometry : writable_)
-    if (geometry->has_one_holder()) geometry->clear();
+  geometries_.clear_unused();
   for (Asking* const asking : to_copy_) {
-    take_copy(*asking);
+    (void)asking->copies.next(asking->object->users_mesh);
     nanoseconds += nanoseconds_each_vertex * asking->object->mesh->vertex_count();
   }
   const auto copy = [&](unsigned /*worker*/, std::size_t item) {
     Asking& asking = *to_copy_[item];
     const AccessScope scope({AccessRight::read(), {}});
     const Surface& from = asking.object->surface();
-    Surface& to = asking.copies[asking.last]->surface;
+    Surface& to = asking.copies.last()->surface;
     const bool is_at_rest = from.positions().data() == to.positions().data();
     if (!is_at_rest) (void)to.set_positions(from.positions());
     to.refit_faces();
@@ -78,22 +66,11 @@ void GeometryKeeper::fill_copies() {
   tasks_.run(to_copy_.size(), copy, {nanoseconds});
 }
 
-/// The index of a geometry that no report shows.
-std::size_t GeometryKeeper::free_geometry() {
-  for (std::size_t index = 0; index < writable_.size(); ++index)
-    if (writable_[index]->has_one_holder()) return index;
-  auto* const made = new KeptGeometry;
-  const KeptGeometryHandle handle(made);
-  geometries_.push_back(handle);
-  writable_.push_back(made);
-  return writable_.size() - 1;
-}
-
 void GeometryKeeper::fill(KeptGeometry& geometry) {
   for (const Asking& asking : asking_) {
     const Object& object = *asking.object;
     objects_.push_back({object.id, object.serial, object.settings.layer, object.settings.collides_with,
-                        object.settings.solid, asking.copies[asking.last],
+                        object.settings.solid, asking.copies.last(),
                         object.hides_some_faces() ? object.face_groups : nullptr});
   }
   order_boxes();
@@ -112,12 +89,11 @@ void GeometryKeeper::order_boxes() {
 }
 
 void GeometryKeeper::count_bytes() {
-  byte_count_ = bytes_of(asking_) + bytes_of(was_asking_) + bytes_of(to_copy_) + bytes_of(geometries_) +
-                bytes_of(writable_) + bytes_of(objects_) + box_order_.byte_count() + bytes_of(boxes_) +
-                bytes_of(order_);
+  byte_count_ = bytes_of(asking_) + bytes_of(was_asking_) + bytes_of(to_copy_) + geometries_.byte_count() +
+                bytes_of(objects_) + box_order_.byte_count() + bytes_of(boxes_) + bytes_of(order_);
   for (const Asking& asking : asking_)
-    for (const auto& copy : asking.copies) byte_count_ += sizeof(KeptSurface) + copy->surface.byte_count();
-  for (const KeptGeometry* const geometry : writable_) byte_count_ += geometry->byte_count();
+    for (const auto& copy : asking.copies.all())
+      byte_count_ += sizeof(KeptSurface) + copy->surface.byte_count();
 }
 
 }  // namespace graze

@@ -6,9 +6,11 @@
 #include <memory>
 #include <vector>
 
+#include "base/kept_by_reports.hpp"
 #include "base/task_pool.hpp"
 #include "broad_phase/box_order.hpp"
 #include "geometry/kept_geometry.hpp"
+#include "geometry/spare_copies.hpp"
 #include "objects/object_store.hpp"
 
 namespace graze {
@@ -21,25 +23,22 @@ class GeometryKeeper {
 
   /// The geometry of now, after positions were read. It is the last one if nothing has changed, and nothing
   /// if no object asks for it.
-  [[nodiscard]] KeptGeometryHandle keep();
+  [[nodiscard]] KeptHandle<KeptGeometry> keep();
   /// Bytes of all copies, those that reports show included. Meshes are not counted.
   [[nodiscard]] std::size_t byte_count() const { return byte_count_; }
 
  private:
-  /// An object that asks, with its copies. A copy is free when nobody else has it.
+  /// An object that asks, with its copies.
   struct Asking {
     const Object* object = nullptr;
     std::uint64_t serial = 0;
     std::uint64_t version = 0;  ///< of the object's surface, when it was copied last
-    std::vector<std::shared_ptr<KeptSurface>> copies;
-    std::size_t last = 0;  ///< the newest copy, if there is one
+    SpareCopies<KeptSurface> copies;
   };
 
   void list_asking();
   [[nodiscard]] static bool is_outdated(const Asking& asking);
-  static void take_copy(Asking& asking);
   void fill_copies();
-  [[nodiscard]] std::size_t free_geometry();
   void fill(KeptGeometry& geometry);
   void order_boxes();
   void count_bytes();
@@ -50,10 +49,8 @@ class GeometryKeeper {
   std::vector<Asking> was_asking_;
   std::uint64_t listed_at_ = 0;  ///< ObjectStore::arrivals_and_departures, when they were listed
   std::vector<Asking*> to_copy_;
-  std::vector<KeptGeometryHandle> geometries_;
-  std::vector<KeptGeometry*> writable_;  ///< the same
-  std::size_t last_ = 0;                 ///< the newest geometry, if there is one
-  std::vector<KeptObject> objects_;      ///< memory for the next list
+  KeptPool<KeptGeometry> geometries_;
+  std::vector<KeptObject> objects_;  ///< memory for the next list
   BoxOrder box_order_;
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> order_;

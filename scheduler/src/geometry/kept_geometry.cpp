@@ -1,7 +1,6 @@
 #include "geometry/kept_geometry.hpp"
 
 #include <algorithm>
-#include <graze/report.hpp>
 
 #include "core/base/bytes_of.hpp"
 
@@ -45,14 +44,6 @@ std::size_t KeptGeometry::byte_count() const {
                       bytes_of(object_of_leaf_) + bytes_of(levels_);
   for (const std::vector<Box>& level : levels_) bytes += bytes_of(level);
   return bytes;
-}
-
-KeptGeometryHandle::KeptGeometryHandle(const KeptGeometry* geometry) noexcept : geometry_(geometry) {
-  if (geometry_ != nullptr) geometry_->add_holder();
-}
-
-KeptGeometryHandle::~KeptGeometryHandle() {
-  if (geometry_ != nullptr) geometry_->drop_holder();
 }
 
 }  // namespace graze

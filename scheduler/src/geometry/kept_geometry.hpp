@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <graze/mesh.hpp>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/kept_by_reports.hpp"
 #include "base/slot_pair.hpp"
 #include "core/base/box.hpp"
 #include "core/mesh/face_groups.hpp"
@@ -41,20 +41,8 @@ struct KeptObject {
 
 /// The objects of a report that ask for queries, with a tree of their boxes. Reports share it. It does not
 /// change while one of them has it.
-class KeptGeometry {
+class KeptGeometry final : public KeptByReports {
  public:
-  KeptGeometry() = default;
-  KeptGeometry(const KeptGeometry&) = delete;
-  KeptGeometry& operator=(const KeptGeometry&) = delete;
-
-  void add_holder() const noexcept { holders_.fetch_add(1, std::memory_order_relaxed); }
-  void drop_holder() const noexcept {
-    // Release: this holder's reads are over. Acquire: should it be the last, so are all others'.
-    if (holders_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
-  }
-  /// Whether a single holder is left, the caller. Then it may fill this again.
-  [[nodiscard]] bool has_one_holder() const noexcept { return holders_.load(std::memory_order_acquire) == 1; }
-
   /// Takes objects, ascending by serial, and builds the tree. `order` has their indices in groups of eight,
   /// with no_slot where there is none (BoxOrder). The list that it had before comes back in `objects`.
   void fill(std::vector<KeptObject>& objects, std::span<const std::uint32_t> order);
@@ -82,9 +70,6 @@ class KeptGeometry {
     std::uint32_t index;
   };
 
-  ~KeptGeometry() = default;
-
-  mutable std::atomic<std::uint32_t> holders_{0};
   std::vector<KeptObject> objects_;
   std::vector<std::uint32_t> index_of_slot_;  ///< by ObjectId::index, or no_slot
   std::vector<std::uint32_t> object_of_leaf_;

@@ -46,10 +46,7 @@ MeshProbe& MeshProbe::operator=(MeshProbe&& other) noexcept = default;
 
 void MeshProbe::set_pose(const Eigen::Isometry3d& pose) {
   const FloatingPointScope scope;
-  std::array<double, 12> rows{};
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      rows[static_cast<std::size_t>(row * 4 + column)] = pose.matrix()(row, column);
+  const std::array<double, 12> rows = rows_of(pose);
   if (const auto problem = problem_of_pose(rows)) throw Error("probe: " + *problem);
   const Surface::ReadResult read = state_->surface.set_pose(rows);
   if (!read.taken()) throw Error("probe: " + bad_vertex_text(read.bad_vertex, read.bad_position));

@@ -94,6 +94,8 @@ class ObjectStore {
   void forget_departed() noexcept { departed_.clear(); }
   /// Whether the mesh of an object was replaced since `forget_replaced`. Valid after `read_positions`.
   [[nodiscard]] bool some_replaced() const { return !replaced_.empty(); }
+  /// The objects whose mesh was replaced since then.
+  [[nodiscard]] std::span<Object* const> replaced() const { return replaced_; }
   /// Forgets the replaced meshes. Call it when a report speaks of the new ones.
   void forget_replaced() noexcept;
   /// How objects move that may be in swept pairs. Valid after `read_positions`.

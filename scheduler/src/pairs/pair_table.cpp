@@ -14,8 +14,8 @@ constexpr std::size_t ahead = 12;
 
 }  // namespace
 
-PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
-                         StepStatistics& statistics) {
+PairList PairTable::list(const FrameReport& previous, std::span<Object* const> tools, TaskPool& tasks,
+                         std::vector<Diagnostic>& diagnostics, StepStatistics& statistics) {
   const auto objects = store_.objects();
   statistics.objects = objects.size();
   statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
@@ -30,7 +30,7 @@ PairList PairTable::list(const FrameReport& previous, TaskPool& tasks, std::vect
   count_filtered(statistics);
   statistics.work.boxes_tested = broad_phase_.counters().boxes_tested;
   statistics.objects_in_slack = broad_phase_.counters().objects_in_slack;
-  if (summaries_.some_unread()) read_near_objects(close, tasks, diagnostics);
+  if (summaries_.some_unread()) read_near_objects(close, tools, tasks, diagnostics);
   list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);
   // The pairs counted as unchanged so far are at rest and have no job.
   const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
@@ -116,16 +116,10 @@ void PairTable::add_rows(const LastRows& rows) {
 /// Reads unread objects where their boxes show that they may be near another object, since a pair with one
 /// can only be near then. Also reads changed objects of the last report's pairs, since this report has to
 /// mention these pairs again.
-void PairTable::read_near_objects(std::span<const SlotPair> pairs, TaskPool& tasks,
-                                  std::vector<Diagnostic>& diagnostics) {
-  const auto objects = store_.objects();
+void PairTable::read_near_objects(std::span<const SlotPair> pairs, std::span<Object* const> tools,
+                                  TaskPool& tasks, std::vector<Diagnostic>& diagnostics) {
   wanted_.clear();
   const bool same_filter = std::exchange(filter_version_, filter_.version()) == filter_.version();
-  const auto want = [&](std::uint32_t slot) {
-    Object* const object = objects[slot].get();
-    if (object->is_unread() && std::exchange(object->plan, ReadPlan::read) == ReadPlan::skip)
-      wanted_.push_back(object);
-  };
   for (const SlotPair pair : pairs) {
     // Both objects are read, or an earlier step found them apart.
     if (same_filter && !summaries_.changed(first_of(pair)) && !summaries_.changed(second_of(pair))) continue;
@@ -139,9 +133,28 @@ void PairTable::read_near_objects(std::span<const SlotPair> pairs, TaskPool& tas
   for (const ListedPair& listed : listed_)
     for (const std::uint32_t slot : {first_of(listed.pair), second_of(listed.pair)})
       if (summaries_.changed(slot)) want(slot);
+  for (const Object* const tool : tools) want_near(*tool);
   if (wanted_.empty()) return;
   store_.read_unread(wanted_, tasks, diagnostics);
   summaries_.refresh(wanted_);
+}
+
+/// Wants an object to be read in this step, if it is not.
+void PairTable::want(std::uint32_t slot) {
+  Object* const object = store_.objects()[slot].get();
+  if (object->is_unread() && std::exchange(object->plan, ReadPlan::read) == ReadPlan::skip)
+    wanted_.push_back(object);
+}
+
+/// Wants a tool that has a patch, and what may be in it.
+void PairTable::want_near(const Object& tool) {
+  const std::uint32_t slot = summaries_.slot_of(tool);
+  const ObjectSummary& summary = summaries_[slot];
+  want(slot);
+  for (std::uint32_t other = 0; other < summaries_.all().size(); ++other)
+    if (summaries_[other].unread && filter_.verdict(summary, summaries_[other]) == PairVerdict::tested &&
+        lower_distance(summary.box, summaries_[other].box) <= tool.settings.patch_radius)
+      want(other);
 }
 
 void PairTable::list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous) {

@@ -30,9 +30,13 @@ class PairTable {
   [[nodiscard]] PairFilter& filter() { return filter_; }
 
   /// Lists the pairs that have to be tested or reported. Also reads objects that promises or surveys left
-  /// unread if they may be near after all. `previous` is the last report.
-  PairList list(const FrameReport& previous, TaskPool& tasks, std::vector<Diagnostic>& diagnostics,
-                StepStatistics& statistics);
+  /// unread if they may be near after all. `previous` is the last report, and `tools` are the objects that
+  /// ask for patches.
+  PairList list(const FrameReport& previous, std::span<Object* const> tools, TaskPool& tasks,
+                std::vector<Diagnostic>& diagnostics, StepStatistics& statistics);
+
+  /// The summaries of all objects, of the last `list`.
+  [[nodiscard]] const ObjectSummaries& summaries() const { return summaries_; }
 
   /// The jobs of the last `list`.
   [[nodiscard]] std::span<PairJob> jobs() { return jobs_; }
@@ -69,8 +73,10 @@ class PairTable {
   void find_ended(const FrameReport& previous);
   [[nodiscard]] std::uint64_t serial_of(ObjectId id);
   void list_ended(SerialPair before);
-  void read_near_objects(std::span<const SlotPair> pairs, TaskPool& tasks,
+  void read_near_objects(std::span<const SlotPair> pairs, std::span<Object* const> tools, TaskPool& tasks,
                          std::vector<Diagnostic>& diagnostics);
+  void want(std::uint32_t slot);
+  void want_near(const Object& tool);
   void list_jobs(std::span<const SelectedPair> selected, const FrameReport& previous);
   [[nodiscard]] PairJob job_of(const SelectedPair& selected, const FrameReport& previous) const;
   void add(PairJob job, const SelectedPair& selected);

@@ -2,6 +2,8 @@
 #include <graze/scene_enumerators.hpp>
 
 #include "geometry/kept_geometry.hpp"
+#include "geometry/kept_meshes.hpp"
+#include "patches/kept_patches.hpp"
 
 namespace graze {
 
@@ -12,7 +14,9 @@ FrameReport::FrameReport(const FrameReport& other)
       rows_(*other.shown_),
       diagnostics_(other.diagnostics_),
       statistics_(other.statistics_),
-      geometry_(other.geometry_) {}
+      geometry_(other.geometry_),
+      meshes_(other.meshes_),
+      patches_(other.patches_) {}
 
 FrameReport& FrameReport::operator=(const FrameReport& other) {
   if (this == &other) return *this;
@@ -24,17 +28,23 @@ FrameReport& FrameReport::operator=(const FrameReport& other) {
   diagnostics_ = other.diagnostics_;
   statistics_ = other.statistics_;
   geometry_ = other.geometry_;
+  meshes_ = other.meshes_;
+  patches_ = other.patches_;
   return *this;
 }
 
 std::shared_ptr<const Mesh> FrameReport::mesh(ObjectId object) const {
-  const KeptObject* const kept = geometry_.get() == nullptr ? nullptr : geometry_.get()->find(object);
-  return kept == nullptr ? nullptr : kept->surface->mesh;
+  const auto* const kept = meshes_.get() == nullptr ? nullptr : meshes_.get()->find(object);
+  return kept == nullptr ? nullptr : *kept;
 }
 
 PositionView FrameReport::positions(ObjectId object) const {
   const KeptObject* const kept = geometry_.get() == nullptr ? nullptr : geometry_.get()->find(object);
   return kept == nullptr ? PositionView() : kept->surface->surface.positions();
+}
+
+Patch FrameReport::patch(ObjectId tool) const {
+  return Patch(patches_.get() == nullptr ? nullptr : patches_.get()->find(tool));
 }
 
 }  // namespace graze

@@ -44,7 +44,7 @@ class ReportBuilder {
     report_.rows_.impacts.clear();
     report_.diagnostics_.clear();
     report_.statistics_ = {};
-    report_.geometry_ = {};
+    release_kept();
   }
   /// Appends a pair and its distances of regions, and counts its contacts. The contacts themselves are
   /// written later, in the order of the pairs.
@@ -129,8 +129,15 @@ class ReportBuilder {
   [[nodiscard]] std::uint64_t frame() const { return report_.frame_; }
   std::vector<Diagnostic>& diagnostics() { return report_.diagnostics_; }
   StepStatistics& statistics() { return report_.statistics_; }
-  void set_geometry(const KeptGeometryHandle& geometry) { report_.geometry_ = geometry; }
-  [[nodiscard]] bool has_geometry() const { return report_.geometry_.get() != nullptr; }
+  void set_geometry(const KeptHandle<KeptGeometry>& geometry) { report_.geometry_ = geometry; }
+  void set_meshes(const KeptHandle<KeptMeshes>& meshes) { report_.meshes_ = meshes; }
+  void set_patches(const KeptHandle<KeptPatches>& patches) { report_.patches_ = patches; }
+  /// Lets go of what the report shares with other reports.
+  void release_kept() noexcept {
+    report_.geometry_ = {};
+    report_.meshes_ = {};
+    report_.patches_ = {};
+  }
 
   /// Reserves room in a report that is to be filled. Lists that have to grow lose their content.
   void reserve(const ReportRoom& room) {
@@ -143,7 +150,7 @@ class ReportBuilder {
   void release() noexcept {
     report_.shown_ = &report_.rows_;
     report_.rows_ = {};
-    report_.geometry_ = {};
+    release_kept();
   }
   [[nodiscard]] ReportRoom room() const {
     return {report_.rows_.pairs.capacity(), report_.rows_.contacts.capacity(),

@@ -28,7 +28,7 @@ ReportHandle ReportPool::latest() noexcept {
 
 FrameReport& ReportPool::begin() {
   end_loans();
-  release_geometry();
+  release_kept();
   const std::uint32_t found = find_free();
   if (found == slot_limit && slot_count_ == slot_limit)
     throw Error("scene: " + std::to_string(slot_count_) +
@@ -78,16 +78,11 @@ void ReportPool::end_loans() {
     if (is_unread(index)) end_loan(index);
 }
 
-/// Lets go of the geometry of all reports that nobody reads.
-void ReportPool::release_geometry() {
-  if (!has_geometry_ || free_count_.load(std::memory_order_acquire) == 0) return;
-  has_geometry_ = false;
-  for (std::uint32_t index = 0; index < slot_count_; ++index) {
-    if (is_unread(index))
-      ReportBuilder(slot(index).report).set_geometry({});
-    else
-      has_geometry_ = has_geometry_ || ReportBuilder(slot(index).report).has_geometry();
-  }
+/// Lets go of what the reports that nobody reads share with others.
+void ReportPool::release_kept() {
+  if (free_count_.load(std::memory_order_acquire) == 0) return;
+  for (std::uint32_t index = 0; index < slot_count_; ++index)
+    if (is_unread(index)) ReportBuilder(slot(index).report).release_kept();
 }
 
 void ReportPool::end_loan(std::uint32_t index) {
@@ -175,7 +170,6 @@ void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
 }
 
 ReportHandle ReportPool::publish() noexcept {
-  has_geometry_ = has_geometry_ || ReportBuilder(slot(filling_).report).has_geometry();
   slot(filling_).references.store(bias, std::memory_order_relaxed);
   retire(current_.exchange(std::uint64_t{filling_} << count_bits, std::memory_order_acq_rel));
   return latest();  // NOLINT(clang-analyzer-cplusplus.NewDelete): the scene owns the pool while it steps

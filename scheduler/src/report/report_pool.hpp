@@ -94,7 +94,7 @@ class ReportPool {
   [[nodiscard]] bool may_lend(std::uint32_t index);
   void end_loans();
   void end_loan(std::uint32_t index);
-  void release_geometry();
+  void release_kept();
   [[nodiscard]] std::uint32_t find_free();
   [[nodiscard]] bool has_room(std::uint32_t index);
   std::uint32_t add_slot();
@@ -116,7 +116,6 @@ class ReportPool {
   std::uint32_t loan_count_ = 0;    ///< slots that have a lender
   std::uint32_t lender_count_ = 0;  ///< slots that are one
   bool is_reserved_ = false;        ///< slots were reserved
-  bool has_geometry_ = false;       ///< a report that was published may have kept geometry
   ReportRoom room_;                 ///< that every report gets when nobody reads it
   bool all_have_room_ = true;
   std::size_t byte_count_ = sizeof(ReportPool);

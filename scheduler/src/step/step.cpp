@@ -35,7 +35,9 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       jobs_(settings, tasks_),
       rows_(tasks_, store_, pairs_, jobs_, sweeps_, last_contacts_),
       reserve_(settings, content, reports, pairs_, refit_, sweeps_, jobs_, rows_),
-      geometry_(tasks_, store_) {}
+      geometry_(tasks_, store_),
+      meshes_(store_),
+      patches_(tasks_, store_) {}
 
 void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* capture) {
   const Clock::time_point start = Clock::now();
@@ -46,13 +48,16 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
   apply_calls(builder.diagnostics(), capture);
   store_.read_positions(tasks_, builder.diagnostics(), capture);
   builder.set_geometry(geometry_.keep());
+  builder.set_meshes(meshes_.keep());
   statistics.times.read_ms = lap();
   if (std::exchange(can_repeat_report_, false) && !store_.changed()) {
     repeat_rows(previous, statistics);
+    builder.set_patches(patches_.last());
   } else {
-    PairList list = pairs_.list(previous, tasks_, builder.diagnostics(), statistics);
+    PairList list = pairs_.list(previous, patches_.tools(), tasks_, builder.diagnostics(), statistics);
     statistics.times.pairs_ms = lap();
     refit_.run(list.jobs);
+    builder.set_patches(patches_.keep(pairs_.summaries(), pairs_.filter()));
     statistics.times.refit_ms = lap();
     if (store_.swept().some()) sweep(list, start, statistics);
     last_contacts_.begin(previous, list.jobs, store_.some_replaced());
@@ -66,7 +71,8 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
   statistics.objects_unread = store_.unread_count();
   statistics.objects_surveyed = store_.surveyed_count();
   statistics.bytes.objects = store_.byte_count() + staging_.byte_count();
-  statistics.bytes.reports = reports_.byte_count() + geometry_.byte_count();
+  statistics.bytes.reports =
+      reports_.byte_count() + geometry_.byte_count() + meshes_.byte_count() + patches_.byte_count();
   store_.forget_replaced();
   store_.forget_departed();  // the report is made: nothing throws from here on
   statistics.times.publish_ms = lap();

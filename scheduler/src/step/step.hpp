@@ -7,11 +7,13 @@
 
 #include "calls/staging.hpp"
 #include "geometry/geometry_keeper.hpp"
+#include "geometry/mesh_keeper.hpp"
 #include "jobs/last_contacts.hpp"
 #include "jobs/pair_jobs.hpp"
 #include "jobs/pair_sweeps.hpp"
 #include "jobs/region_refit.hpp"
 #include "pairs/pair_table.hpp"
+#include "patches/patch_keeper.hpp"
 #include "recording/frame_capture.hpp"
 #include "report/report_builder.hpp"
 #include "report/report_pool.hpp"
@@ -54,6 +56,8 @@ class Step {
   RowWriter rows_;
   StepReserve reserve_;
   GeometryKeeper geometry_;
+  MeshKeeper meshes_;
+  PatchKeeper patches_;
   /// The last step tested no pair and all its rows were repeated. If nothing changes, the next step can
   /// repeat its report.
   bool can_repeat_report_ = false;

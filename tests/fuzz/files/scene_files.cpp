@@ -85,7 +85,7 @@ std::vector<std::string> scene_file_seeds() {
  "ways_out": true, "carrying": 3, "carrying_band": 0.125,
  "objects": [{"name": "a", "mesh": "solid.obj", "solid": true, "motion": "deformable"},
  {"name": "b", "mesh": "solid.obj", "solid": true, "transform": {"translate": [0.1, 0.1, 0.1], "scale": 0.25}},
- {"name": "c", "mesh": "tent.ply", "face_groups": [0, 1], "hidden_groups": [1], "queries": true}, {"name": "d", "mesh": "pair.obj", "node": "left",
+ {"name": "c", "mesh": "tent.ply", "face_groups": [0, 1], "hidden_groups": [1], "queries": true, "patch_radius": 0.5, "patch_faces": 64}, {"name": "d", "mesh": "pair.obj", "node": "left",
  "face_groups": [255]}], "ignore": [["c", 1, "d", 255]]})",
       R"({"graze": 1, "contact_distance": 0.125, "sweep_tolerance": 1e-9, "swept_gap": 0.25,
  "objects": [{"name": "a", "mesh": "plate.obj", "positions": "plate_#.off", "self": true, "self_rings": 0,

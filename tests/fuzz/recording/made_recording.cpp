@@ -254,6 +254,8 @@ void RecordMaker::fill(AddRecord& record) {
   record.settings.solid = record.mesh == 2 ? bytes_.flag() : wrong();
   record.settings.face_groups = groups(record.mesh);
   record.settings.queries = bytes_.flag();
+  if (bytes_.once_in(4)) record.settings.patch_radius = wrong() ? -1.0 : bytes_.below(4) / 4.0;
+  if (wrong()) record.settings.patch_faces = 0;
   if (bytes_.once_in(4)) record.settings.hidden_groups = {static_cast<std::uint8_t>(bytes_.below(3))};
   known_.push_back({record.object, record.serial, record.mesh, record.settings.motion});
 }

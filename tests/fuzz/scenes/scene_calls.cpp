@@ -93,6 +93,8 @@ ObjectSettings read_object_settings(ByteReader& reader) {
   const std::uint32_t asks = reader.below(8);
   settings.queries = asks >= 6;
   settings.self = asks % 3 == 1;
+  if (asks % 4 == 1) settings.patch_radius = reader.below(64) / 32.0;
+  if (asks == 5) settings.patch_faces = 1 + reader.below(8);
   // Mostly none of a scene is swept, since steps then survey nothing and read all that promises are about.
   settings.swept = reader.once_in(6);
   if (settings.self) {

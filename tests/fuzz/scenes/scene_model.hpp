@@ -115,6 +115,8 @@ class SceneModel {
   [[nodiscard]] bool sweeps() const;
   /// Whether the contract says from where both objects of a pair were swept.
   [[nodiscard]] bool is_sweep_known(const BodyPair& pair) const;
+  /// Asks the patches of the report about where their tools were.
+  void check_patches(const ReportHandle& report) const;
   /// Compares queries of the report with the model and with each other.
   void check_queries(const ReportHandle& report) const;
   void check_diagnostics(const FrameReport& report);

@@ -97,10 +97,10 @@ void SceneModel::check_queries(const ReportHandle& report) const {
   double size = 1;
   for (const ModelBody& body : bodies_) {
     const bool asks = body.is_alive && body.settings.queries;
-    expect((report->mesh(body.id) != nullptr) == asks, "a report keeps what it should not, or does not");
-    if (!asks) continue;
-    expect(report->mesh(body.id) == body.mesh, "a report keeps another mesh");
+    expect(report->mesh(body.id) == (body.is_alive ? body.mesh : nullptr), "a report has another mesh");
     const PositionView kept = report->positions(body.id);
+    expect((kept.size() > 0) == asks, "a report keeps what it should not, or does not");
+    if (!asks) continue;
     expect(kept.size() == body.mesh->vertex_count(), "a report keeps another number of positions");
     const std::vector<bool> is_seen = seen_vertices(body);
     const bool counts = body.settings.layer != 0 && body.settings.collides_with != 0;
@@ -122,6 +122,28 @@ void SceneModel::check_queries(const ReportHandle& report) const {
     queries.check_closest(id, vertices);
     queries.check_reach();
     queries.check_ray(2 * (vertices.back() - point));
+  }
+}
+
+void SceneModel::check_patches(const ReportHandle& report) const {
+  PatchRoom room;
+  for (const ModelBody& body : bodies_) {
+    const Patch patch = report->patch(body.id);
+    expect(static_cast<bool>(patch) == (body.is_alive && body.settings.patch_radius > 0),
+           "a report has a patch that it should not have, or has none");
+    if (!patch) continue;
+    expect(patch.radius() <= body.settings.patch_radius, "a patch has another radius");
+    expect(patch.is_cut() || patch.radius() == body.settings.patch_radius,
+           "a patch is smaller for no reason");
+    expect(patch.face_count() <= body.settings.patch_faces, "a patch has too many faces");
+    if (body.settings.motion != Motion::deformable) continue;
+    const double threshold = patch.radius() / 2;
+    const PatchAnswer answer = patch.contacts(body.seen, threshold, room);
+    expect(answer.complete && answer.threshold == threshold, "a patch does not know where its tool was");
+    expect(answer.validity == patch.validity(body.seen, threshold), "a patch has two validities");
+    for (const Contact& contact : room.contacts())
+      expect(contact.distance < threshold || contact.kind == ContactKind::EF || contact.separation() < 0,
+             "a patch lists what is not near");
   }
 }
 

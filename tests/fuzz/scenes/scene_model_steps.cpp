@@ -155,6 +155,7 @@ void SceneModel::step() {
   check_diagnostics(*report);
   check_rows(*report, build_afresh());
   check_queries(report);
+  check_patches(report);
   is_swept_added_ = false;
 }
 

@@ -214,14 +214,15 @@ TEST_CASE("a probe is blocked by the objects that it would be in contact with in
   REQUIRE(blocked > repeats(40));
 }
 
-TEST_CASE("a report keeps meshes and positions of the objects that ask, after changes and after the scene") {
+TEST_CASE("a report keeps meshes, and positions of the objects that ask, after changes and after the scene") {
   auto scene = std::make_unique<Scene>(SceneSettings{});
   ObjectSettings asks = motion_of(Motion::deformable);
   asks.queries = true;
   const auto plate = plate_mesh();
   const ObjectId moving = scene->add(plate, asks);
   const ObjectId resting = scene->add(cube_mesh(), asks);
-  const ObjectId silent = scene->add(plate_mesh(), motion_of(Motion::deformable));
+  const auto silent_mesh = plate_mesh();
+  const ObjectId silent = scene->add(silent_mesh, motion_of(Motion::deformable));
   REQUIRE(scene->latest_report()->mesh(moving) == nullptr);
   scene->set_positions(moving, lifted(*plate, 1));
   const ReportHandle first = scene->step();
@@ -234,8 +235,9 @@ TEST_CASE("a report keeps meshes and positions of the objects that ask, after ch
   scene->remove(moving);
   const ReportHandle fifth = scene->step();
   const FrameReport copy = *second;
+  REQUIRE((copy.mesh(moving) == plate && copy.mesh(silent) == silent_mesh));
 
-  REQUIRE((first->mesh(silent) == nullptr && first->positions(silent).size() == 0));
+  REQUIRE((first->mesh(silent) == silent_mesh && first->positions(silent).size() == 0));
   REQUIRE(first->mesh(moving) == plate);
   REQUIRE(first->positions(moving)[0].z() == 1);
   REQUIRE(second->positions(moving)[0].z() == 2);
@@ -251,6 +253,57 @@ TEST_CASE("a report keeps meshes and positions of the objects that ask, after ch
   query.set_report(fifth);
   REQUIRE(!query.cast_ray({0.5, 0.25, 5}, {0, 0, -1}, 10, {.ignored = resting}));
   REQUIRE(copy.positions(moving)[0].z() == 2);
+}
+
+TEST_CASE("reports know the mesh of each of many objects that come, go and change") {
+  Random random(3);
+  Scene scene({.threads = 1});
+  std::vector<std::pair<ObjectId, std::shared_ptr<const Mesh>>> there;
+  std::vector<ObjectId> gone;
+  std::vector<ReportHandle> reports;
+  std::vector<decltype(there)> expected;
+  for (std::uint64_t step = 0; step < std::max<std::uint64_t>(30, repeats(300)); ++step) {
+    for (std::uint32_t adding = random.below(40); adding > 0; --adding) {
+      const auto mesh = random.chance(0.5) ? plate_mesh() : needle_mesh();
+      there.emplace_back(scene.add(mesh, {.motion = Motion::fixed, .collides_with = 0}), mesh);
+    }
+    for (std::uint32_t taking = random.below(30); taking > 0 && !there.empty(); --taking) {
+      const auto taken = there.begin() + random.below(static_cast<std::uint32_t>(there.size()));
+      scene.remove(taken->first);
+      gone.push_back(taken->first);
+      there.erase(taken);
+    }
+    if (!there.empty() && random.chance(0.5)) {
+      auto& [id, mesh] = there[random.below(static_cast<std::uint32_t>(there.size()))];
+      const std::vector<std::uint32_t> lost(mesh->vertex_count(), Mesh::no_vertex);
+      mesh = cube_mesh();
+      scene.replace_mesh(id, mesh, lost);
+    }
+    reports.push_back(scene.step());
+    expected.push_back(there);
+    if (reports.size() > 4) {
+      reports.erase(reports.begin());
+      expected.erase(expected.begin());
+    }
+    for (std::size_t i = 0; i < reports.size(); ++i)
+      for (const auto& [id, mesh] : expected[i]) REQUIRE(reports[i]->mesh(id) == mesh);
+    for (const ObjectId id : gone) REQUIRE(reports.back()->mesh(id) == nullptr);
+  }
+  REQUIRE(gone.size() > 100);
+}
+
+TEST_CASE("a scene lets go of the mesh of an object that is gone, once no report has it") {
+  Scene scene({.threads = 1});
+  auto mesh = std::make_shared<const Mesh>(*cube_mesh());
+  const std::weak_ptr<const Mesh> watched = mesh;
+  const ObjectId cube = scene.add(std::move(mesh), {});
+  scene.add(plate_mesh(), {});
+  scene.step();
+  scene.remove(cube);
+  scene.step();
+  scene.step();
+  scene.step();
+  REQUIRE(watched.expired());
 }
 
 TEST_CASE("threads query reports while the scene steps") {

@@ -1,10 +1,11 @@
 // A repeated query takes no memory once it has answered at the same positions before. A scene whose reports
-// keep geometry takes none either, nor do queries of its reports.
+// keep geometry or patches takes none either, nor do queries of its reports and patches.
 
 #include <array>
 #include <cmath>
 #include <graze/graze.hpp>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include "scheduler/memory/allocation_count.hpp"
@@ -93,6 +94,45 @@ TEST_CASE("steps that keep geometry, and queries of it, take no memory after one
   AllocationCount::end();
   INFO(AllocationCount::first_of_others());
   CHECK(AllocationCount::by_others() == 0);
+}
+
+TEST_CASE("steps that keep patches, and answers of patches, take no memory after one period") {
+  if (!AllocationCount::is_possible()) {
+    std::cout << "skipped: the allocator cannot be replaced here\n";
+    return;
+  }
+  const auto mesh = mesh_of(models::sphere(24, 14));
+  const std::vector<Positions> frames = period_of(*mesh);
+  for (const bool solid : {false, true}) {
+    Scene scene({.contact_distance = 0.1, .threads = 1});
+    const ObjectId body = scene.add(mesh, {.solid = solid});
+    const ObjectId floor = scene.add(mesh_of(models::sheet(20, 20, 6, 6)), {.motion = Motion::rigid});
+    const ObjectId tool =
+        scene.add(mesh_of(models::sphere(8, 4)), {.motion = Motion::rigid, .patch_radius = 0.5});
+    PatchRoom room;
+    ReportHandle held;
+    std::size_t contacts = 0;
+    std::size_t faces = 0;
+    const auto ask = [&](int periods) {
+      for (int period = 0; period < periods; ++period)
+        for (const Positions& now : frames) {
+          scene.set_positions(body, now);
+          scene.set_pose(floor, lift_pose(-0.75 + 0.01 * now[0].x()));
+          const ReportHandle before = std::exchange(held, scene.step());
+          if (before) before->patch(tool).contacts(lift_pose(0.1), 0.2, room);
+          contacts += room.contacts().size();
+          faces += held->patch(tool).face_count();
+        }
+    };
+    ask(3);
+    REQUIRE(contacts > 100);
+    REQUIRE(faces > 1000);
+    AllocationCount::begin();
+    ask(2);
+    AllocationCount::end();
+    INFO(AllocationCount::first_of_others());
+    CHECK(AllocationCount::by_others() == 0);
+  }
 }
 
 }  // namespace graze::tests

@@ -83,7 +83,10 @@ class GRAZE_API Surface {
   /// Takes all of `view`, which has one position for each vertex, or nothing, also where there is no memory
   /// for it (std::bad_alloc). Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
-  /// Poses the rest shape: vertex = ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t) of the pose.
+  /// Where a pose puts a point of the rest shape: ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t).
+  [[nodiscard]] static Eigen::Vector3d posed(const std::array<double, 12>& rows,
+                                             const Eigen::Vector3d& point);
+  /// Poses the rest shape.
   /// From one pose to another the displacement is a bound, by the corners of the rest shape's box, and
   /// another pose is a change.
   ReadResult set_pose(const std::array<double, 12>& rows);
@@ -198,6 +201,7 @@ class GRAZE_API Surface {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
+  friend class SurfacePart;  // it has positions and bounds of some regions alone
   /// When bounds were last made.
   struct Refit {
     std::uint64_t version = 0;  ///< 0 before the first

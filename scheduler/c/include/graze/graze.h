@@ -442,6 +442,8 @@ typedef struct {
   size_t face_group_count;
   const uint8_t* hidden_groups;
   size_t hidden_group_count;
+  double patch_radius;
+  uint32_t patch_faces;
 } graze_object_settings;
 
 /// graze::PairRule. What has no value stays that of the scene.
@@ -719,6 +721,78 @@ GRAZE_C_API graze_status graze_query_new(const graze_mesh* mesh_a, const graze_m
 GRAZE_C_API graze_status graze_query_ask(graze_query* query, const graze_positions* positions_a,
                                          const graze_positions* positions_b, graze_query_result* result);
 GRAZE_C_API void graze_query_release(graze_query* query);
+
+/// @}
+
+/// @name Patches
+/// What lies around an object with patch_radius, for answers between steps: graze::Patch. It is named by its
+/// report and the object, its tool. Any number of threads may ask about one report, each with a room of its
+/// own. A copy of a report has its patches, too. A tool without a patch is refused, but for
+/// graze_report_patch().
+/// @{
+
+/// graze::PatchRoom
+typedef struct graze_patch_room graze_patch_room;
+
+/// graze::PatchPair
+typedef struct {
+  graze_id a;
+  graze_id b;
+  uint8_t inside;
+  size_t first_contact;
+  size_t contact_count;
+} graze_patch_pair;
+
+/// graze::PatchAnswer
+typedef struct {
+  bool complete;
+  double threshold;
+  double validity;
+} graze_patch_answer;
+
+/// What a graze::Patch says of itself. `exists` is false where the report has no patch of the tool.
+typedef struct {
+  bool exists;
+  bool is_cut;
+  double radius;
+  size_t face_count;
+  /// In the order in which they were added. They are valid as long as the report.
+  const graze_id* objects;
+  size_t object_count;
+} graze_patch;
+
+/// FrameReport::patch()
+GRAZE_C_API graze_status graze_report_patch(const graze_report* report, graze_id tool, graze_patch* patch);
+/// Patch::faces(). They are valid as long as the report.
+GRAZE_C_API graze_status graze_patch_faces(const graze_report* report, graze_id tool, graze_id object,
+                                           const uint32_t** faces, size_t* count);
+/// Patch::positions(). They are valid as long as the report.
+GRAZE_C_API graze_status graze_patch_positions(const graze_report* report, graze_id tool, graze_id object,
+                                               graze_positions* positions);
+/// Patch::contacts() at a pose: its rows, of three times four numbers.
+GRAZE_C_API graze_status graze_patch_contacts_at_pose(const graze_report* report, graze_id tool,
+                                                      const double rows[12], double threshold,
+                                                      graze_patch_room* room, graze_patch_answer* answer);
+/// Patch::contacts() at positions
+GRAZE_C_API graze_status graze_patch_contacts_at_positions(const graze_report* report, graze_id tool,
+                                                           const graze_positions* positions,
+                                                           double threshold, graze_patch_room* room,
+                                                           graze_patch_answer* answer);
+/// Patch::validity() at a pose. Without a threshold, null, it is the largest of the scene.
+GRAZE_C_API graze_status graze_patch_validity_at_pose(const graze_report* report, graze_id tool,
+                                                      const double rows[12], const double* threshold,
+                                                      double* validity);
+/// Patch::validity() at positions
+GRAZE_C_API graze_status graze_patch_validity_at_positions(const graze_report* report, graze_id tool,
+                                                           const graze_positions* positions,
+                                                           const double* threshold, double* validity);
+/// Makes a room that has no memory yet.
+GRAZE_C_API graze_status graze_patch_room_new(graze_patch_room** room);
+GRAZE_C_API void graze_patch_room_release(graze_patch_room* room);
+/// PatchRoom::pairs(). They are valid until the room is filled again.
+GRAZE_C_API const graze_patch_pair* graze_patch_room_pairs(const graze_patch_room* room, size_t* count);
+/// PatchRoom::contacts(). They are valid until the room is filled again.
+GRAZE_C_API const graze_contact* graze_patch_room_contacts(const graze_patch_room* room, size_t* count);
 
 /// @}
 

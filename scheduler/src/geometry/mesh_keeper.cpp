@@ -1,0 +1,28 @@
+#include "geometry/mesh_keeper.hpp"
+
+#include <utility>
+
+namespace graze {
+
+KeptHandle<KeptMeshes> MeshKeeper::keep() {
+  const std::uint64_t departures = store_.arrivals_and_departures();
+  lists_.clear_unused();
+  if (lists_.has_last() && seen_departures_ == departures && !store_.some_replaced()) return lists_.last();
+  // The last list stays in its handle until the new one has what it needs of it.
+  const KeptHandle<KeptMeshes> last = lists_.has_last() ? lists_.last() : KeptHandle<KeptMeshes>();
+  KeptMeshes& now = lists_.next();
+  if (last.get() != nullptr) now.begin_with(*last.get());
+  for (const DepartedObject& departed : store_.departed()) now.set(departed.id, nullptr);
+  const auto objects = store_.objects();
+  for (auto object = objects.rbegin(); object != objects.rend() && (*object)->serial >= seen_serial_;
+       ++object)
+    now.set((*object)->id, (*object)->users_mesh);
+  if (store_.some_replaced())
+    for (const Object* const object : store_.replaced()) now.set(object->id, object->users_mesh);
+  seen_serial_ = store_.next_serial();
+  seen_departures_ = departures;
+  byte_count_ = lists_.byte_count() + now.byte_count_of_parts();
+  return lists_.last();
+}
+
+}  // namespace graze

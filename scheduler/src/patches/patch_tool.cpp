@@ -1,0 +1,152 @@
+#include "patches/patch_tool.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "core/base/bytes_of.hpp"
+
+namespace graze {
+
+void PatchTool::list_near(std::span<const std::unique_ptr<Object>> objects, const ObjectSummaries& summaries,
+                          const PairFilter& filter) {
+  near_.clear();
+  threshold_ = 0;
+  const std::uint32_t slot = summaries.slot_of(object_);
+  const ObjectSummary& tool = summaries[slot];
+  if (tool.hidden) return;
+  for (std::uint32_t other = 0; other < objects.size(); ++other) {
+    const ObjectSummary& summary = summaries[other];
+    if (other == slot || summary.hidden || filter.verdict(tool, summary) != PairVerdict::tested) continue;
+    const auto [first, second] = std::minmax(slot, other);
+    threshold_ = std::max(threshold_, filter.thresholds(summaries[first], summaries[second]).threshold);
+    if (lower_distance(tool.box, summary.box) > object_.settings.patch_radius) continue;
+    near_.push_back({objects[other].get(), filter.groups(summaries[first], summaries[second])});
+  }
+}
+
+void PatchTool::find_leaves() {
+  copy_surface();
+  keep_ignored();
+  const Surface& about = copies_.last()->surface;
+  radius_ = object_.settings.patch_radius;
+  cut_ = false;
+  found_.clear();
+  for (std::size_t index = 0; index < near_.size(); ++index) {
+    const Surface& surface = near_[index].object->surface();
+    leaves_.clear();
+    list_near_leaves(about, object_.settings.solid, surface, radius_, leaves_);
+    for (const NearLeaf& leaf : leaves_)
+      found_.push_back({leaf, index, surface.mesh().regions().region(leaf.leaf).face_count});
+  }
+  cut();
+  std::sort(found_.begin(), found_.end(), [](const FoundLeaf& left, const FoundLeaf& right) {
+    return std::tie(left.near, left.leaf.leaf) < std::tie(right.near, right.leaf.leaf);
+  });
+  leaves_.clear();
+  for (const FoundLeaf& found : found_) {
+    Near& near = near_[found.near];
+    if (near.leaf_count++ == 0) near.first_leaf = leaves_.size();
+    leaves_.push_back(found.leaf);
+  }
+}
+
+void PatchTool::copy_surface() {
+  const Surface& from = object_.surface();
+  if (version_ == from.version() && copies_.has_last_of(object_.users_mesh)) return;
+  Surface& to = copies_.next(object_.users_mesh).surface;
+  const bool is_at_rest = from.positions().data() == to.positions().data();
+  if (!is_at_rest) (void)to.set_positions(from.positions());
+  to.refit_faces();
+  version_ = from.version();
+}
+
+/// Leaves out the furthest leaves where there are more faces than a patch may have.
+void PatchTool::cut() {
+  std::size_t faces = 0;
+  for (const FoundLeaf& found : found_) faces += found.faces;
+  if (faces <= object_.settings.patch_faces) return;
+  std::sort(found_.begin(), found_.end(), [](const FoundLeaf& left, const FoundLeaf& right) {
+    return std::tie(left.leaf.lower, left.near, left.leaf.leaf) <
+           std::tie(right.leaf.lower, right.near, right.leaf.leaf);
+  });
+  std::size_t kept = 0;
+  faces = 0;
+  while (faces + found_[kept].faces <= object_.settings.patch_faces) faces += found_[kept++].faces;
+  radius_ = std::min(radius_, found_[kept].leaf.lower);
+  cut_ = true;
+  found_.resize(kept);
+}
+
+/// Copies the groups that are ignored. Those of the scene may change while a report has the copy.
+void PatchTool::keep_ignored() {
+  std::size_t next = 0;
+  for (const Near& near : near_) {
+    if (near.groups.filter == nullptr) continue;
+    while (next < ignored_.size() && ignored_[next].serial < near.object->serial) ++next;
+    const bool is_known = next < ignored_.size() && ignored_[next].serial == near.object->serial;
+    if (is_known && ignored_[next].version == near.groups.version) continue;
+    const bool is_first = near.object->serial < serial_;
+    const auto& of_a = is_first ? near.object->face_groups : object_.face_groups;
+    const auto& of_b = is_first ? object_.face_groups : near.object->face_groups;
+    auto copy = std::make_shared<GroupFilter>(of_a, of_b);
+    near.groups.filter->visit_ignored([&](std::uint8_t a, std::uint8_t b) { copy->set_ignored(a, b, true); });
+    if (!is_known) ignored_.insert(ignored_.begin() + static_cast<std::ptrdiff_t>(next), Ignored{});
+    ignored_[next] = {near.object->serial, near.groups.version, std::move(copy)};
+  }
+}
+
+void PatchTool::ask(PatchSources& sources) const {
+  for (const Near& near : near_)
+    if (is_there(near)) sources.ask(*near.object, leaves_of(near));
+}
+
+void PatchTool::fill(const PatchSources& sources, KeptPatch& patch) const {
+  patch.tool = object_.id;
+  patch.solid = object_.settings.solid;
+  patch.surface = copies_.last();
+  patch.groups = object_.hides_some_faces() ? object_.face_groups : nullptr;
+  patch.radius = radius_;
+  patch.cut = cut_;
+  patch.threshold = threshold_;
+  for (const Near& near : near_) {
+    if (!is_there(near)) continue;
+    const Object& object = *near.object;
+    KeptPatchObject kept;
+    kept.id = object.id;
+    kept.is_first = object.serial < serial_;
+    kept.solid = object.settings.solid;
+    kept.surface = sources.copy_of(object);
+    if (object.hides_some_faces()) kept.groups = object.face_groups;
+    if (near.groups.filter != nullptr)
+      kept.ignored = std::lower_bound(
+                         ignored_.begin(), ignored_.end(), object.serial,
+                         [](const Ignored& ignored, std::uint64_t serial) { return ignored.serial < serial; })
+                         ->filter;
+    kept.first_face = patch.faces.size();
+    add_faces(near, patch.faces);
+    kept.face_count = patch.faces.size() - kept.first_face;
+    patch.ids.push_back(object.id);
+    patch.objects.push_back(std::move(kept));
+  }
+}
+
+void PatchTool::add_faces(const Near& near, std::vector<std::uint32_t>& faces) const {
+  const RegionTree& tree = near.object->mesh->regions();
+  const auto first = static_cast<std::ptrdiff_t>(faces.size());
+  for (const NearLeaf& leaf : leaves_of(near)) {
+    const auto of_leaf = tree.faces(tree.region(leaf.leaf));
+    faces.insert(faces.end(), of_leaf.begin(), of_leaf.end());
+  }
+  std::sort(faces.begin() + first, faces.end());
+}
+
+std::size_t PatchTool::byte_count() const {
+  std::size_t bytes = sizeof(PatchTool) + bytes_of(copies_.all()) + bytes_of(near_) + bytes_of(leaves_) +
+                      bytes_of(found_) + bytes_of(ignored_);
+  for (const auto& copy : copies_.all()) bytes += sizeof(KeptSurface) + copy->surface.byte_count();
+  for (const Ignored& ignored : ignored_) bytes += ignored.filter->byte_count();
+  return bytes;
+}
+
+}  // namespace graze
