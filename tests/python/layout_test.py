@@ -25,12 +25,13 @@ CALLED = {
     "query_settings": _structs.QuerySettings, "query_result": _structs.QueryResult,
     "query_filter": _structs.QueryFilter, "recorder_settings": _structs.RecorderSettings,
     "recorder_statistics": _structs.RecorderStatistics, "recorded_frame": _structs.RecordedFrame,
-    "replay_difference": _structs.ReplayDifference}
+    "replay_difference": _structs.ReplayDifference,
+    "patch": _structs.Patch, "patch_answer": _structs.PatchAnswer}
 ROWS = {
     "id": rows.ID, "feature": rows.FEATURE, "contact": rows.CONTACT, "bounds": rows.BOUNDS,
     "witness": rows.WITNESS, "way_out": rows.WAY_OUT, "pair": rows.PAIR, "region_distance": rows.REGION_DISTANCE,
     "impact": rows.IMPACT, "contact_geometry": rows.CONTACT_GEOMETRY, "followed_contact": rows.FOLLOWED_CONTACT, "weights": rows.WEIGHTS,
-    "ray_hit": rows.RAY_HIT, "sphere_hit": rows.SPHERE_HIT, "closest_point": rows.CLOSEST_POINT,
+    "patch_pair": rows.PATCH_PAIR, "ray_hit": rows.RAY_HIT, "sphere_hit": rows.SPHERE_HIT, "closest_point": rows.CLOSEST_POINT,
     "statistics": rows.STATISTICS}
 UNUSED = {"task_scheduler"}  # functions of C that call back; a scene from Python takes oneTBB
 
@@ -201,7 +202,7 @@ class ValueTest(unittest.TestCase):
         given = graze.ObjectSettings(
             name="Gewebe \u00e4", motion=graze.Motion.RIGID, layer=6, collides_with=5, group=2**63, margin=0.5,
             kind=255, user_data=2**64 - 1, face_groups=(9,), hidden_groups=(1, 2), self=True, self_rings=3,
-            self_at_rest=True, swept=True, queries=True)
+            self_at_rest=True, swept=True, queries=True, patch_radius=0.75, patch_faces=99)
         with graze.Scene() as scene:
             added = scene.add(mesh, given)
             self.assertEqual(scene.object_settings(added), given)

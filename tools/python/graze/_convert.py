@@ -122,9 +122,9 @@ def object_to_c(given: settings.ObjectSettings) -> _structs.ObjectSettings:
     made: _structs.ObjectSettings = initial(_structs.ObjectSettings, lib.object_settings_init)
     made.name = text_to_c(given.name, "the name")
     made.motion = Motion(given.motion)
-    for name in ("solid", "self", "self_at_rest", "swept", "queries", "margin"):
+    for name in ("solid", "self", "self_at_rest", "swept", "queries", "margin", "patch_radius"):
         setattr(made, name, getattr(given, name))
-    for name in ("layer", "collides_with", "kind", "self_rings"):
+    for name in ("layer", "collides_with", "kind", "self_rings", "patch_faces"):
         setattr(made, name, unsigned(getattr(given, name), 32, name))
     for name in ("group", "user_data"):
         setattr(made, name, unsigned(getattr(given, name), 64, name))
@@ -139,7 +139,8 @@ def object_from_c(read: _structs.ObjectSettings) -> settings.ObjectSettings:
         collides_with=read.collides_with, group=read.group, margin=read.margin, kind=read.kind, solid=read.solid,
         user_data=read.user_data, face_groups=tuple(read.face_groups[:read.face_group_count]),
         hidden_groups=tuple(read.hidden_groups[:read.hidden_group_count]), self=read.self,
-        self_rings=read.self_rings, self_at_rest=read.self_at_rest, swept=read.swept, queries=read.queries)
+        self_rings=read.self_rings, self_at_rest=read.self_at_rest, swept=read.swept, queries=read.queries,
+        patch_radius=read.patch_radius, patch_faces=read.patch_faces)
 
 
 def rule_to_c(given: settings.PairRule) -> _structs.PairRule:

@@ -50,7 +50,8 @@ class ObjectSettings(ctypes.Structure):
         ("self_at_rest", c_bool), ("swept", c_bool), ("queries", c_bool), ("layer", c_uint32),
         ("collides_with", c_uint32), ("kind", c_uint32), ("self_rings", c_uint32), ("group", c_uint64),
         ("margin", c_double), ("user_data", c_uint64), ("face_groups", POINTER(c_uint8)),
-        ("face_group_count", c_size_t), ("hidden_groups", POINTER(c_uint8)), ("hidden_group_count", c_size_t)]
+        ("face_group_count", c_size_t), ("hidden_groups", POINTER(c_uint8)), ("hidden_group_count", c_size_t),
+        ("patch_radius", c_double), ("patch_faces", c_uint32)]
 
 
 class PairRule(ctypes.Structure):
@@ -100,3 +101,12 @@ class RecordedFrame(ctypes.Structure):
 
 class ReplayDifference(ctypes.Structure):
     _fields_ = [("frame", c_uint64), ("pair", c_char_p), ("recorded", c_char_p), ("replayed", c_char_p)]
+
+
+class Patch(ctypes.Structure):
+    _fields_ = [("exists", c_bool), ("is_cut", c_bool), ("radius", c_double), ("face_count", c_size_t),
+                ("objects", c_void_p), ("object_count", c_size_t)]
+
+
+class PatchAnswer(ctypes.Structure):
+    _fields_ = [("complete", c_bool), ("threshold", c_double), ("validity", c_double)]

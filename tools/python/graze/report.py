@@ -14,6 +14,7 @@ from ._memory import Handle, made, view
 from ._positions import viewed
 from .enums import DiagnosticKind
 from .mesh import Mesh
+from .patch import Patch
 from .rows import CONTACT, IMPACT, PAIR, REGION_DISTANCE, STATISTICS, ObjectId, object_id
 
 _ROWS: Dict[str, "np.dtype[Any]"] = {
@@ -182,12 +183,19 @@ class Report:
         return self._source.statistics
 
     def mesh(self, object: Any) -> Optional[Mesh]:
-        """Returns the mesh of an object as the step saw it, or None unless the object has `queries`."""
+        """Returns the mesh of an object as the step saw it, or None if it was not in the scene."""
         return self._source.mesh(object)
 
     def positions(self, object: Any) -> "Optional[NDArray[Any]]":
         """Returns the positions of an object in the step, read-only, or None unless the object has `queries`."""
         return self._source.positions(object)
+
+    def patch(self, tool: Any) -> "Optional[Patch]":
+        """Returns what lay around an object with `patch_radius`, or None. A report that was unpickled has none."""
+        if not isinstance(self._source, _InLibrary):
+            return None
+        patch = Patch(self._source.handle, tool)
+        return patch if patch._found.exists else None
 
     def copy(self) -> "Report":
         """Copies the report, so that it takes no room of its scene. The copy can be kept for long, and pickled."""

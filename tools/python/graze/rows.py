@@ -58,6 +58,8 @@ FOLLOWED_CONTACT = _struct([
     ("feature_a", FEATURE), ("feature_b", FEATURE), ("geometry", CONTACT_GEOMETRY), ("is_known", np.bool_),
     ("steps", np.uint32)])
 WEIGHTS = _struct([("count", np.int32), ("vertex", np.uint32, (4,)), ("weight", np.float64, (4,))])
+PATCH_PAIR = _struct([
+    ("a", ID), ("b", ID), ("inside", np.uint8), ("first_contact", np.uintp), ("contact_count", np.uintp)])
 RAY_HIT = _struct([
     ("object", ID), ("t", np.float64), ("point", *_POINT), ("normal", *_POINT), ("feature", FEATURE),
     ("face", np.uint32), ("triangle", np.uint8)])

@@ -80,6 +80,8 @@ class ObjectSettings:
     self_at_rest: bool = False
     swept: bool = False
     queries: bool = False
+    patch_radius: float = 0.0
+    patch_faces: int = 16384
 
 
 @dataclass
