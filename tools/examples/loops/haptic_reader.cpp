@@ -34,15 +34,12 @@ Eigen::Vector3d limited(const Eigen::Vector3d& step) {
 
 }  // namespace
 
-HapticReader::HapticReader(const graze::Scene& scene, OrganHistory& history,
-                           const std::vector<Instrument>& instruments,
-                           const std::vector<std::shared_ptr<const graze::Mesh>>& organs)
-    : scene_(scene),
-      history_(history),
-      instruments_(instruments),
-      organs_(organs),
-      forces_(instruments.size()) {
-  for (std::size_t i = 0; i < instruments.size(); ++i) held_[i].proxy = instruments[i].pose(0).translation();
+HapticReader::HapticReader(const graze::Scene& scene, OrganHistory& history, const Watched& watched)
+    : scene_(scene), history_(history), watched_(watched), forces_(watched.instruments.size()) {
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    held_[i].hand = watched.instruments[i].pose(0);
+    held_[i].proxy = held_[i].hand.translation();
+  }
   for (std::size_t i = 0; i < 2; ++i) organ_points_[i] = history.at(0).points[i];
   moved_planes_.reserve(4096);
   report_planes_.reserve(4096);
@@ -62,9 +59,10 @@ bool HapticReader::tick(double time) {
   blend_organs(time);
   history_.release();
 
-  for (std::size_t i = 0; i < instruments_.size(); ++i) {
-    held_[i].hand = instruments_[i].pose(time);
-    add_planes(*report, i);
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    held_[i].hand = watched_.instruments[i].pose(time);
+    add_planes_of_report(*report, i);
+    add_planes_of_patch(*report, i);
     const Eigen::Vector3d& hand = held_[i].hand.translation();
     const Eigen::Vector3d way = way_to_proxy(moved_planes_);
     held_[i].proxy += limited(hand + way - held_[i].proxy);
@@ -86,27 +84,47 @@ void HapticReader::blend_organs(double time) {
       organ_points_[i][j] = from.points[i][j] + share * (to.points[i][j] - from.points[i][j]);
 }
 
-void HapticReader::add_planes(const graze::FrameReport& report, std::size_t instrument) {
-  moved_planes_.clear();
+void HapticReader::add_planes_of_report(const graze::FrameReport& report, std::size_t instrument) {
   report_planes_.clear();
-  const Held& held = held_[instrument];
-  const graze::Mesh& mesh = *instruments_[instrument].mesh();
-  Eigen::Isometry3d pose = held.hand;
-  pose.translation() = held.proxy;
-  instrument_points_.clear();
-  for (const Eigen::Vector3d& point : mesh.rest()) instrument_points_.push_back(pose * point);
-
   for (const graze::PairReport& pair : report.pairs()) {
     // Organs were added first, so the organ is a.
     if (pair.user_data_b != first_instrument + instrument || pair.user_data_a >= first_instrument) continue;
-    for (const graze::Contact& contact : report.contacts(pair)) {
+    for (const graze::Contact& contact : report.contacts(pair))
       report_planes_.push_back(
           plane_for_hand(contact.push(), contact.separation(), held_of_report_[instrument]));
-      const graze::ContactGeometry now = graze::evaluate(
-          *organs_[pair.user_data_a], organ_points_[pair.user_data_a], mesh, instrument_points_, contact);
-      moved_planes_.push_back(plane_for_hand(now.push, now.separation, held));
-    }
   }
+}
+
+/// Asks the patch where the instrument is now. Its organs are those of the report.
+void HapticReader::add_planes_of_patch(const graze::FrameReport& report, std::size_t instrument) {
+  moved_planes_.clear();
+  Eigen::Isometry3d pose = held_[instrument].hand;
+  pose.translation() = held_[instrument].proxy;
+  instrument_points_.clear();
+  for (const Eigen::Vector3d& point : watched_.instruments[instrument].mesh()->rest())
+    instrument_points_.push_back(pose * point);
+
+  const graze::Patch patch = report.patch(watched_.instrument_ids[instrument]);
+  incomplete_ += !patch.contacts(pose, asked_distance, room_).complete;
+  for (const graze::PatchPair& pair : room_.pairs())
+    for (std::size_t organ = 0; organ < 2; ++organ) {
+      if (pair.a != watched_.organ_ids[organ]) continue;
+      for (const graze::Contact& contact : room_.contacts(pair)) add_moved(contact, organ, instrument);
+    }
+}
+
+/// Follows a contact of the patch to where the organ is now.
+void HapticReader::add_moved(const graze::Contact& contact, std::size_t organ, std::size_t instrument) {
+  if (contact.kind == graze::ContactKind::EF) return;  // what pierces says no depth
+  const auto take = [&](const graze::FollowedContact& now) {
+    if (now.is_known)
+      moved_planes_.push_back(plane_for_hand(now.geometry.push, now.geometry.separation, held_[instrument]));
+  };
+  const graze::Mesh& mesh = *watched_.instruments[instrument].mesh();
+  take(graze::follow(*watched_.organs[organ], organ_points_[organ], mesh, instrument_points_, contact));
+  if (contact.kind == graze::ContactKind::VV)
+    take(graze::follow_vertex_of_b(*watched_.organs[organ], organ_points_[organ], mesh, instrument_points_,
+                                   contact));
 }
 
 }  // namespace loops

@@ -1,11 +1,18 @@
 #include "examples/loops/times.hpp"
 
 #include <algorithm>
+#include <ctime>
 
 namespace loops {
 
 double milliseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+double processor_milliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
 void Times::lap(Clock::time_point& start) {

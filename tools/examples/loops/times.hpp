@@ -13,6 +13,9 @@ using Clock = std::chrono::steady_clock;
 /// Returns the milliseconds between two moments.
 double milliseconds(Clock::time_point from, Clock::time_point to);
 
+/// Returns for how many milliseconds processors have worked on the calling thread so far.
+double processor_milliseconds();
+
 /// Collects the times of one part of a loop, in milliseconds.
 class Times {
  public:
