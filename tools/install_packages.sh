@@ -1,9 +1,9 @@
 #!/bin/sh
 # Installs the Debian packages that graze is built, run and tested with. With the argument `demo` these are only the
 # packages that the demonstration needs. With the argument `peers` they are also the libraries that `graze_studies bench`
-# compares graze with, and the programs that measure and check the sources. With `platforms` they are also the compilers
-# and emulators of other platforms, and with `packages` what checks the Debian packages: lintian brings 136
-# more, which takes half a minute of processor time. Run it as root, or where sudo asks for no password.
+# compares graze with, and the programs that measure and check the sources and the Debian packages. With `platforms` they
+# are also the compilers and emulators of other platforms, and with `packages` what tries the Debian packages on a fresh
+# system. Run it as root, or where sudo asks for no password.
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
@@ -13,7 +13,7 @@ packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-de
   python3 python3-numpy python3-venv python3-build python3-setuptools python3-wheel"
 [ "${1:-}" != platforms ] || packages="$packages g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
-  libbenchmark-dev valgrind clang-format clang-tidy shellcheck pyflakes3 doxygen doxygen-awesome-css dpkg-dev man-db"
+  libbenchmark-dev valgrind clang-format clang-tidy shellcheck pyflakes3 doxygen doxygen-awesome-css dpkg-dev man-db lintian"
 [ "${1:-}" != packages ] || packages="$packages dpkg-dev man-db lintian debootstrap"
 
 # The viewer's page is built with Node.js and npm. They may be there without these packages.
