@@ -3,9 +3,12 @@
 set(module_build ${WORK}/module)
 set(module_log ${WORK}/module.log)
 set(module_failed FALSE)
+file(MAKE_DIRECTORY ${WORK})
 if(NOT EXISTS ${module_build}/build.ninja)
   execute_process(
-    COMMAND ${CMAKE_COMMAND} -G Ninja -S ${MODULE_SOURCE} -B ${module_build} --toolchain ${MODULE_SOURCE}/toolchain.cmake
+    # Flags of the environment are for the other compiler.
+    COMMAND ${CMAKE_COMMAND} -E env --unset=CXXFLAGS --unset=LDFLAGS
+      ${CMAKE_COMMAND} -G Ninja -S ${MODULE_SOURCE} -B ${module_build} --toolchain ${MODULE_SOURCE}/toolchain.cmake
       -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
     RESULT_VARIABLE module_failed OUTPUT_FILE ${module_log} ERROR_FILE ${module_log})
 endif()

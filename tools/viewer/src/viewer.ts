@@ -154,6 +154,11 @@ export class Viewer {
     return this.seeking;
   }
 
+  /** Waits for the frame that is on its way. */
+  settled(): Promise<void> {
+    return this.seeking ?? Promise.resolve();
+  }
+
   get isSeeking(): boolean {
     return this.seeking !== null;
   }

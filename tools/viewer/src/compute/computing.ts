@@ -33,6 +33,7 @@ export class Computing {
     if (this.isOn || !viewer.page || !viewer.report) return;
     if (!this.isThere) throw new Error('This page was built without the module that computes: graze needs Emscripten for it.');
     this.module ??= await ComputingModule.load();
+    await viewer.settled();
     if (this.isOn) return;
     const recorded = viewer.report;
     this.scene = new PageScene(this.module, viewer.page, viewer.frame);
@@ -50,15 +51,17 @@ export class Computing {
     await this.viewer.reload();
   }
 
-  /** Moves an object, or a vertex of it, and steps. */
+  isDeformable(object: number): boolean {
+    return this.viewer.page!.head.objects[object]!.motion === 'deformable';
+  }
+
+  /** Moves an object, or a vertex of a deformable one, and steps. */
   move(object: number, vertex: number | null, by: readonly number[]): void {
     const { page } = this.viewer;
     if (!this.scene || !page) return;
-    const { motion } = page.head.objects[object]!;
-    if (motion !== 'deformable' && vertex !== null) return;
     for (const other of page.objects) if (other.isThere && other.index !== object) other.keepStart();
     const moved = page.objects[object]!;
-    moved.move(by, motion !== 'deformable', vertex);
+    moved.move(by, !this.isDeformable(object), vertex);
     this.scene.place(moved);
     this.step();
   }

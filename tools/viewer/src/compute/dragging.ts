@@ -1,6 +1,7 @@
 // How does a drag in the picture move an object or a vertex, along the plane of the screen?
 
 import * as THREE from 'three';
+import { note } from '../panels/dom';
 import { pickSurface } from '../view3d/picking';
 import type { Stage } from '../view3d/scene3d';
 import type { Computing } from './computing';
@@ -22,9 +23,10 @@ export class Dragging {
     const { stage } = this;
     const hit = pickSurface(stage, event.offsetX, event.offsetY);
     if (!hit) return;
+    const movesVertex = this.computing.movesVertices && this.computing.isDeformable(hit.object);
     const across = stage.eye.camera.getWorldDirection(new THREE.Vector3());
     this.held = {
-      object: hit.object, vertex: this.computing.movesVertices ? this.nearestVertex(hit.object, hit.triangle, hit.place) : null,
+      object: hit.object, vertex: movesVertex ? this.nearestVertex(hit.object, hit.triangle, hit.place) : null,
       plane: new THREE.Plane().setFromNormalAndCoplanarPoint(across, hit.place), last: hit.place };
     stage.eye.controls.enabled = false;
     stage.canvas.setPointerCapture(event.pointerId);
@@ -55,7 +57,12 @@ export class Dragging {
     if (!place) return;
     const by = place.clone().sub(held.last).toArray();
     held.last = place;
-    if (by.some((x) => x !== 0)) this.computing.move(held.object, held.vertex, by);
+    if (by.every((x) => x === 0)) return;
+    try {
+      this.computing.move(held.object, held.vertex, by);
+    } catch (error) {
+      note((error as Error).message, true);
+    }
   }
 
   private drop(): void {
