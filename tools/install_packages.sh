@@ -11,7 +11,8 @@ packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-de
 [ "${1:-}" = demo ] || packages="$packages libtinyobjloader-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
   libmd4c-html0-dev libmd4c-dev chromium
   python3 python3-numpy python3-venv python3-build python3-setuptools python3-wheel"
-[ "${1:-}" != platforms ] || packages="$packages g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64"
+[ "${1:-}" != platforms ] || packages="$packages g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64
+  emscripten"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
   libbenchmark-dev valgrind clang-format clang-tidy shellcheck pyflakes3 doxygen doxygen-awesome-css dpkg-dev man-db lintian"
 [ "${1:-}" != packages ] || packages="$packages dpkg-dev man-db lintian debootstrap"

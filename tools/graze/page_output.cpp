@@ -64,7 +64,7 @@ io::PageObject page_object(const std::string& name, const std::shared_ptr<const 
   static_assert(
       are_all_fields<ObjectSettings, &ObjectSettings::name, &ObjectSettings::motion,
                      &ObjectSettings::user_data, &ObjectSettings::solid, &ObjectSettings::swept,
-                     // These say what is looked at. A page shows what came of it.
+                     // The rest of the settings says what is tested. A page needs that where it computes.
                      &ObjectSettings::layer, &ObjectSettings::collides_with, &ObjectSettings::group,
                      &ObjectSettings::margin, &ObjectSettings::kind, &ObjectSettings::face_groups,
                      &ObjectSettings::hidden_groups, &ObjectSettings::self, &ObjectSettings::self_rings,
@@ -72,7 +72,7 @@ io::PageObject page_object(const std::string& name, const std::shared_ptr<const 
                      // These are for answers between steps.
                      &ObjectSettings::queries, &ObjectSettings::patch_radius, &ObjectSettings::patch_faces>(),
       "each field of ObjectSettings is in pages, or is named as one that is not");
-  return {name, mesh, settings.motion, settings.user_data, settings.solid, settings.swept};
+  return {name, mesh, settings.motion, settings.user_data, settings.solid, settings.swept, settings};
 }
 
 PageOutput::PageOutput(const fs::path& path, const SceneSettings& settings, std::size_t frame_count,

@@ -1,7 +1,9 @@
-// Bundles the viewer into one page: dist/viewer.html, with styles, script and licences inside.
+// Bundles the viewer into one page: dist/viewer.html, with styles, script and licences inside. The module that computes in
+// the page (tools/wasm) is in it, too, where it lies beside this file as module.wasm.
 
 import { build } from 'esbuild';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { gzipSync } from 'node:zlib';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -29,9 +31,15 @@ const bundle = await build({
 const script = bundle.outputFiles[0].text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const styles = read('node_modules/uplot/dist/uPlot.min.css') + read('src/theme.css');
 
+const modulePath = join(here, 'module.wasm');
+const moduleElement = existsSync(modulePath)
+  ? `<script type="application/x-graze-module">${gzipSync(readFileSync(modulePath), { level: 9 }).toString('base64')}</script>`
+  : '';
+
 const page = read('src/template.html')
+  .replace('<!-- graze-module -->', () => moduleElement)
   .replace('/* styles */', () => styles)
   .replace('/* script */', () => script);
 mkdirSync(join(here, 'dist'), { recursive: true });
 writeFileSync(join(here, 'dist/viewer.html'), page);
-console.log(`dist/viewer.html: ${Math.round(page.length / 1024)} KiB`);
+console.log(`dist/viewer.html: ${Math.round(page.length / 1024)} KiB, of which ${Math.round(moduleElement.length / 1024)} KiB compute`);

@@ -128,7 +128,7 @@ class FeaturePairKey {
   /// The kind of one of a contact's two features, by that of the other: VV VE VF EE EF FF.
   static std::uint64_t kind_of_other(std::uint64_t kind, std::uint64_t of_one) {
     constexpr std::array<std::uint8_t, 6> sum{0, 1, 2, 2, 3, 4};
-    return sum[kind] - of_one;
+    return sum[static_cast<std::size_t>(kind)] - of_one;
   }
   template <typename Enumeration>
   static std::uint64_t number(Enumeration value) {

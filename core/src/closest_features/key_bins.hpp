@@ -30,8 +30,8 @@ class KeyBins {
 
   [[nodiscard]] std::size_t of(const FeaturePairKey& key) const {
     const std::uint64_t of_a = key.of_a();
-    const std::uint64_t kind_a = of_a >> 32U & 3U;
-    return ((of_a >> 40U) * feature_kinds + kind_a) << index_bits |
+    const auto kind_a = static_cast<std::size_t>(of_a >> 32U & 3U);
+    return (static_cast<std::size_t>(of_a >> 40U) * feature_kinds + kind_a) << index_bits |
            static_cast<std::uint32_t>(of_a) >> shift_[kind_a];
   }
 

@@ -35,7 +35,7 @@ void CoincidingCorners::Side::begin(const Surface& surface, const Region& leaf) 
 /// Returns the slot of the corner of a that is at a position, or where it would be.
 std::uint32_t& CoincidingCorners::slot_of(const Eigen::Vector3d& point) {
   const int bits = std::countr_zero(slots_.size());
-  std::size_t slot = hash_of(point) >> (64 - bits);
+  auto slot = static_cast<std::size_t>(hash_of(point) >> (64 - bits));
   while (slots_[slot] != none && a_.point[slots_[slot]] != point) slot = (slot + 1) & (slots_.size() - 1);
   return slots_[slot];
 }

@@ -50,7 +50,8 @@ void NearestOfVertices::offer(const SurfacePair& pair, const VertexNearest& offe
 
 std::size_t NearestOfVertices::slot_of(VertexOfPair vertex) const {
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // 2^64 / the golden ratio
-  return (vertex.number * odd) >> (64U - static_cast<unsigned>(std::bit_width(slots_.size()) - 1));
+  const auto bits = static_cast<unsigned>(std::bit_width(slots_.size()) - 1);
+  return static_cast<std::size_t>((vertex.number * odd) >> (64U - bits));
 }
 
 /// The slot of a vertex, or the free one where it belongs.

@@ -46,10 +46,9 @@ void list_stretch_groups(std::span<const std::uint32_t> order, std::vector<std::
     group_of[order[position]] = position / vertices_per_group;
   begin.push_back(0);
   for (std::uint32_t first = 0; first < count; first += vertices_per_stretch) {
-    const auto from = group_of.begin() + first;
-    const auto to = from + std::min(vertices_per_stretch, count - first);
-    std::sort(from, to);
-    groups.insert(groups.end(), from, std::unique(from, to));
+    const auto stretch = std::span(group_of).subspan(first, std::min(vertices_per_stretch, count - first));
+    std::sort(stretch.begin(), stretch.end());
+    groups.insert(groups.end(), stretch.begin(), std::unique(stretch.begin(), stretch.end()));
     begin.push_back(static_cast<std::uint32_t>(groups.size()));
   }
 }

@@ -181,8 +181,11 @@ const IndexedMesh::Rows& IndexedMesh::neighbours() const {
         add(high, low);
       }
     });
-    for (std::uint32_t vertex = 0; vertex < vertex_count(); ++vertex)
-      std::sort(rows.values.begin() + rows.begin[vertex], rows.values.begin() + rows.begin[vertex + 1]);
+    for (std::uint32_t vertex = 0; vertex < vertex_count(); ++vertex) {
+      const auto row =
+          std::span(rows.values).subspan(rows.begin[vertex], rows.begin[vertex + 1] - rows.begin[vertex]);
+      std::sort(row.begin(), row.end());
+    }
     return rows;
   });
 }

@@ -1,7 +1,9 @@
 #include "page/page_head.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <graze/scene_enumerators.hpp>
+#include <graze/settings_fields.hpp>
 #include <optional>
 #include <span>
 
@@ -37,10 +39,42 @@ void write_page_frame(JsonText& json, std::string_view key, std::int64_t frame) 
     json.whole(static_cast<std::uint64_t>(frame));
 }
 
+void put_setting(JsonText& json, bool value) {
+  json.flag(value);
+}
+void put_setting(JsonText& json, double value) {
+  json.real(value);
+}
+void put_setting(JsonText& json, std::unsigned_integral auto value) {
+  json.whole(value);
+}
+void put_setting(JsonText& json, const std::vector<std::uint8_t>& groups) {
+  json.open('[');
+  for (const std::uint8_t group : groups) json.whole(group);
+  json.close(']');
+}
+
+/// The settings that have no key of their own, and are not as usual. Those for answers between steps are left
+/// out, since a page asks none.
+void write_further_settings(JsonText& json, const ObjectSettings& settings) {
+  const ObjectSettings usual;
+  bool has_any = false;
+  for_each_field<ObjectSettings, &ObjectSettings::name, &ObjectSettings::motion, &ObjectSettings::user_data,
+                 &ObjectSettings::solid, &ObjectSettings::swept, &ObjectSettings::queries,
+                 &ObjectSettings::patch_radius, &ObjectSettings::patch_faces>([&](const auto& field) {
+    if (settings.*field.member == usual.*field.member) return;
+    if (!has_any) json.key("settings").open('{');
+    has_any = true;
+    put_setting(json.key(field.name), settings.*field.member);
+  });
+  if (has_any) json.close('}');
+}
+
 void write_head_object(JsonText& json, const PageHeadObject& object, std::size_t serial) {
   json.open('{').key("serial").whole(serial).key("name").text(object.name);
   json.key("motion").text(name_of(object.motion)).key("solid").flag(object.solid);
   json.key("swept").flag(object.swept).key("mesh").whole(object.mesh);
+  write_further_settings(json, object.settings);
   write_page_frame(json, "first", object.first);
   write_page_frame(json, "last", object.last);
   json.key("user_data").text(std::to_string(object.user_data));

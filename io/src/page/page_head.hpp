@@ -38,6 +38,7 @@ struct PageHeadObject {
   Motion motion = Motion::deformable;
   bool solid = false;
   bool swept = false;
+  ObjectSettings settings;
   std::size_t mesh = 0;
   std::int64_t first = 0;
   std::int64_t last = 0;

@@ -37,6 +37,7 @@ void PageObjects::add(ObjectId id, const PageObject& object, std::size_t mesh_nu
   written.motion = object.motion;
   written.solid = object.solid;
   written.swept = object.swept;
+  written.settings = object.settings;
   written.mesh_number = mesh_number;
   written.user_data = object.user_data;
   written.added = frame;

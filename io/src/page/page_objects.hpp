@@ -22,6 +22,7 @@ struct WrittenObject {
   Motion motion = Motion::deformable;
   bool solid = false;
   bool swept = false;
+  ObjectSettings settings;
   std::size_t mesh_number = 0;
   std::uint64_t user_data = 0;
   std::uint64_t added = 0;                              ///< the first frame in which it exists

@@ -27,7 +27,7 @@ template <typename Number>
 void append_little_endian(std::string& bytes, Number number) {
   std::array<char, sizeof number> raw;
   std::memcpy(raw.data(), &number, sizeof number);
-  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(raw);
+  if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
   bytes.append(raw.data(), raw.size());
 }
 

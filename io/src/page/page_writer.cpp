@@ -157,9 +157,9 @@ PageHead PageWriter::State::head() {
     const std::uint64_t end =
         object.removed ? page_frames_before(*object.removed, options.every) : frame_numbers.size();
     const std::uint64_t begin = page_frames_before(object.added, options.every);
-    head.objects.push_back({object.name, object.motion, object.solid, object.swept, object.mesh_number,
-                            static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end) - 1,
-                            object.user_data, object.position_error});
+    head.objects.push_back({object.name, object.motion, object.solid, object.swept, object.settings,
+                            object.mesh_number, static_cast<std::int64_t>(begin),
+                            static_cast<std::int64_t>(end) - 1, object.user_data, object.position_error});
   }
   return head;
 }

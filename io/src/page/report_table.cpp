@@ -90,7 +90,7 @@ PageColumns& PageColumns::begin_row() {
 }
 
 bool PageColumns::are_same(std::size_t a, std::size_t b, std::size_t count) const {
-  return std::ranges::all_of(columns_, [&](const Column& column) {
+  return std::all_of(columns_.begin(), columns_.end(), [&](const Column& column) {
     const std::size_t row_bytes = column.number_bytes * column.row_numbers;
     const std::string_view bytes = column.bytes;
     return bytes.substr(a * row_bytes, count * row_bytes) == bytes.substr(b * row_bytes, count * row_bytes);
@@ -190,9 +190,8 @@ bool ReportBlock::repeat_last(const Range& rows) const {
   if (frames_.empty() || last_.end - last_.begin != count) return false;
   const std::array all_lists{&contacts_, &regions_, &ways_, &sweeps_, &impacts_};
   return pairs_.are_same(last_.begin, rows.begin, count) &&
-         std::ranges::all_of(all_lists, [&](const PairLists* lists) {
-           return lists->are_same(last_.begin, rows.begin, count);
-         });
+         std::all_of(all_lists.begin(), all_lists.end(),
+                     [&](const PairLists* lists) { return lists->are_same(last_.begin, rows.begin, count); });
 }
 
 void ReportBlock::truncate_pairs(std::size_t count) {

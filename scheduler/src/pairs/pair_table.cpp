@@ -33,7 +33,7 @@ PairList PairTable::list(const FrameReport& previous, std::span<Object* const> t
   if (summaries_.some_unread()) read_near_objects(close, tools, tasks, diagnostics);
   list_jobs(selection_.select(close, listed_, summaries_, filter_, tasks, statistics), previous);
   // The pairs counted as unchanged so far are at rest and have no job.
-  const std::size_t pair_count = jobs_.size() + statistics.pairs_unchanged;
+  const std::size_t pair_count = jobs_.size() + static_cast<std::size_t>(statistics.pairs_unchanged);
   count_jobs(statistics);
   return {jobs_, last_rows_, pair_count};
 }

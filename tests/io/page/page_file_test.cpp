@@ -161,6 +161,29 @@ TEST_CASE("page: a link stays a link") {
   CHECK(read_file(file).starts_with("<html>"));
 }
 
+TEST_CASE("page: the head has settings of objects that are not as usual") {
+  const TemporaryFolder folder;
+  graze::ObjectSettings settings;
+  settings.layer = 4;
+  settings.group = std::uint64_t{1} << 60U;
+  settings.margin = 0.125;
+  settings.self = true;
+  settings.face_groups = {0, 3};
+  settings.user_data = 7;
+  io::PageWriter page(folder / "view.grazeview", {}, {});
+  page.add_object({0, 1}, {.name = "usual", .mesh = grid(2)});
+  page.add_object({1, 1}, {.name = "other", .mesh = grid(2), .settings = settings});
+  page.frame(0, {});
+  page.close();
+  const nlohmann::json objects = DecodedPage(folder / "view.grazeview").head().at("objects");
+  CHECK_FALSE(objects.at(0).contains("settings"));
+  CHECK(objects.at(1).at("settings") == nlohmann::json{{"layer", 4},
+                                                       {"group", std::uint64_t{1} << 60U},
+                                                       {"margin", 0.125},
+                                                       {"self", true},
+                                                       {"face_groups", {0, 3}}});
+}
+
 TEST_CASE("page: calls that name no object of the page are errors") {
   const TemporaryFolder folder;
   const PagePlay& scene = page_play();

@@ -1,7 +1,11 @@
 # Builds the viewer's page and writes it as a C++ source, which the program is made of. The build runs this script each
 # time; it does nothing where the page is of the present sources.
 #
-#   cmake -DSOURCE=tools/viewer -DWORK=FOLDER -DRESULT=FILE.cpp -DMODE=AUTO|ON|OFF -P build_viewer.cmake
+#   cmake -DSOURCE=tools/viewer -DWORK=FOLDER -DRESULT=FILE.cpp -DMODE=AUTO|ON|OFF -DMODULE=AUTO|OFF|FILE.wasm
+#     -DMODULE_SOURCE=tools/wasm -P build_viewer.cmake
+#
+# With MODULE=AUTO the module that computes in the page is built where Emscripten is there. Without it the page is whole but
+# for that.
 #
 # The page is built in a copy of the sources, so that the sources stay as they are. With MODE=AUTO the source has no page
 # where it cannot be built, and one line says why. With MODE=ON the build stops there.
@@ -17,6 +21,26 @@ list(SORT files)
 find_program(npm npm NO_CACHE)
 find_program(node node NO_CACHE)
 set(stamp "${MODE}\n${node}\n${npm}\n")
+
+# The module is asked for in each build, as the libraries may have changed that it is made of.
+set(module "")
+if(NOT MODE STREQUAL "OFF" AND node AND npm AND NOT MODULE STREQUAL "OFF")
+  if(NOT MODULE STREQUAL "AUTO")
+    set(module ${MODULE})
+  else()
+    find_program(emscripten em++ NO_CACHE)
+    if(emscripten)
+      include(${CMAKE_CURRENT_LIST_DIR}/build_module.cmake)
+    endif()
+  endif()
+endif()
+if(module)
+  if(NOT EXISTS ${module})
+    message(FATAL_ERROR "graze: GRAZE_PAGE_MODULE: there is no ${module}")
+  endif()
+  file(SHA256 ${module} hash)
+  string(APPEND stamp "${hash} module\n")
+endif()
 foreach(file ${files})
   file(SHA256 ${SOURCE}/${file} hash)
   string(APPEND stamp "${hash} ${file}\n")
@@ -74,6 +98,9 @@ foreach(file ${files})
   get_filename_component(folder ${WORK}/source/${file} DIRECTORY)
   file(COPY ${SOURCE}/${file} DESTINATION ${folder})
 endforeach()
+if(module)
+  configure_file(${module} ${WORK}/source/module.wasm COPYONLY)
+endif()
 
 # run_npm(<argument>...): one npm command, whose words go into the log.
 function(run_npm)

@@ -1,11 +1,13 @@
 // What may tests and the console ask of the page?
 
+import type { Computing } from './compute/computing';
 import type { Vec3 } from './view3d/batches3d';
 import type { Facts } from './panels/facts';
 import { frameFacts, selectionFacts } from './panels/facts';
 import { selectionKey, type Lists } from './panels/lists';
 import { parseSelection, selectionText, type Link } from './link';
-import { Screen } from './view3d/picking';
+import { rowOf } from './compute/page_scene';
+import { pickSurface, Screen } from './view3d/picking';
 import type { Player } from './player';
 import type { Plots } from './panels/plots';
 import type { Stage } from './view3d/scene3d';
@@ -38,6 +40,14 @@ export interface Hooks {
   plotted(): { title: string; lines: Record<string, (number | null)[]> };
   pixels(): { width: number; height: number; data: Uint8Array };
   link(): string;
+  /** What the page computes, which also moves objects for tests. */
+  readonly computing: Computing;
+  /** Where a place of the surface of an object stands on the screen, in pixels of the canvas, if nothing hides it. */
+  objectAt(object: number): { x: number; y: number } | null;
+  /** The vertices of all objects as they are shown. */
+  vertices(): number[][];
+  /** The rows of the report that is shown, without what they know of earlier steps. */
+  rows(): unknown[];
   stats(): Record<string, number>;
 }
 
@@ -47,9 +57,25 @@ function onScreen(stage: Stage, { a, b }: { a: Vec3; b: Vec3 }, share: number): 
   const [x, y] = new Screen(stage).at(a.map((from, k) => from + share * (b[k]! - from)) as unknown as Vec3)!;
   return { x, y };
 }
+/** The middle of a triangle of an object, that nearest to the middle of those in sight. */
+function placeOnScreen(stage: Stage, object: number): { x: number; y: number } | null {
+  const { mesh, world } = stage.viewer.page!.objects[object]!;
+  const screen = new Screen(stage);
+  const inSight: [number, number][] = [];
+  const step = 3 * Math.ceil(mesh.drawn.length / 900);
+  for (let t = 0; t < mesh.drawn.length; t += step) {
+    const corners = [0, 1, 2].map((k) => stage.local(world, 3 * mesh.drawn[t + k]!));
+    const p = screen.at([0, 1, 2].map((k) => (corners[0]![k]! + corners[1]![k]! + corners[2]![k]!) / 3) as unknown as Vec3);
+    if (p && pickSurface(stage, p[0], p[1])?.object === object) inSight.push([p[0], p[1]]);
+  }
+  const middle = [0, 1].map((k) => inSight.reduce((sum, p) => sum + p[k]!, 0) / inSight.length);
+  const away = ([x, y]: [number, number]) => Math.hypot(x - middle[0]!, y - middle[1]!);
+  const [x, y] = inSight.sort((p, q) => away(p) - away(q))[0] ?? [];
+  return x === undefined || y === undefined ? null : { x, y };
+}
 const median = (values: number[]): number => [...values].sort((p, q) => p - q)[values.length >> 1] ?? 0;
 
-export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: Lists, plots: Plots, link: Link, ready: Promise<void>): Hooks {
+export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: Lists, plots: Plots, link: Link, computing: Computing, ready: Promise<void>): Hooks {
   return {
     ready,
     error: null,
@@ -93,6 +119,10 @@ export function makeHooks(viewer: Viewer, stage: Stage, player: Player, lists: L
     plotted: () => plots.last(),
     pixels: () => stage.pixels(),
     link: () => link.text(),
+    computing,
+    objectAt: (object) => placeOnScreen(stage, object),
+    vertices: () => viewer.page!.objects.map((object) => [...object.world]),
+    rows: () => [...viewer.report!.pairs()].map((row) => rowOf(viewer.report!.block, row)),
     stats: () => ({
       frameMs: median(stage.renderMs), seekMs: median(viewer.seekMs),
       decodeMs: median([...(viewer.page?.motions.decodeMs ?? [])]), decodeReportMs: median([...(viewer.page?.reports.decodeMs ?? [])]),

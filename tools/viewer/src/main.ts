@@ -1,6 +1,9 @@
 // How do the parts of the page come together?
 
 import { PageChunks } from './data/chunks';
+import { ComputeBar } from './compute/bar';
+import { Computing } from './compute/computing';
+import { Dragging } from './compute/dragging';
 import { button, byId, copy, h, note } from './panels/dom';
 import { droppedAt, shownSettings } from './data/head';
 import { fillHelp } from './panels/help';
@@ -37,6 +40,9 @@ const timeline = new Timeline(viewer, player);
 const plots = new Plots(viewer);
 const opener = new FileOpener(viewer);
 const link = new Link(viewer, stage);
+const computing = new Computing(viewer);
+const computeBar = new ComputeBar(viewer, computing);
+new Dragging(stage, computing);
 const help = byId('help') as HTMLDialogElement;
 new Legend(viewer, byId('legend'));
 new StageExtras(viewer, stage);
@@ -68,6 +74,7 @@ function showBar(): void {
   let flags = 0;
   for (const row of report.pairs()) flags |= block.flags[row]!;
   const badges: HTMLElement[] = [];
+  if (computing.isOn) badges.push(badge('COMPUTED HERE', 'warn', 'These numbers are not of the recording: this page computed them'));
   if (page.head.diverged?.includes(viewer.frame)) badges.push(badge('DIVERGED', 'bad', 'A replay gave another report for this frame'));
   const dropped = droppedAt(page.head, viewer.frame);
   if (dropped.before) badges.push(badge(`${dropped.before} dropped before`, 'odd', 'The recorder could not record these frames'));
@@ -216,6 +223,8 @@ function viewCommands(): Command[] {
       display.boundsLevel = (display.boundsLevel + 1) % most;
       viewer.changed();
     } },
+    { group, keys: ['z'], text: 'compute here, and drag objects', run: () => void computeBar.toggle() },
+    { group, keys: ['Shift+z'], text: 'drag objects, or vertices', run: () => computeBar.toggleVertices() },
     { group, keys: ['n'], text: 'names', run: () => flip('names') },
     { group, keys: ['h'], text: 'hide the selected objects', run: () => {
       for (const object of viewer.selectedObjects()) display.hiddenObjects.add(object);
@@ -248,6 +257,15 @@ function pageCommands(): Command[] {
     { group, keys: ['g'], text: 'light, dark, or as the system', run: () => note(`Colours: ${nextTheme(viewer)}`) },
     { group, keys: ['?'], text: 'help', run: openHelp },
   ];
+}
+
+/** Without the module the button says so when it is pressed. */
+function computeButton(): HTMLElement {
+  const title = computing.isThere ? 'Compute in this page: drag objects, and contacts follow (Z)'
+    : 'This page was built without the module that computes';
+  const element = button('Compute', 'compute', title, () => void computeBar.toggle());
+  viewer.on(['compute'], () => element.setAttribute('aria-pressed', String(computing.isOn)));
+  return element;
 }
 
 function copyLink(): void {
@@ -283,6 +301,7 @@ byId('left').append(lists.element);
 showRight('inspector');
 byId('time').append(timeline.element, plots.element);
 byId('tools').append(
+  computeButton(),
   button('Open', 'open', 'Open a .grazeview file (Shift+O)', () => opener.ask()),
   button('Link', 'link', 'Copy a link to this frame, camera and selection (Y)', copyLink),
   button('◐', 'theme', 'Light, dark, or as the system (G)', () => note(`Colours: ${nextTheme(viewer)}`)),
@@ -294,7 +313,7 @@ viewer.on(['display'], () => {
   if (stage.eye.up !== viewer.display.up) stage.eye.setUp(viewer.display.up);
 });
 viewer.on(['page'], showTitle);
-viewer.on(['frame'], showBar);
+viewer.on(['frame', 'compute'], showBar);
 viewer.on(['selection'], () => {
   if (viewer.selection && byId('right').dataset.shown !== 'inspector') showRight('inspector');
   if (viewer.shouldFly && viewer.selection) stage.fitSelection();
@@ -305,4 +324,4 @@ ready.catch((error: Error) => {
   window.graze.error = error.message;
   note(error.message, true);
 });
-window.graze = makeHooks(viewer, stage, player, lists, plots, link, ready);
+window.graze = makeHooks(viewer, stage, player, lists, plots, link, computing, ready);

@@ -66,7 +66,7 @@ export interface Filter {
   onlySelected: boolean;
 }
 
-export type ViewerEvent = 'page' | 'frame' | 'selection' | 'history' | 'display' | 'theme' | 'play' | 'camera';
+export type ViewerEvent = 'page' | 'frame' | 'selection' | 'history' | 'display' | 'theme' | 'play' | 'camera' | 'compute';
 
 export function newFilter(): Filter {
   return {
@@ -97,6 +97,8 @@ export class Viewer {
   /** The camera goes to the next selection that is announced. */
   shouldFly = false;
   seekMs: number[] = [];
+  /** Called before another frame is shown. */
+  beforeSeek: () => void = () => {};
   private wanted = -1;
   private searched: Search | null = null;
   private readonly shownPairs = new Map<number, boolean>();
@@ -138,6 +140,25 @@ export class Viewer {
     return this.seeking;
   }
 
+  /** Shows another report of the frame, such as one that was computed for moved objects. */
+  show(report: FrameReport): void {
+    this.report = report;
+    this.emit('frame');
+  }
+
+  /** Shows the frame as it was recorded. */
+  reload(): Promise<void> {
+    this.wanted = Math.max(0, this.frame);
+    this.frame = -1;
+    this.seeking ??= this.seek().finally(() => (this.seeking = null));
+    return this.seeking;
+  }
+
+  /** Waits for the frame that is on its way. */
+  settled(): Promise<void> {
+    return this.seeking ?? Promise.resolve();
+  }
+
   get isSeeking(): boolean {
     return this.seeking !== null;
   }
@@ -146,6 +167,7 @@ export class Viewer {
     while (this.page && this.frame !== this.wanted) {
       const { page } = this;
       const frame = this.wanted;
+      this.beforeSeek();
       const began = performance.now();
       const report = await page.load(frame, () => this.page === page);
       if (!report) return;

@@ -35,6 +35,10 @@ struct PageObject {
   bool solid = false;
   /// ObjectSettings::swept of the object. The page names the settings of sweeps if an object is swept.
   bool swept = false;
+  /// The settings of the object that decide what is tested: all but those that have a member of their own
+  /// above, and ObjectSettings::queries. The page names those that are not as usual. It needs them where it
+  /// computes.
+  ObjectSettings settings = {};
 };
 
 /// Says what a page is of, and how large it may become.

@@ -8,7 +8,7 @@ export interface ChunkSource {
 
 type Base64Constructor = { fromBase64?(text: string): Uint8Array<ArrayBuffer> };
 
-function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
   const decode = (Uint8Array as unknown as Base64Constructor).fromBase64;
   if (decode) return decode.call(Uint8Array, text);
   const binary = atob(text);
@@ -69,7 +69,7 @@ export class FileChunks implements ChunkSource {
   }
 }
 
-async function gunzip(bytes: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> {
+export async function gunzip(bytes: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> {
   const stream = new DecompressionStream('gzip');
   const writer = stream.writable.getWriter();
   // A bad chunk fails where it is read; here it is only kept from being reported twice.

@@ -12,6 +12,8 @@ export interface ObjectHead {
   first: number;
   last: number;
   user_data: string;
+  /** Further settings of the object that are not as usual. Not in older data. */
+  settings?: Record<string, unknown>;
   position_error: number;
 }
 

@@ -33,7 +33,7 @@ class Track {
 
   write(slot: number, rest: Float64Array, out: Float64Array): void {
     if (this.sums) this.writePositions(slot, this.sums, out);
-    else this.writePosed(slot, rest, out);
+    else writePosed(this.pose(slot)!, rest, out);
   }
 
   private writePositions(slot: number, sums: Int32Array, out: Float64Array): void {
@@ -63,13 +63,19 @@ class Track {
     }
   }
 
-  /** The same order of operations as in graze, so that a posed vertex is the same double. */
-  private writePosed(slot: number, rest: Float64Array, out: Float64Array): void {
-    const m = this.poses.subarray(12 * slot, 12 * slot + 12);
-    for (let v = 0; v < out.length; v += 3) {
-      const [x, y, z] = [rest[v]!, rest[v + 1]!, rest[v + 2]!];
-      for (let k = 0; k < 3; ++k) out[v + k] = m[4 * k]! * x + m[4 * k + 1]! * y + m[4 * k + 2]! * z + m[4 * k + 3]!;
-    }
+  /** The upper three rows of the matrix. Null for positions. */
+  pose(slot: number): Float64Array | null {
+    return this.sums ? null : this.poses.subarray(12 * slot, 12 * slot + 12);
+  }
+}
+
+const STANDING = new Float64Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]);
+
+/** The same order of operations as in graze, so that a posed vertex is the same double. */
+function writePosed(m: Float64Array, rest: Float64Array, out: Float64Array): void {
+  for (let v = 0; v < out.length; v += 3) {
+    const [x, y, z] = [rest[v]!, rest[v + 1]!, rest[v + 2]!];
+    for (let k = 0; k < 3; ++k) out[v + k] = m[4 * k]! * x + m[4 * k + 1]! * y + m[4 * k + 2]! * z + m[4 * k + 3]!;
   }
 }
 
@@ -107,6 +113,8 @@ export class ObjectState {
    * It is `world` where the object stood.
    */
   before: Float64Array | null = null;
+  /** Where a rigid or fixed object is: the upper three rows of its matrix. */
+  readonly pose = new Float64Array(STANDING);
   private shown = '';
   private earlier: Float64Array | null = null;
 
@@ -138,8 +146,37 @@ export class ObjectState {
     this.shown = key;
     if (track) track.write(slot, this.mesh.rest, this.world);
     else this.world.set(this.mesh.rest);
+    this.pose.set(track?.pose(slot) ?? STANDING);
     ++this.version;
     this.measure();
+  }
+
+  /**
+   * Moves the object, or one vertex of a deformable one, away from where the frame has it. The step begins where it was. A
+   * posed object moves by its pose, so that each vertex is the double that graze has.
+   */
+  move(by: readonly number[], isPosed: boolean, vertex: number | null): void {
+    this.keepStart();
+    if (isPosed) {
+      for (let k = 0; k < 3; ++k) this.pose[4 * k + 3]! += by[k]!;
+      writePosed(this.pose, this.mesh.rest, this.world);
+    } else {
+      const [from, to] = vertex === null ? [0, this.world.length] : [3 * vertex, 3 * vertex + 3];
+      for (let i = from; i < to; ++i) this.world[i]! += by[i % 3]!;
+    }
+    ++this.version;
+    this.measure();
+  }
+
+  /** A step begins where the object is now. */
+  keepStart(): void {
+    this.before = this.earlier ??= new Float64Array(this.world.length);
+    this.before.set(this.world);
+  }
+
+  /** The next show() puts it back to where the frame has it. */
+  forgetMoves(): void {
+    this.shown = '';
   }
 
   private measure(): void {

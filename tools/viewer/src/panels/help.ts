@@ -6,7 +6,7 @@ import { commands } from '../keys';
 declare const LICENCES: { name: string; version: string; text: string }[];
 
 const MOUSE: [string, string][] = [
-  ['drag', 'orbit'], ['right drag, or two fingers', 'pan'], ['wheel, or pinch', 'zoom'],
+  ['drag', 'orbit; while the page computes, move what is under the pointer'], ['right drag, or two fingers', 'pan'], ['wheel, or pinch', 'zoom'],
   ['click', 'select a contact, a line’s pair or an object'], ['Shift-click', 'select a vertex, an edge or a face'],
   ['double-click', 'select and go there'], ['drag in the time line or a plot', 'scrub'],
 ];

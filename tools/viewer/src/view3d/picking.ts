@@ -84,7 +84,7 @@ function distanceToSegment(x: number, y: number, p: readonly number[], q: readon
   return Math.hypot(x - p[0]! - t * dx, y - p[1]! - t * dy);
 }
 
-function pickSurface(stage: Stage, x: number, y: number): SurfaceHit | null {
+export function pickSurface(stage: Stage, x: number, y: number): SurfaceHit | null {
   const { clientWidth, clientHeight } = stage.canvas;
   const caster = new THREE.Raycaster();
   caster.setFromCamera(new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), stage.eye.camera);
