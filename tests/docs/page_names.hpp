@@ -57,4 +57,5 @@ void simulate(std::vector<Particle>& particles);
 void push_apart(graze::ObjectId a, graze::ObjectId b, const Eigen::Vector3d& point_a,
                 const Eigen::Vector3d& point_b, const Eigen::Vector3d& normal, double depth);
 void hold_off(const Eigen::Vector3d& push, double separation);
+void hold_still();
 void respond(const graze::PairReport& pair, const graze::Contact& contact);

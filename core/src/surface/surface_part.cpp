@@ -12,7 +12,7 @@ namespace {
 /// The place of all vertices that are not there. No position that a surface takes is as far out. Squares of
 /// its distances are finite in double.
 Eigen::Vector3d beyond_reach() {
-  return Eigen::Vector3d::Constant(1.5 * largest_coordinate);
+  return Eigen::Vector3d::Constant(8 * largest_coordinate);
 }
 
 Box box_beyond_reach() {
@@ -34,8 +34,8 @@ void SurfacePart::take(const Surface& from, std::span<const std::uint32_t> leave
   surface_.box_ = {};
   for (const std::uint32_t leaf : leaves_) {
     const Region& region = tree.region(leaf);
-    copy_vertices(from, tree.vertices(region));
-    copy_vertices(from, tree.border(region));
+    copy_around(from, tree.vertices(region));
+    copy_around(from, tree.border(region));
     box_leaf(leaf);
   }
   box_long_regions();
@@ -45,6 +45,7 @@ void SurfacePart::take(const Surface& from, std::span<const std::uint32_t> leave
 void SurfacePart::take_all(const Surface& from) {
   leaves_.clear();
   inner_.clear();
+  vertices_.clear();
   has_all_ = true;
   const bool is_at_rest = from.positions().data() == surface_.positions().data();
   if (!is_at_rest) (void)surface_.set_positions(from.positions());
@@ -59,18 +60,13 @@ void SurfacePart::clear(bool in_double) {
     clear_all();
     return;
   }
-  const RegionTree& tree = surface_.mesh().regions();
-  const auto put_away = [&](std::uint32_t vertex) {
+  for (const std::uint32_t vertex : vertices_)
     in_double ? void(surface_.in_double_[vertex] = beyond_reach())
               : void(surface_.in_float_[vertex] = beyond_reach().cast<float>());
-  };
-  for (const std::uint32_t leaf : leaves_) {
-    for (const std::uint32_t vertex : tree.vertices(tree.region(leaf))) put_away(vertex);
-    for (const std::uint32_t vertex : tree.border(tree.region(leaf))) put_away(vertex);
-    surface_.face_boxes_[leaf] = box_beyond_reach();
-  }
+  for (const std::uint32_t leaf : leaves_) surface_.face_boxes_[leaf] = box_beyond_reach();
   for (const std::uint32_t region : inner_) surface_.face_boxes_[region] = box_beyond_reach();
   inner_.clear();
+  vertices_.clear();
 }
 
 void SurfacePart::clear_all() {
@@ -80,13 +76,23 @@ void SurfacePart::clear_all() {
   surface_.begin_refit(RefitOf::faces);
   std::fill(surface_.face_boxes_.begin(), surface_.face_boxes_.end(), box_beyond_reach());
   inner_.clear();
+  vertices_.clear();
 }
 
-void SurfacePart::copy_vertices(const Surface& from, std::span<const std::uint32_t> vertices) {
+/// Copies vertices, and the corners of all faces around them.
+void SurfacePart::copy_around(const Surface& from, std::span<const std::uint32_t> vertices) {
+  const IndexedMesh& mesh = surface_.mesh();
   const PositionView positions = from.positions();
   for (const std::uint32_t vertex : vertices)
-    positions.is_double() ? void(surface_.in_double_[vertex] = positions[vertex])
-                          : void(surface_.in_float_[vertex] = positions[vertex].cast<float>());
+    for (const std::uint32_t face : mesh.vertex_faces(vertex))
+      for (const std::uint32_t corner : mesh.face(face)) copy(positions, corner);
+}
+
+void SurfacePart::copy(const PositionView& positions, std::uint32_t vertex) {
+  if (surface_.position(vertex).x() <= largest_coordinate) return;  // it is there
+  vertices_.push_back(vertex);
+  positions.is_double() ? void(surface_.in_double_[vertex] = positions[vertex])
+                        : void(surface_.in_float_[vertex] = positions[vertex].cast<float>());
 }
 
 /// Makes the box of a leaf, and makes those of the regions that contain it large enough.
@@ -127,7 +133,7 @@ void SurfacePart::begin_version() {
 }
 
 std::size_t SurfacePart::byte_count() const {
-  return surface_.byte_count() + bytes_of(leaves_) + bytes_of(inner_);
+  return surface_.byte_count() + bytes_of(leaves_) + bytes_of(inner_) + bytes_of(vertices_);
 }
 
 }  // namespace graze

@@ -53,7 +53,7 @@ graze_status graze_report_patch(const graze_report* report, graze_id tool, graze
   return guarded([&] {
     const graze::Patch found = found_patch(report, tool);
     std::size_t count = 0;
-    const graze_id* const objects = graze::c::c_rows<graze_id>(found.objects(), &count);
+    const auto* const objects = graze::c::c_rows<graze_id>(found.objects(), &count);
     given(patch, "patch") = {static_cast<bool>(found), found.is_cut(), found.radius(),
                              found.face_count(),       objects,        count};
   });

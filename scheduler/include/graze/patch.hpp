@@ -88,7 +88,11 @@ struct KeptPatch;
 /// Faces are there by leaves of the octree of their mesh. So some that are a little further away are there as
 /// well. Of an object with ObjectSettings::solid all is there, since all of its faces decide what is inside.
 /// Objects are left out as they are for pairs: by layers, by groups of objects, and if they are ignored.
-/// Groups of faces that are hidden or ignored count as in that step.
+/// Groups of faces that are hidden or ignored count as in that step. SceneSettings::ways_out and limits of
+/// contacts do not count.
+///
+/// A frozen object is there where the last good input put it. Where the scene does not have those positions
+/// any more, the radius ends before the object. If the tool is such an object, its patch knows nothing.
 class GRAZE_API Patch {
  public:
   /// An empty patch, which knows nothing.
@@ -99,7 +103,7 @@ class GRAZE_API Patch {
   /// Returns the object whose patch it is. It is a default id for an empty patch.
   [[nodiscard]] ObjectId tool() const;
   /// Returns the radius within which all faces are there, as far as the tool was where the step saw it. It is
-  /// ObjectSettings::patch_radius, or less if the patch #is_cut.
+  /// ObjectSettings::patch_radius, or less if the patch #is_cut, or where a frozen object is.
   [[nodiscard]] double radius() const;
   /// Returns whether ObjectSettings::patch_faces made the radius smaller.
   [[nodiscard]] bool is_cut() const;

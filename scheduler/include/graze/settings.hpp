@@ -97,15 +97,15 @@ struct ObjectSettings {
   /// Also a rigid object's vertices move straight from pose to pose. An object stands at its new place in its
   /// first step, after a `teleport`, and when its mesh was replaced. A fixed object always stands.
   bool swept = false;
-  /// Whether reports keep this object's mesh and positions: FrameReport::mesh(), FrameReport::positions(),
-  /// and what SceneQuery finds. A step in which the object moved copies its positions and computes the boxes
-  /// of its regions once more. The object is then read in every step, however far it is from others.
+  /// Whether reports keep this object's positions: FrameReport::positions(), and what SceneQuery finds. A
+  /// step in which the object moved copies its positions and computes the boxes of its regions once more. The
+  /// object is then read in every step, however far it is from others.
   bool queries = false;
   /// If it is above 0, reports keep a patch around this object, for answers between steps: a copy of all
   /// faces of other objects within this distance. FrameReport::patch() gives it. It is finite, and 0 or more.
   ///
-  /// Each step copies the faces near the object that have moved, and all of a solid near it. Objects within
-  /// the distance are read, also where a promise would leave them unread.
+  /// Each step copies the faces near the object that have moved, and all of a solid near it. The object and
+  /// those within the distance are read, also where a promise would leave them unread.
   double patch_radius = 0;
   /// The most faces that a patch has of all objects together, at least 1. If there are more within the
   /// radius, the patch has the nearest, by whole leaves, and says so: Patch::is_cut(). A solid is copied

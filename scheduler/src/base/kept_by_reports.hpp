@@ -15,6 +15,7 @@ class KeptByReports {
   KeptByReports() = default;
   KeptByReports(const KeptByReports&) = delete;
   KeptByReports& operator=(const KeptByReports&) = delete;
+  virtual ~KeptByReports() = default;
 
   void add_holder() const noexcept { holders_.fetch_add(1, std::memory_order_relaxed); }
   void drop_holder() const noexcept {
@@ -23,9 +24,6 @@ class KeptByReports {
   }
   /// Whether a single holder is left, the caller. Then it may fill this again.
   [[nodiscard]] bool has_one_holder() const noexcept { return holders_.load(std::memory_order_acquire) == 1; }
-
- protected:
-  virtual ~KeptByReports() = default;
 
  private:
   mutable std::atomic<std::uint32_t> holders_{0};
@@ -36,16 +34,25 @@ class KeptByReports {
 template <typename Kept>
 class KeptPool {
  public:
-  /// Clears all that no report has, but for the last one.
+  /// Clears those that no report has, but for the last one. It looks at a few only, so that a step takes no
+  /// longer where many reports are held. The next calls look at others.
   void clear_unused() {
-    for (std::size_t index = 0; index < writable_.size(); ++index)
-      if (index != last_ && writable_[index]->has_one_holder()) writable_[index]->clear();
+    constexpr std::size_t at_once = 8;
+    for (std::size_t looked = 0; looked < at_once && looked < writable_.size(); ++looked) {
+      next_ = next_ + 1 < writable_.size() ? next_ + 1 : 0;
+      if (next_ != last_ && writable_[next_]->has_one_holder()) writable_[next_]->clear();
+    }
   }
   /// One that no report has, which is the last one from now on. It is empty.
   [[nodiscard]] Kept& next() {
-    std::size_t index = 0;
-    while (index < writable_.size() && !writable_[index]->has_one_holder()) ++index;
-    if (index == writable_.size()) {
+    // Those after the last one were made before it, and are the first to be free.
+    const std::size_t count = writable_.size();
+    std::size_t looked = 1;
+    while (looked <= count && !writable_[(last_ + looked) % count]->has_one_holder()) ++looked;
+    std::size_t index = count;
+    if (looked <= count) {
+      index = (last_ + looked) % count;
+    } else {
       auto* const made = new Kept;
       handles_.push_back(KeptHandle<Kept>(made));
       writable_.push_back(made);
@@ -67,6 +74,7 @@ class KeptPool {
   std::vector<KeptHandle<Kept>> handles_;
   std::vector<Kept*> writable_;  ///< the same
   std::size_t last_ = 0;
+  std::size_t next_ = 0;  ///< the one that clear_unused looked at last
 };
 
 }  // namespace graze

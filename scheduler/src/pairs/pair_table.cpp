@@ -152,7 +152,8 @@ void PairTable::want_near(const Object& tool) {
   const ObjectSummary& summary = summaries_[slot];
   want(slot);
   for (std::uint32_t other = 0; other < summaries_.all().size(); ++other)
-    if (summaries_[other].unread && filter_.verdict(summary, summaries_[other]) == PairVerdict::tested &&
+    if (summaries_[other].unread && !summaries_[other].hidden &&
+        filter_.verdict(summary, summaries_[other]) == PairVerdict::tested &&
         lower_distance(summary.box, summaries_[other].box) <= tool.settings.patch_radius)
       want(other);
 }

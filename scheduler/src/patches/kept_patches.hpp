@@ -49,7 +49,8 @@ struct KeptPatch {
   bool solid = false;
   std::shared_ptr<const KeptSurface> surface;  ///< the tool's
   std::shared_ptr<const FaceGroups> groups;    ///< null if none of its faces is hidden
-  double radius = 0;                           ///< no face of others that is not here is nearer
+  /// No face of others that is not here is nearer. It is negative where the tool's place is not known.
+  double radius = 0;
   bool cut = false;
   double threshold = 0;  ///< the largest of any pair of the tool
   std::vector<ObjectId> ids;

@@ -142,7 +142,7 @@ ObjectId Patch::tool() const {
   return kept_ == nullptr ? ObjectId{} : kept_->tool;
 }
 double Patch::radius() const {
-  return kept_ == nullptr ? 0 : kept_->radius;
+  return kept_ == nullptr ? 0 : std::max(kept_->radius, 0.0);
 }
 bool Patch::is_cut() const {
   return kept_ != nullptr && kept_->cut;

@@ -7,11 +7,23 @@
 #include "core/base/bytes_of.hpp"
 
 namespace graze {
+namespace {
+
+/// Whether the surface of an object has its positions. A frozen object may stand at a place that was only
+/// viewed or surveyed, or may have no place yet.
+bool is_known(const Object& object) {
+  if (object.is_unread()) return false;
+  return !object.frozen ||
+         (object.seen.is_in_surface && !object.surface().is_behind() && !object.is_unplaced);
+}
+
+}  // namespace
 
 void PatchTool::list_near(std::span<const std::unique_ptr<Object>> objects, const ObjectSummaries& summaries,
                           const PairFilter& filter) {
   near_.clear();
   threshold_ = 0;
+  known_radius_ = is_known(object_) ? object_.settings.patch_radius : -1;
   const std::uint32_t slot = summaries.slot_of(object_);
   const ObjectSummary& tool = summaries[slot];
   if (tool.hidden) return;
@@ -20,7 +32,12 @@ void PatchTool::list_near(std::span<const std::unique_ptr<Object>> objects, cons
     if (other == slot || summary.hidden || filter.verdict(tool, summary) != PairVerdict::tested) continue;
     const auto [first, second] = std::minmax(slot, other);
     threshold_ = std::max(threshold_, filter.thresholds(summaries[first], summaries[second]).threshold);
-    if (lower_distance(tool.box, summary.box) > object_.settings.patch_radius) continue;
+    const double lower = lower_distance(tool.box, summary.box);
+    if (lower > object_.settings.patch_radius) continue;
+    if (!is_known(*objects[other])) {
+      known_radius_ = std::min(known_radius_, lower);
+      continue;
+    }
     near_.push_back({objects[other].get(), filter.groups(summaries[first], summaries[second])});
   }
 }
@@ -29,13 +46,13 @@ void PatchTool::find_leaves() {
   copy_surface();
   keep_ignored();
   const Surface& about = copies_.last()->surface;
-  radius_ = object_.settings.patch_radius;
+  radius_ = known_radius_;
   cut_ = false;
   found_.clear();
   for (std::size_t index = 0; index < near_.size(); ++index) {
     const Surface& surface = near_[index].object->surface();
     leaves_.clear();
-    list_near_leaves(about, object_.settings.solid, surface, radius_, leaves_);
+    list_near_leaves(about, object_.settings.solid, surface, std::max(radius_, 0.0), leaves_);
     for (const NearLeaf& leaf : leaves_)
       found_.push_back({leaf, index, surface.mesh().regions().region(leaf.leaf).face_count});
   }
@@ -80,20 +97,25 @@ void PatchTool::cut() {
 
 /// Copies the groups that are ignored. Those of the scene may change while a report has the copy.
 void PatchTool::keep_ignored() {
-  std::size_t next = 0;
+  were_ignored_.swap(ignored_);
+  ignored_.clear();
+  auto before = were_ignored_.begin();
   for (const Near& near : near_) {
     if (near.groups.filter == nullptr) continue;
-    while (next < ignored_.size() && ignored_[next].serial < near.object->serial) ++next;
-    const bool is_known = next < ignored_.size() && ignored_[next].serial == near.object->serial;
-    if (is_known && ignored_[next].version == near.groups.version) continue;
+    while (before != were_ignored_.end() && before->serial < near.object->serial) ++before;
+    if (before != were_ignored_.end() && before->serial == near.object->serial &&
+        before->version == near.groups.version) {
+      ignored_.push_back(std::move(*before));
+      continue;
+    }
     const bool is_first = near.object->serial < serial_;
     const auto& of_a = is_first ? near.object->face_groups : object_.face_groups;
     const auto& of_b = is_first ? object_.face_groups : near.object->face_groups;
     auto copy = std::make_shared<GroupFilter>(of_a, of_b);
     near.groups.filter->visit_ignored([&](std::uint8_t a, std::uint8_t b) { copy->set_ignored(a, b, true); });
-    if (!is_known) ignored_.insert(ignored_.begin() + static_cast<std::ptrdiff_t>(next), Ignored{});
-    ignored_[next] = {near.object->serial, near.groups.version, std::move(copy)};
+    ignored_.push_back({near.object->serial, near.groups.version, std::move(copy)});
   }
+  were_ignored_.clear();
 }
 
 void PatchTool::ask(PatchSources& sources) const {
@@ -143,7 +165,7 @@ void PatchTool::add_faces(const Near& near, std::vector<std::uint32_t>& faces) c
 
 std::size_t PatchTool::byte_count() const {
   std::size_t bytes = sizeof(PatchTool) + bytes_of(copies_.all()) + bytes_of(near_) + bytes_of(leaves_) +
-                      bytes_of(found_) + bytes_of(ignored_);
+                      bytes_of(found_) + bytes_of(ignored_) + bytes_of(were_ignored_);
   for (const auto& copy : copies_.all()) bytes += sizeof(KeptSurface) + copy->surface.byte_count();
   for (const Ignored& ignored : ignored_) bytes += ignored.filter->byte_count();
   return bytes;

@@ -26,7 +26,8 @@ class PatchTool {
   [[nodiscard]] Object& object() const { return object_; }
   [[nodiscard]] std::uint64_t serial() const { return serial_; }
 
-  /// Lists the objects whose boxes are within the radius, and that may be in a pair with the tool.
+  /// Lists the objects whose boxes are within the radius, and that may be in a pair with the tool. Where an
+  /// object is frozen at a place that its surface does not have, the radius ends before it.
   void list_near(std::span<const std::unique_ptr<Object>> objects, const ObjectSummaries& summaries,
                  const PairFilter& filter);
   /// Calls `use(object)` for each of them.
@@ -67,7 +68,7 @@ class PatchTool {
   void copy_surface();
   void cut();
   void keep_ignored();
-  [[nodiscard]] bool is_there(const Near& near) const {
+  [[nodiscard]] static bool is_there(const Near& near) {
     return near.leaf_count > 0 || near.object->settings.solid;
   }
   [[nodiscard]] std::span<const NearLeaf> leaves_of(const Near& near) const {
@@ -80,12 +81,14 @@ class PatchTool {
   SpareCopies<KeptSurface> copies_;
   std::uint64_t version_ = 0;  ///< of the object's surface, at the last copy
   double threshold_ = 0;
+  double known_radius_ = 0;  ///< ends before frozen objects. It is negative if the tool's place is not known
   double radius_ = 0;
   bool cut_ = false;
   std::vector<Near> near_;        ///< in the order of addition
   std::vector<NearLeaf> leaves_;  ///< of these objects, one after the other
   std::vector<FoundLeaf> found_;
-  std::vector<Ignored> ignored_;  ///< ascending by serial
+  std::vector<Ignored> ignored_;  ///< of near objects, ascending by serial
+  std::vector<Ignored> were_ignored_;
 };
 
 }  // namespace graze

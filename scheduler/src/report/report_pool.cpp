@@ -78,11 +78,19 @@ void ReportPool::end_loans() {
     if (is_unread(index)) end_loan(index);
 }
 
-/// Lets go of what the reports that nobody reads share with others.
+/// Lets go of what the reports that nobody reads share with others. It looks at a few reports only, so that a
+/// step takes no longer where many are held. The next steps look at others.
 void ReportPool::release_kept() {
-  if (free_count_.load(std::memory_order_acquire) == 0) return;
-  for (std::uint32_t index = 0; index < slot_count_; ++index)
-    if (is_unread(index)) ReportBuilder(slot(index).report).release_kept();
+  constexpr std::size_t at_once = 8;
+  for (std::size_t looked = 0; looked < at_once && looked < keeping_.size(); ++looked) {
+    next_keeping_ = next_keeping_ + 1 < keeping_.size() ? next_keeping_ + 1 : 0;
+    const std::uint32_t index = keeping_[next_keeping_];
+    if (!is_unread(index)) continue;
+    ReportBuilder(slot(index).report).release_kept();
+    slot(index).is_keeping = false;
+    keeping_[next_keeping_] = keeping_.back();
+    keeping_.pop_back();
+  }
 }
 
 void ReportPool::end_loan(std::uint32_t index) {
@@ -124,6 +132,7 @@ std::uint32_t ReportPool::add_slot() {
   if (slot_count_ % chunk_size == 0) {
     chunks_[slot_count_ / chunk_size] = std::make_unique<Chunk>();
     byte_count_ += sizeof(Chunk);
+    keeping_.reserve(std::size_t{slot_count_} + chunk_size);
   }
   free_count_.fetch_add(1, std::memory_order_relaxed);
   return slot_count_++;
@@ -170,6 +179,7 @@ void ReportPool::reserve(std::size_t held, const ReportRoom& room) {
 }
 
 ReportHandle ReportPool::publish() noexcept {
+  if (!std::exchange(slot(filling_).is_keeping, true)) keeping_.push_back(filling_);
   slot(filling_).references.store(bias, std::memory_order_relaxed);
   retire(current_.exchange(std::uint64_t{filling_} << count_bits, std::memory_order_acq_rel));
   return latest();  // NOLINT(clang-analyzer-cplusplus.NewDelete): the scene owns the pool while it steps

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <graze/report.hpp>
 #include <memory>
+#include <vector>
 
 #include "report/report_builder.hpp"
 
@@ -70,6 +71,7 @@ class ReportPool {
     std::size_t counted_bytes = 0;   ///< its part of byte_count_
     std::uint32_t lender = no_slot;  ///< whose rows its report shows, where they are not its own
     std::uint32_t borrowers = 0;     ///< slots whose lender it is
+    bool is_keeping = false;         ///< it is listed in keeping_
   };
   static constexpr std::uint32_t chunk_size = 64;
   static constexpr std::uint32_t chunk_capacity = 1024;
@@ -116,7 +118,10 @@ class ReportPool {
   std::uint32_t loan_count_ = 0;    ///< slots that have a lender
   std::uint32_t lender_count_ = 0;  ///< slots that are one
   bool is_reserved_ = false;        ///< slots were reserved
-  ReportRoom room_;                 ///< that every report gets when nobody reads it
+  /// The slots whose reports may share something with others. There is room for all slots.
+  std::vector<std::uint32_t> keeping_;
+  std::size_t next_keeping_ = 0;  ///< in keeping_, the one that was looked at last
+  ReportRoom room_;               ///< that every report gets when nobody reads it
   bool all_have_room_ = true;
   std::size_t byte_count_ = sizeof(ReportPool);
 };

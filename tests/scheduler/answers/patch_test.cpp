@@ -231,7 +231,7 @@ std::string error_of(const std::function<void()>& call) {
 
 TEST_CASE("a patch says what a scene would say") {
   std::size_t complete = 0, incomplete = 0, cut = 0, contacts = 0, inside = 0, unknown = 0;
-  for (std::uint64_t seed = 0; seed < std::max<std::uint64_t>(12, repeats(100)); ++seed) {
+  for (std::uint64_t seed = 0; seed < std::max<std::uint64_t>(12, repeats(20)); ++seed) {
     PatchedScene scene(seed, seed % 5 == 0 ? ContactDetail::vertices : ContactDetail::nearest);
     for (int step = 0; step < 4; ++step) {
       scene.step();
@@ -364,6 +364,91 @@ TEST_CASE("objects that promises leave unread are read where a tool is near") {
   REQUIRE(report->patch(tool).objects().size() == 1);
   CHECK(report->patch(tool).positions(still)[0].z() == lifted(*box, 0.02)[0].z());
   CHECK(report->pairs().empty());
+}
+
+TEST_CASE("two edges that touch have the side of the whole surface, also where one of them is long") {
+  // The end of the long edge has many faces, far away. They decide the direction at distance 0.
+  constexpr std::uint32_t around = 60;
+  models::MeshData ridge;
+  ridge.positions = {{-5, 0, 0}, {0, 1, -1}, {0, -1, -1}};
+  ridge.add_face({0, around + 3, 1});
+  ridge.add_face({0, 2, around + 3});
+  for (std::uint32_t i = 0; i < around; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / around;
+    ridge.positions.emplace_back(5 + 0.3 * std::cos(angle), 0.3 * std::sin(angle), 0.001 * i);
+    ridge.add_face({3 + i, around + 3, 3 + (i + 1) % around});
+  }
+  ridge.positions.emplace_back(5, 0, 0);
+  models::MeshData blade;
+  blade.positions = {{0, -0.5, 0}, {0, 0.5, 0}, {0, 0, 1}};
+  blade.add_face({0, 1, 2});
+  Scene scene({.contact_distance = 0.05, .detail = ContactDetail::nearest, .threads = 1});
+  scene.add(mesh_of(ridge), {});
+  const ObjectId tool = scene.add(mesh_of(blade), {.patch_radius = 1});
+  const ReportHandle report = scene.step();
+  const Patch patch = report->patch(tool);
+  CHECK(patch.face_count() < ridge.corner_counts.size());
+  PatchRoom room;
+  CHECK(patch.contacts(blade.positions, 0.05, room).complete);
+  const auto expected = report->contacts();
+  REQUIRE(room.contacts().size() == expected.size());
+  REQUIRE(!expected.empty());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    CHECK(room.contacts()[i].normal == expected[i].normal);
+    CHECK(room.contacts()[i].side_a == expected[i].side_a);
+  }
+}
+
+TEST_CASE("a patch knows nothing of a frozen object whose place it does not have") {
+  const auto sheet = mesh_of(models::sheet(150, 150, 3, 3));
+  const auto box = mesh_of(models::box({0.2, 0.2, 0.2}));
+  for (const ContactDetail detail : {ContactDetail::vertices, ContactDetail::nearest})
+    for (const bool begins_far : {false, true}) {
+      INFO("detail " << static_cast<int>(detail) << ", begins far " << begins_far);
+      Scene scene({.contact_distance = 0.25, .range = 1, .detail = detail, .threads = 1});
+      Positions memory = lifted(*sheet, -0.3);
+      const ObjectId tissue = scene.add(sheet, {});
+      const ObjectId tool = scene.add(box, {.motion = Motion::rigid, .patch_radius = 0.5});
+      scene.bind_positions(tissue, memory);
+      for (int step = 0; step < 4; ++step) {
+        for (Eigen::Vector3d& point : memory) point.z() += 0.001;
+        scene.set_pose(tool, lift_pose(begins_far ? 9 : -0.1 + 0.001 * step));
+        scene.step();
+      }
+      const double last = memory[0].z();
+      for (Eigen::Vector3d& point : memory) point = Eigen::Vector3d::Constant(std::nan(""));
+      scene.set_pose(tool, lift_pose(-0.1));
+      const ReportHandle report = scene.step();
+      REQUIRE(report->diagnostics().size() == 1);
+      const Patch patch = report->patch(tool);
+      PatchRoom room;
+      const PatchAnswer answer = patch.contacts(lift_pose(-0.15), 0.1, room);
+      if (patch.objects().empty()) {
+        CHECK(!answer.complete);
+        CHECK(patch.radius() < 0.2);
+      } else {
+        CHECK(patch.positions(tissue)[sheet->face(patch.faces(tissue)[0])[0]].z() == last);
+        CHECK(!room.contacts().empty());
+      }
+    }
+}
+
+TEST_CASE("patches keep nothing of objects that are gone, also where groups were ignored") {
+  Scene scene({.threads = 1});
+  const ObjectId tool = scene.add(mesh_of(models::sphere(12, 6)), {.patch_radius = 1});
+  const auto box = mesh_of(models::box({1, 1, 1}));
+  std::vector<std::uint64_t> bytes;
+  for (int step = 0; step < 200; ++step) {
+    ObjectSettings settings;
+    for (std::uint32_t face = 0; face < box->face_count(); ++face) settings.face_groups.push_back(face % 2);
+    const ObjectId guest = scene.add(box, settings);
+    scene.ignore(tool, 0, guest, 1);
+    const ReportHandle report = scene.step();
+    CHECK(report->patch(tool).objects().size() == 1);
+    bytes.push_back(report->statistics().bytes.reports);
+    scene.remove(guest);
+  }
+  CHECK(bytes.back() <= *std::max_element(bytes.begin() + 10, bytes.begin() + 40));
 }
 
 TEST_CASE("a patch refuses what a scene refuses, and an empty one knows nothing") {

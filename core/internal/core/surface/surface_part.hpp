@@ -16,7 +16,8 @@ namespace graze {
 /// features have the numbers that the mesh gives them, and a search never comes to those that are not there.
 ///
 /// A search may say what it says of the whole surface about all that is nearer than the nearest leaf that is
-/// not there. The faces around such a feature are as near as the feature, so that they are all there.
+/// not there. The faces around such a feature are as near as the feature, so that their leaves are there. The
+/// sides of an edge ask for more: the faces around its ends. Their corners are copied, too.
 class GRAZE_API SurfacePart {
  public:
   /// Nothing is there yet.
@@ -35,14 +36,16 @@ class GRAZE_API SurfacePart {
  private:
   void clear(bool in_double);
   void clear_all();
-  void copy_vertices(const Surface& from, std::span<const std::uint32_t> vertices);
+  void copy_around(const Surface& from, std::span<const std::uint32_t> vertices);
+  void copy(const PositionView& positions, std::uint32_t vertex);
   void box_leaf(std::uint32_t leaf);
   void box_long_regions();
   void begin_version();
 
   Surface surface_;
   std::vector<std::uint32_t> leaves_;
-  std::vector<std::uint32_t> inner_;  ///< the regions that contain these leaves
+  std::vector<std::uint32_t> inner_;     ///< the regions that contain these leaves
+  std::vector<std::uint32_t> vertices_;  ///< those that are there
   bool has_all_ = false;
 };
 
