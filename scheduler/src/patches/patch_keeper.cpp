@@ -40,6 +40,7 @@ KeptHandle<KeptPatches> PatchKeeper::keep(const ObjectSummaries& summaries, cons
   const auto objects = store_.objects();
   // A task writes what belongs to its own tool.
   const auto list_near = [&](unsigned /*worker*/, std::size_t item) {
+    const AccessScope scope({AccessRight::read(), {}});
     tools_[item]->list_near(objects, summaries, filter);
   };
   tasks_.run(tools_.size(), std::ref(list_near),
