@@ -4,7 +4,7 @@
 
 #include "arithmetic/arithmetic.hpp"
 #include "cast/triangles.hpp"
-#include "solid/region_visit.hpp"
+#include "surface/region_visit.hpp"
 
 namespace graze {
 namespace {

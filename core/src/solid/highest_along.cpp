@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "solid/region_visit.hpp"
+#include "surface/region_visit.hpp"
 
 namespace graze {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "closest_features/closest_features.hpp"
-#include "solid/region_visit.hpp"
+#include "surface/region_visit.hpp"
 
 namespace graze {
 namespace {

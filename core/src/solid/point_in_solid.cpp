@@ -6,7 +6,7 @@
 
 #include "closest_features/closest_features.hpp"
 #include "closest_features/feature_pair_key.hpp"
-#include "solid/region_visit.hpp"
+#include "surface/region_visit.hpp"
 
 namespace graze {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "leaves/touching_edges.hpp"
 #include "solid/point_in_solid.hpp"
-#include "solid/region_visit.hpp"
+#include "surface/region_visit.hpp"
 
 namespace graze {
 namespace {

@@ -220,6 +220,12 @@ Surface::ReadResult Surface::set_positions(const PositionView& view) {
   return result;
 }
 
+void Surface::copy_refitted(const Surface& from) {
+  const bool is_at_rest = from.positions().data() == positions().data();
+  if (!is_at_rest) (void)set_positions(from.positions());
+  refit_faces();
+}
+
 namespace {
 
 /// Whether positions follow one another in memory, all of them used.

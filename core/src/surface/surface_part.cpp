@@ -25,7 +25,7 @@ bool is_within_reach(const Box& box) {
 
 }  // namespace
 
-SurfacePart::SurfacePart(std::shared_ptr<const IndexedMesh> mesh) : surface_(std::move(mesh)) {}
+SurfacePart::SurfacePart(std::shared_ptr<const Mesh> mesh) : surface_(std::move(mesh)) {}
 
 void SurfacePart::take(const Surface& from, std::span<const std::uint32_t> leaves) {
   clear(from.positions().is_double());
@@ -47,9 +47,7 @@ void SurfacePart::take_all(const Surface& from) {
   inner_.clear();
   vertices_.clear();
   has_all_ = true;
-  const bool is_at_rest = from.positions().data() == surface_.positions().data();
-  if (!is_at_rest) (void)surface_.set_positions(from.positions());
-  surface_.refit_faces();
+  surface_.copy_refitted(from);
 }
 
 /// Puts everything out of reach, in a precision.

@@ -78,8 +78,8 @@ class GRAZE_API PatchRoom {
 struct KeptPatch;
 /// @endcond
 
-/// What lies around a tool in one step, for answers between steps: the faces of other objects within a radius
-/// of the tool, where that step saw them. FrameReport::patch() gives it, for an object that has
+/// Knows what lies around a tool in one step, for answers between steps: the faces of other objects within a
+/// radius of the tool, where that step saw them. FrameReport::patch() gives it, for an object that has
 /// ObjectSettings::patch_radius.
 ///
 /// A patch is good for as long as the report, or a copy of it. Any number of threads may ask it at the same
@@ -148,10 +148,6 @@ class GRAZE_API Patch {
  private:
   friend class FrameReport;
   explicit Patch(const KeptPatch* kept) : kept_(kept) {}
-  template <typename Move>
-  PatchAnswer fill(double threshold, PatchRoom& room, const Move& move) const;
-  template <typename PositionOf>
-  double validity_at(std::optional<double> threshold, const PositionOf& position_of) const;
 
   const KeptPatch* kept_ = nullptr;
 };

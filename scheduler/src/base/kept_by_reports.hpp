@@ -29,8 +29,9 @@ class KeptByReports {
   mutable std::atomic<std::uint32_t> holders_{0};
 };
 
-/// What a keeper has made for reports. One is the last that it filled. Reports have some others still, and
-/// the rest can be filled again. `Kept` has `clear`, which lets go of what it shares with others.
+/// The objects of type `Kept` that a keeper has made for reports. One is the last that it filled. Reports
+/// have some others still, and the rest can be filled again. `Kept` has `clear`, which lets go of what it
+/// shares with others.
 template <typename Kept>
 class KeptPool {
  public:
@@ -45,21 +46,14 @@ class KeptPool {
   }
   /// One that no report has, which is the last one from now on. It is empty.
   [[nodiscard]] Kept& next() {
-    // Those after the last one were made before it, and are the first to be free.
-    const std::size_t count = writable_.size();
-    std::size_t looked = 1;
-    while (looked <= count && !writable_[(last_ + looked) % count]->has_one_holder()) ++looked;
-    std::size_t index = count;
-    if (looked <= count) {
-      index = (last_ + looked) % count;
-    } else {
+    last_ = free_index();
+    if (last_ == writable_.size()) {
       auto* const made = new Kept;
       handles_.push_back(KeptHandle<Kept>(made));
       writable_.push_back(made);
     }
-    last_ = index;
-    writable_[index]->clear();
-    return *writable_[index];
+    writable_[last_]->clear();
+    return *writable_[last_];
   }
   [[nodiscard]] bool has_last() const { return last_ < handles_.size(); }
   /// The last one.
@@ -71,6 +65,16 @@ class KeptPool {
   }
 
  private:
+  /// The index of one that no report has, or their number if there is none. The search begins after the last
+  /// one, where the oldest are, which reports let go of first.
+  [[nodiscard]] std::size_t free_index() const {
+    const std::size_t count = writable_.size();
+    for (std::size_t looked = 1; looked <= count; ++looked)
+      if (const std::size_t index = (last_ + looked) % count; writable_[index]->has_one_holder())
+        return index;
+    return count;
+  }
+
   std::vector<KeptHandle<Kept>> handles_;
   std::vector<Kept*> writable_;  ///< the same
   std::size_t last_ = 0;

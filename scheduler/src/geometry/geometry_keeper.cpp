@@ -57,10 +57,7 @@ void GeometryKeeper::fill_copies() {
     Asking& asking = *to_copy_[item];
     const AccessScope scope({AccessRight::read(), {}});
     const Surface& from = asking.object->surface();
-    Surface& to = asking.copies.last()->surface;
-    const bool is_at_rest = from.positions().data() == to.positions().data();
-    if (!is_at_rest) (void)to.set_positions(from.positions());
-    to.refit_faces();
+    asking.copies.last()->surface.copy_refitted(from);
     asking.version = from.version();
   };
   tasks_.run(to_copy_.size(), copy, {nanoseconds});

@@ -15,7 +15,7 @@ void KeptMeshes::set(ObjectId id, std::shared_ptr<const Mesh> mesh) {
   if (own_[index] == 0) part = part == nullptr ? std::make_shared<Part>() : std::make_shared<Part>(*part);
   own_[index] = 1;
   Entry& entry = (*part)[id.index % part_size];
-  // Of two objects that used one slot after each other, the one that is gone may be named last.
+  // Two objects may have used one slot after each other, and the one that is gone may be named last.
   if (mesh == nullptr && entry.generation != id.generation) return;
   entry = {id.generation, std::move(mesh)};
 }

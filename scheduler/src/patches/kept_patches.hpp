@@ -7,6 +7,7 @@
 #include <graze/object_id.hpp>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/kept_by_reports.hpp"
@@ -18,14 +19,10 @@
 
 namespace graze {
 
-/// What patches have of an object's surface, as a step saw it. All patches of a report share it. It does not
-/// change while a report has it.
+/// The parts of an object's surface that patches have, as a step saw them. All patches of a report share
+/// this. It does not change while a report has it.
 struct PatchSurface {
-  explicit PatchSurface(std::shared_ptr<const Mesh> of) : mesh(std::move(of)), part(shared_indexed(mesh)) {}
-
-  static std::shared_ptr<const IndexedMesh> shared_indexed(const std::shared_ptr<const Mesh>& mesh) {
-    return {mesh, &indexed(*mesh)};
-  }
+  explicit PatchSurface(std::shared_ptr<const Mesh> of) : mesh(std::move(of)), part(mesh) {}
 
   std::shared_ptr<const Mesh> mesh;
   SurfacePart part;
@@ -43,7 +40,7 @@ struct KeptPatchObject {
   std::size_t face_count = 0;
 };
 
-/// What lies around a tool, as a step saw it.
+/// The faces around a tool, and the tool itself, as a step saw them.
 struct KeptPatch {
   ObjectId tool;
   bool solid = false;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <graze/error.hpp>
 #include <graze/patch.hpp>
@@ -72,58 +73,64 @@ PatchAnswer answer_of(double covered, double threshold) {
 
 /// The tool's surface and the search, with the memory that both keep.
 struct PatchRoom::State {
-  void begin(const KeptPatch& patch);
+  void clear() {
+    pairs.clear();
+    contacts.clear();
+  }
+  /// Has a surface of the tool's mesh.
+  void have_tool_of(const KeptPatch& patch);
   void search(const KeptPatch& patch, double threshold);
-  void search(const KeptPatch& patch, const KeptPatchObject& object, double threshold);
-  void take_answer(ObjectId a, ObjectId b);
 
   std::optional<Surface> tool;
-  PairDetector detector;
-  PairAnswer answer;
-  PairCounters counters;
   std::vector<PatchPair> pairs;
   std::vector<Contact> contacts;
+
+ private:
+  /// One of the two objects of a pair.
+  struct Side {
+    ObjectId id;
+    const Surface& surface;
+    bool solid;
+    const FaceGroups* groups;
+  };
+
+  void search(const Side& a, const Side& b, const GroupFilter* ignored, double threshold);
+
+  PairDetector detector_;
+  PairAnswer answer_;
+  PairCounters counters_;
 };
 
-/// Empties the room, and has a surface of the tool's mesh.
-void PatchRoom::State::begin(const KeptPatch& patch) {
-  pairs.clear();
-  contacts.clear();
+void PatchRoom::State::have_tool_of(const KeptPatch& patch) {
   const auto& mesh = patch.surface->surface.shared_mesh();
   if (!tool || &tool->mesh() != mesh.get()) tool.emplace(mesh);
 }
 
 void PatchRoom::State::search(const KeptPatch& patch, double threshold) {
   tool->refit_faces();
-  for (const KeptPatchObject& object : patch.objects) search(patch, object, threshold);
+  const Side of_tool{patch.tool, *tool, patch.solid, patch.groups.get()};
+  for (const KeptPatchObject& object : patch.objects) {
+    const Side other{object.id, object.surface->part.surface(), object.solid, object.groups.get()};
+    search(object.is_first ? other : of_tool, object.is_first ? of_tool : other, object.ignored.get(),
+           threshold);
+  }
 }
 
-void PatchRoom::State::search(const KeptPatch& patch, const KeptPatchObject& object, double threshold) {
-  const Surface& other = object.surface->part.surface();
-  const Surface& a = object.is_first ? other : *tool;
-  const Surface& b = object.is_first ? *tool : other;
+void PatchRoom::State::search(const Side& a, const Side& b, const GroupFilter* ignored, double threshold) {
   PairQuery query;
   query.detail = ContactDetail::nearest;
   query.threshold = query.reach = threshold;
-  query.a_is_solid = object.is_first ? object.solid : patch.solid;
-  query.b_is_solid = object.is_first ? patch.solid : object.solid;
-  PairDetector::outer_bounds(a, b, query, answer);
-  if (!answer.listed) return;
-  const FaceGroups* const of_a = (object.is_first ? object.groups : patch.groups).get();
-  const FaceGroups* const of_b = (object.is_first ? patch.groups : object.groups).get();
-  const FeatureFilter hidden(of_a, of_b);
-  if (object.ignored != nullptr)
-    query.groups = object.ignored.get();
-  else if (!hidden.leaves_all())
-    query.groups = &hidden;
-  detector.detect(a, b, query, answer, counters);
-  if (answer.in_contact)
-    take_answer(object.is_first ? object.id : patch.tool, object.is_first ? patch.tool : object.id);
-}
-
-void PatchRoom::State::take_answer(ObjectId a, ObjectId b) {
-  pairs.push_back({a, b, answer.inside, contacts.size(), answer.contacts.size()});
-  contacts.insert(contacts.end(), answer.contacts.begin(), answer.contacts.end());
+  query.a_is_solid = a.solid;
+  query.b_is_solid = b.solid;
+  PairDetector::outer_bounds(a.surface, b.surface, query, answer_);
+  if (!answer_.listed) return;
+  const FeatureFilter hidden(a.groups, b.groups);
+  query.groups = ignored;
+  if (ignored == nullptr && !hidden.leaves_all()) query.groups = &hidden;
+  detector_.detect(a.surface, b.surface, query, answer_, counters_);
+  if (!answer_.in_contact) return;
+  pairs.push_back({a.id, b.id, answer_.inside, contacts.size(), answer_.contacts.size()});
+  contacts.insert(contacts.end(), answer_.contacts.begin(), answer_.contacts.end());
 }
 
 PatchRoom::PatchRoom() : state_(std::make_unique<State>()) {}
@@ -165,40 +172,53 @@ PositionView Patch::positions(ObjectId object) const {
   return found == nullptr ? PositionView() : found->surface->part.surface().positions();
 }
 
+namespace {
+
+/// Fills a room for a tool that `move(surface)` puts where it is to be.
+template <typename State, typename Move>
+PatchAnswer fill(const KeptPatch* patch, double threshold, State& room, const Move& move) {
+  room.clear();
+  check_threshold(threshold);
+  if (patch == nullptr) return {false, -1, 0};
+  room.have_tool_of(*patch);
+  const Surface::ReadResult read = move(*room.tool);
+  if (!read.taken()) refuse(read.bad_vertex, read.bad_position);
+  const double travel =
+      travel_of(patch->surface->surface, [&](std::uint32_t vertex) { return room.tool->position(vertex); });
+  const PatchAnswer answer = answer_of(covered(*patch, travel), threshold);
+  if (answer.threshold >= 0) room.search(*patch, answer.threshold);
+  return answer;
+}
+
+/// PatchAnswer::validity of a tool whose vertices are where `position_of(vertex)` says.
+template <typename PositionOf>
+double validity_of(const KeptPatch* patch, std::optional<double> threshold, const PositionOf& position_of) {
+  if (threshold) check_threshold(*threshold);
+  if (patch == nullptr) return 0;
+  const double travel = travel_of(patch->surface->surface, position_of);
+  return answer_of(covered(*patch, travel), threshold.value_or(patch->threshold)).validity;
+}
+
+}  // namespace
+
 PatchAnswer Patch::contacts(const Eigen::Isometry3d& pose, double threshold, PatchRoom& room) const {
   const FloatingPointScope scope;
-  return fill(threshold, room, [&](Surface& tool) { return tool.set_pose(checked_rows(pose)); });
+  return fill(kept_, threshold, *room.state_,
+              [&](Surface& tool) { return tool.set_pose(checked_rows(pose)); });
 }
 
 PatchAnswer Patch::contacts(PositionView positions, double threshold, PatchRoom& room) const {
   const FloatingPointScope scope;
-  return fill(threshold, room, [&](Surface& tool) {
+  return fill(kept_, threshold, *room.state_, [&](Surface& tool) {
     check_positions(positions, tool.mesh());
     return tool.set_positions(positions);
   });
 }
 
-template <typename Move>
-PatchAnswer Patch::fill(double threshold, PatchRoom& room, const Move& move) const {
-  PatchRoom::State& state = *room.state_;
-  state.pairs.clear();
-  state.contacts.clear();
-  check_threshold(threshold);
-  if (kept_ == nullptr) return {false, -1, 0};
-  state.begin(*kept_);
-  const Surface::ReadResult read = move(*state.tool);
-  if (!read.taken()) refuse(read.bad_vertex, read.bad_position);
-  const double travel =
-      travel_of(kept_->surface->surface, [&](std::uint32_t vertex) { return state.tool->position(vertex); });
-  const PatchAnswer answer = answer_of(covered(*kept_, travel), threshold);
-  if (answer.threshold >= 0) state.search(*kept_, answer.threshold);
-  return answer;
-}
-
 double Patch::validity(const Eigen::Isometry3d& pose, std::optional<double> threshold) const {
   const FloatingPointScope scope;
   const std::array<double, 12> rows = checked_rows(pose);
-  return validity_at(threshold, [&](std::uint32_t vertex) {
+  return validity_of(kept_, threshold, [&](std::uint32_t vertex) {
     return Surface::posed(rows, kept_->surface->surface.mesh().rest()[vertex]);
   });
 }
@@ -206,15 +226,7 @@ double Patch::validity(const Eigen::Isometry3d& pose, std::optional<double> thre
 double Patch::validity(PositionView positions, std::optional<double> threshold) const {
   const FloatingPointScope scope;
   if (kept_ != nullptr) check_positions(positions, kept_->surface->surface.mesh());
-  return validity_at(threshold, [&](std::uint32_t vertex) { return positions[vertex]; });
-}
-
-template <typename PositionOf>
-double Patch::validity_at(std::optional<double> threshold, const PositionOf& position_of) const {
-  if (threshold) check_threshold(*threshold);
-  if (kept_ == nullptr) return 0;
-  const double travel = travel_of(kept_->surface->surface, position_of);
-  return answer_of(covered(*kept_, travel), threshold.value_or(kept_->threshold)).validity;
+  return validity_of(kept_, threshold, [&](std::uint32_t vertex) { return positions[vertex]; });
 }
 
 }  // namespace graze

@@ -1,6 +1,7 @@
 #include "patches/patch_sources.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/bytes_of.hpp"
 
@@ -24,22 +25,23 @@ void PatchSources::begin(const ObjectStore& store) {
   }
 }
 
-const PatchSources::Source* PatchSources::find(const Object& object) const {
+/// The index of an object's source, or where it would be.
+std::size_t PatchSources::index_of(const Object& object) const {
   const auto found =
       std::lower_bound(sources_.begin(), sources_.end(), object.serial,
                        [](const Source& source, std::uint64_t serial) { return source.serial < serial; });
-  return found != sources_.end() && found->serial == object.serial ? &*found : nullptr;
+  return static_cast<std::size_t>(found - sources_.begin());
 }
 
 PatchSources::Source& PatchSources::source_of(const Object& object) {
-  if (const Source* const known = find(object)) return const_cast<Source&>(*known);
-  Source made;
-  made.object = &object;
-  made.serial = object.serial;
-  const auto place =
-      std::upper_bound(sources_.begin(), sources_.end(), object.serial,
-                       [](std::uint64_t serial, const Source& source) { return serial < source.serial; });
-  return *sources_.insert(place, std::move(made));
+  const std::size_t index = index_of(object);
+  if (index == sources_.size() || sources_[index].serial != object.serial) {
+    Source made;
+    made.object = &object;
+    made.serial = object.serial;
+    sources_.insert(sources_.begin() + static_cast<std::ptrdiff_t>(index), std::move(made));
+  }
+  return sources_[index];
 }
 
 void PatchSources::ask(const Object& object, std::span<const NearLeaf> leaves) {

@@ -27,7 +27,7 @@ class PatchSources {
   void copy(TaskPool& tasks);
   /// The copy of an object that was asked for.
   [[nodiscard]] const std::shared_ptr<PatchSurface>& copy_of(const Object& object) const {
-    return find(object)->copies.last();
+    return sources_[index_of(object)].copies.last();
   }
   [[nodiscard]] std::size_t byte_count() const;
 
@@ -42,7 +42,7 @@ class PatchSources {
     SpareCopies<PatchSurface> copies;
   };
 
-  [[nodiscard]] const Source* find(const Object& object) const;
+  [[nodiscard]] std::size_t index_of(const Object& object) const;
   [[nodiscard]] Source& source_of(const Object& object);
   static bool is_outdated(Source& source);
   static void fill(Source& source);

@@ -44,7 +44,7 @@ void PatchTool::list_near(std::span<const std::unique_ptr<Object>> objects, cons
 
 void PatchTool::find_leaves() {
   copy_surface();
-  keep_ignored();
+  copy_ignored();
   const Surface& about = copies_.last()->surface;
   radius_ = known_radius_;
   cut_ = false;
@@ -71,11 +71,14 @@ void PatchTool::find_leaves() {
 void PatchTool::copy_surface() {
   const Surface& from = object_.surface();
   if (version_ == from.version() && copies_.has_last_of(object_.users_mesh)) return;
-  Surface& to = copies_.next(object_.users_mesh).surface;
-  const bool is_at_rest = from.positions().data() == to.positions().data();
-  if (!is_at_rest) (void)to.set_positions(from.positions());
-  to.refit_faces();
+  copies_.next(object_.users_mesh).surface.copy_refitted(from);
   version_ = from.version();
+}
+
+void PatchTool::copy_ignored() {
+  ignored_.begin();
+  for (Near& near : near_)
+    if (near.groups.filter != nullptr) near.ignored = ignored_.of(object_, *near.object, near.groups);
 }
 
 /// Leaves out the furthest leaves where there are more faces than a patch may have.
@@ -95,29 +98,6 @@ void PatchTool::cut() {
   found_.resize(kept);
 }
 
-/// Copies the groups that are ignored. Those of the scene may change while a report has the copy.
-void PatchTool::keep_ignored() {
-  were_ignored_.swap(ignored_);
-  ignored_.clear();
-  auto before = were_ignored_.begin();
-  for (const Near& near : near_) {
-    if (near.groups.filter == nullptr) continue;
-    while (before != were_ignored_.end() && before->serial < near.object->serial) ++before;
-    if (before != were_ignored_.end() && before->serial == near.object->serial &&
-        before->version == near.groups.version) {
-      ignored_.push_back(std::move(*before));
-      continue;
-    }
-    const bool is_first = near.object->serial < serial_;
-    const auto& of_a = is_first ? near.object->face_groups : object_.face_groups;
-    const auto& of_b = is_first ? object_.face_groups : near.object->face_groups;
-    auto copy = std::make_shared<GroupFilter>(of_a, of_b);
-    near.groups.filter->visit_ignored([&](std::uint8_t a, std::uint8_t b) { copy->set_ignored(a, b, true); });
-    ignored_.push_back({near.object->serial, near.groups.version, std::move(copy)});
-  }
-  were_ignored_.clear();
-}
-
 void PatchTool::ask(PatchSources& sources) const {
   for (const Near& near : near_)
     if (is_there(near)) sources.ask(*near.object, leaves_of(near));
@@ -133,24 +113,26 @@ void PatchTool::fill(const PatchSources& sources, KeptPatch& patch) const {
   patch.threshold = threshold_;
   for (const Near& near : near_) {
     if (!is_there(near)) continue;
-    const Object& object = *near.object;
-    KeptPatchObject kept;
-    kept.id = object.id;
-    kept.is_first = object.serial < serial_;
-    kept.solid = object.settings.solid;
-    kept.surface = sources.copy_of(object);
-    if (object.hides_some_faces()) kept.groups = object.face_groups;
-    if (near.groups.filter != nullptr)
-      kept.ignored = std::lower_bound(
-                         ignored_.begin(), ignored_.end(), object.serial,
-                         [](const Ignored& ignored, std::uint64_t serial) { return ignored.serial < serial; })
-                         ->filter;
+    KeptPatchObject kept = kept_of(near, sources);
     kept.first_face = patch.faces.size();
     add_faces(near, patch.faces);
     kept.face_count = patch.faces.size() - kept.first_face;
-    patch.ids.push_back(object.id);
+    patch.ids.push_back(kept.id);
     patch.objects.push_back(std::move(kept));
   }
+}
+
+/// What the patch keeps of an object, but for its faces.
+KeptPatchObject PatchTool::kept_of(const Near& near, const PatchSources& sources) const {
+  const Object& object = *near.object;
+  KeptPatchObject kept;
+  kept.id = object.id;
+  kept.is_first = object.serial < serial_;
+  kept.solid = object.settings.solid;
+  kept.surface = sources.copy_of(object);
+  if (object.hides_some_faces()) kept.groups = object.face_groups;
+  kept.ignored = near.ignored;
+  return kept;
 }
 
 void PatchTool::add_faces(const Near& near, std::vector<std::uint32_t>& faces) const {
@@ -165,9 +147,8 @@ void PatchTool::add_faces(const Near& near, std::vector<std::uint32_t>& faces) c
 
 std::size_t PatchTool::byte_count() const {
   std::size_t bytes = sizeof(PatchTool) + bytes_of(copies_.all()) + bytes_of(near_) + bytes_of(leaves_) +
-                      bytes_of(found_) + bytes_of(ignored_) + bytes_of(were_ignored_);
+                      bytes_of(found_) + ignored_.byte_count();
   for (const auto& copy : copies_.all()) bytes += sizeof(KeptSurface) + copy->surface.byte_count();
-  for (const Ignored& ignored : ignored_) bytes += ignored.filter->byte_count();
   return bytes;
 }
 

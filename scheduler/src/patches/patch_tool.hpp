@@ -12,6 +12,7 @@
 #include "geometry/spare_copies.hpp"
 #include "objects/object_summary.hpp"
 #include "pairs/pair_filter.hpp"
+#include "patches/ignored_copies.hpp"
 #include "patches/kept_patches.hpp"
 #include "patches/patch_sources.hpp"
 
@@ -49,14 +50,9 @@ class PatchTool {
   struct Near {
     Object* object = nullptr;
     PairGroups groups;
+    std::shared_ptr<const GroupFilter> ignored = nullptr;
     std::size_t first_leaf = 0;  ///< in `leaves_`
     std::size_t leaf_count = 0;
-  };
-  /// Groups that are ignored between the tool and another object, as a step saw them.
-  struct Ignored {
-    std::uint64_t serial = 0;  ///< of the other object
-    std::uint64_t version = 0;
-    std::shared_ptr<const GroupFilter> filter;
   };
   /// A leaf near the tool, with the object that it is of.
   struct FoundLeaf {
@@ -66,14 +62,15 @@ class PatchTool {
   };
 
   void copy_surface();
+  void copy_ignored();
   void cut();
-  void keep_ignored();
   [[nodiscard]] static bool is_there(const Near& near) {
     return near.leaf_count > 0 || near.object->settings.solid;
   }
   [[nodiscard]] std::span<const NearLeaf> leaves_of(const Near& near) const {
     return std::span(leaves_).subspan(near.first_leaf, near.leaf_count);
   }
+  [[nodiscard]] KeptPatchObject kept_of(const Near& near, const PatchSources& sources) const;
   void add_faces(const Near& near, std::vector<std::uint32_t>& faces) const;
 
   Object& object_;
@@ -87,8 +84,7 @@ class PatchTool {
   std::vector<Near> near_;        ///< in the order of addition
   std::vector<NearLeaf> leaves_;  ///< of these objects, one after the other
   std::vector<FoundLeaf> found_;
-  std::vector<Ignored> ignored_;  ///< of near objects, ascending by serial
-  std::vector<Ignored> were_ignored_;
+  IgnoredCopies ignored_;
 };
 
 }  // namespace graze

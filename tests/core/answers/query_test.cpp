@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <graze/error.hpp>
 #include <graze/query.hpp>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "support/catch.hpp"
 #include "support/comparison.hpp"
 #include "support/details.hpp"
+#include "support/error_of.hpp"
 #include "support/mesh_of.hpp"
 #include "support/model_shape.hpp"
 #include "support/random/random_scenes.hpp"
@@ -39,18 +39,8 @@ Points moved_by(const Mesh& mesh, const Eigen::Vector3d& offset) {
   return points;
 }
 
-/// The message of the Error that a call throws. Empty if it throws none.
-std::string refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
 std::string refusal_of_settings(const QuerySettings& settings) {
-  return refusal_of([&] { (void)query(cube(), cube().rest(), cube(), cube().rest(), settings); });
+  return error_of([&] { (void)query(cube(), cube().rest(), cube(), cube().rest(), settings); });
 }
 
 bool is_same(const QueryResult& left, const QueryResult& right) {
@@ -155,7 +145,7 @@ TEST_CASE("a query refuses settings in the words of a scene") {
 TEST_CASE("a query refuses a solid that is not closed, and says which") {
   const Mesh sheet = *mesh_of(shape_of(models::sheet(1, 1, 1, 1)));
   const auto ask = [&](const Mesh& a, const Mesh& b, const QuerySettings& settings) {
-    return refusal_of([&] { RepeatedQuery(a, b, settings); });
+    return error_of([&] { RepeatedQuery(a, b, settings); });
   };
   CHECK(ask(sheet, cube(), {.a_is_solid = true}).starts_with("query: surface a: a solid has a closed surf"));
   CHECK(ask(cube(), sheet, {.b_is_solid = true}).starts_with("query: surface b: a solid has a closed surf"));
@@ -169,7 +159,7 @@ TEST_CASE("a query refuses positions that a scene refuses, and keeps its last re
   const QueryResult before = repeated.ask(cube().rest(), near);
   const QueryResult& kept = repeated.ask(cube().rest(), near);
   const auto refusal = [&](PositionView a, PositionView b) {
-    const std::string message = refusal_of([&] { repeated.ask(a, b); });
+    const std::string message = error_of([&] { repeated.ask(a, b); });
     CHECK(is_same(kept, before));
     return message;
   };

@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <graze/graze.hpp>
 #include <memory>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/effort.hpp"
+#include "support/error_of.hpp"
 #include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
@@ -41,11 +41,17 @@ Positions dented(Random& random, std::span<const Eigen::Vector3d> rest, const Ei
   return now;
 }
 
+/// How often something was seen in all answers.
+struct Seen {
+  std::size_t complete = 0, incomplete = 0, cut = 0, contacts = 0, inside = 0, unknown = 0;
+};
+
 /// A scene with two tools that have patches, and one at the same positions that lists everything.
 class PatchedScene {
  public:
-  explicit PatchedScene(std::uint64_t seed, ContactDetail detail = ContactDetail::features)
+  PatchedScene(std::uint64_t seed, ContactDetail detail, Seen& seen)
       : random_(seed),
+        seen_(seen),
         scene_({.contact_distance = 0.05, .detail = detail, .threads = 1 + random_.below(3)}),
         oracle_({.detail = ContactDetail::nearest, .threads = 1}) {
     const auto ball = mesh_of(models::sphere(24, 14));
@@ -96,13 +102,7 @@ class PatchedScene {
     compare(tool, pose, positions, answer);
   }
 
-  [[nodiscard]] Random& random() { return random_; }
-  [[nodiscard]] const ReportHandle& report() const { return report_; }
-  [[nodiscard]] ObjectId id(std::size_t index) const { return ids_[index]; }
   static constexpr std::array<std::size_t, 2> tools{2, 5};
-
-  // How often something was seen in all answers.
-  std::size_t complete = 0, incomplete = 0, cut = 0, contacts = 0, inside = 0, unknown = 0;
 
  private:
   void add(const std::shared_ptr<const Mesh>& mesh, ObjectSettings settings) {
@@ -162,9 +162,9 @@ class PatchedScene {
     CHECK(answer.validity >= 0);
     CHECK(answer.validity == validity);
     CHECK(answer.validity <= patch.radius());
-    ++(answer.complete ? complete : incomplete);
-    cut += patch.is_cut();
-    unknown += answer.threshold < 0;
+    ++(answer.complete ? seen_.complete : seen_.incomplete);
+    seen_.cut += patch.is_cut();
+    seen_.unknown += answer.threshold < 0;
     if (answer.threshold < 0) CHECK(room_.pairs().empty());
   }
 
@@ -195,8 +195,8 @@ class PatchedScene {
       Contact of_scene = expected[i];
       of_scene.since = 0;
       CHECK(is_same(found[i], of_scene));
-      ++contacts;
-      inside += of_scene.separation() < 0;
+      ++seen_.contacts;
+      seen_.inside += of_scene.separation() < 0;
     }
   }
   static bool is_same(const Contact& left, const Contact& right) {
@@ -208,6 +208,7 @@ class PatchedScene {
   }
 
   Random random_;
+  Seen& seen_;
   Scene scene_, oracle_;
   std::vector<ObjectId> ids_, oracle_ids_;
   std::vector<ObjectSettings> settings_;
@@ -218,21 +219,12 @@ class PatchedScene {
   PatchRoom room_;
 };
 
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
 }  // namespace
 
 TEST_CASE("a patch says what a scene would say") {
-  std::size_t complete = 0, incomplete = 0, cut = 0, contacts = 0, inside = 0, unknown = 0;
+  Seen seen;
   for (std::uint64_t seed = 0; seed < std::max<std::uint64_t>(4, repeats(20)); ++seed) {
-    PatchedScene scene(seed, seed % 5 == 0 ? ContactDetail::vertices : ContactDetail::nearest);
+    PatchedScene scene(seed, seed % 5 == 0 ? ContactDetail::vertices : ContactDetail::nearest, seen);
     for (int step = 0; step < 4; ++step) {
       scene.step();
       for (int trial = 0; trial < 25; ++trial) {
@@ -240,19 +232,13 @@ TEST_CASE("a patch says what a scene would say") {
         for (const std::size_t tool : PatchedScene::tools) scene.ask(tool);
       }
     }
-    complete += scene.complete;
-    incomplete += scene.incomplete;
-    cut += scene.cut;
-    contacts += scene.contacts;
-    inside += scene.inside;
-    unknown += scene.unknown;
   }
-  CHECK(complete > 100);
-  CHECK(incomplete > 100);
-  CHECK(cut > 100);
-  CHECK(contacts > 1000);
-  CHECK(inside > 100);
-  CHECK(unknown > 20);
+  CHECK(seen.complete > 100);
+  CHECK(seen.incomplete > 100);
+  CHECK(seen.cut > 100);
+  CHECK(seen.contacts > 1000);
+  CHECK(seen.inside > 100);
+  CHECK(seen.unknown > 20);
 }
 
 TEST_CASE("inside its validity a patch misses nothing, whatever the tool and the tissue do") {

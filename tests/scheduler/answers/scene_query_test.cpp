@@ -17,6 +17,7 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/effort.hpp"
+#include "support/error_of.hpp"
 #include "support/random/random_scenes.hpp"
 
 namespace graze::tests {
@@ -93,17 +94,6 @@ std::optional<std::array<double, 2>> crossings_of_cube(const Eigen::Vector3d& mi
   }
   if (range[0] > range[1]) return std::nullopt;
   return range;
-}
-
-/// The message of the Error that a call throws. Empty if it throws none.
-template <typename Call>
-std::string error_of(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <functional>
 #include <graze/error.hpp>
 #include <iostream>
 #include <limits>
@@ -21,6 +20,7 @@
 #include "scheduler/scene_support.hpp"
 #include "support/catch.hpp"
 #include "support/details.hpp"
+#include "support/error_of.hpp"
 
 namespace graze::tests {
 namespace {
@@ -250,15 +250,6 @@ std::shared_ptr<const Mesh> tip_at(double x, double height) {
   return std::make_shared<const Mesh>(
       Mesh::from_triangles(Positions{{x, 0.25, height}, {x, 0.25, height + 1}, {x + 0.1, 0.25, height + 1}},
                            std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}));
-}
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 Map identity(std::size_t count) {

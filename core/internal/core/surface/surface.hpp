@@ -80,10 +80,13 @@ class GRAZE_API Surface {
   /// How ReadResult::displacement is found. A bound takes one quick pass and is at most √3 times too large.
   /// It is infinite where positions come in another precision than before.
   enum class Displacement : std::uint8_t { exact, bound };
+  /// Takes the positions of another surface of the same mesh, and refits for faces.
+  void copy_refitted(const Surface& from);
   /// Takes all of `view`, which has one position for each vertex, or nothing, also where there is no memory
   /// for it (std::bad_alloc). Unused vertices are not read.
   ReadResult set_positions(const PositionView& view);
-  /// Where a pose puts a point of the rest shape: ((r0·x + r1·y) + r2·z) + t, for the rows (r0, r1, r2, t).
+  /// Returns where a pose puts a point of the rest shape: ((r0·x + r1·y) + r2·z) + t, for the rows
+  /// (r0, r1, r2, t).
   [[nodiscard]] static Eigen::Vector3d posed(const std::array<double, 12>& rows,
                                              const Eigen::Vector3d& point);
   /// Poses the rest shape.

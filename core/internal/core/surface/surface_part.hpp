@@ -21,12 +21,12 @@ namespace graze {
 class GRAZE_API SurfacePart {
  public:
   /// Nothing is there yet.
-  explicit SurfacePart(std::shared_ptr<const IndexedMesh> mesh);
+  explicit SurfacePart(std::shared_ptr<const Mesh> mesh);
 
   /// Takes leaves of a surface of the same mesh, by their numbers in ascending order, in place of what was
   /// there. It takes memory only if it has had positions in the other precision, or fewer leaves, before.
   void take(const Surface& from, std::span<const std::uint32_t> leaves);
-  /// Takes all of it, as the surface would be after `refit_faces`.
+  /// Takes all of a surface, as it would be after `refit_faces`.
   void take_all(const Surface& from);
 
   /// Its bounds are those of `refit_faces`. Only its positions, its box and these bounds mean anything.

@@ -35,9 +35,9 @@ struct PageObject {
   bool solid = false;
   /// ObjectSettings::swept of the object. The page names the settings of sweeps if an object is swept.
   bool swept = false;
-  /// The settings of the object that decide what is tested: all but those that have a member of their own
-  /// above, and ObjectSettings::queries. The page names those that are not as usual. It needs them where it
-  /// computes.
+  /// The settings of the object that decide what is tested. What has a member of its own above does not count
+  /// here, nor does what is for answers between steps. The page names those that are not as usual. It needs
+  /// them where it computes.
   ObjectSettings settings = {};
 };
 

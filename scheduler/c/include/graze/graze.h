@@ -750,7 +750,8 @@ typedef struct {
   double validity;
 } graze_patch_answer;
 
-/// What a graze::Patch says of itself. `exists` is false where the report has no patch of the tool.
+/// The members of a graze::Patch that need no further question. `exists` is false where the report has no
+/// patch of the tool.
 typedef struct {
   bool exists;
   bool is_cut;
@@ -775,8 +776,8 @@ GRAZE_C_API graze_status graze_patch_contacts_at_pose(const graze_report* report
                                                       graze_patch_room* room, graze_patch_answer* answer);
 /// Patch::contacts() at positions
 GRAZE_C_API graze_status graze_patch_contacts_at_positions(const graze_report* report, graze_id tool,
-                                                           const graze_positions* positions,
-                                                           double threshold, graze_patch_room* room,
+                                                           const graze_positions* positions, double threshold,
+                                                           graze_patch_room* room,
                                                            graze_patch_answer* answer);
 /// Patch::validity() at a pose. Without a threshold, null, it is the largest of the scene.
 GRAZE_C_API graze_status graze_patch_validity_at_pose(const graze_report* report, graze_id tool,
