@@ -4,14 +4,74 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstddef>
+#include <mutex>
+#include <new>
 #include <optional>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "base/default_scheduler.hpp"
 
 namespace graze {
 namespace {
+
+/// A thread that runs the steps of Scene::step_async(), one at a time. A thread of oneTBB may be in tasks of
+/// another scene until that scene's longest stage ends, and would begin the step only then. The thread is
+/// made by the first call.
+class StepThread {
+ public:
+  StepThread() = default;
+  StepThread(const StepThread&) = delete;
+  StepThread& operator=(const StepThread&) = delete;
+  ~StepThread() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      is_closed_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+  }
+
+  /// Calls `work` on the thread, once the work before it has returned.
+  void start(std::function<void()> work) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!thread_.joinable()) begin();
+      work_ = std::move(work);
+    }
+    changed_.notify_one();
+  }
+
+ private:
+  void begin() {
+    try {
+      thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error&) {  // the system has no memory for its stack
+      throw std::bad_alloc();
+    }
+  }
+  void run() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return is_closed_ || work_ != nullptr; });
+      if (work_ == nullptr) return;
+      const std::function<void()> work = std::exchange(work_, nullptr);
+      lock.unlock();
+      work();
+      lock.lock();
+    }
+  }
+
+  std::mutex mutex_;  ///< guards the three below
+  std::thread thread_;
+  std::function<void()> work_;
+  bool is_closed_ = false;
+  std::condition_variable changed_;
+};
 
 /// Runs tasks through oneTBB. It never changes how many threads oneTBB has.
 class TbbScheduler final : public TaskScheduler {
@@ -36,14 +96,11 @@ class TbbScheduler final : public TaskScheduler {
     arena_ ? arena_->execute(run_all) : oneapi::tbb::this_task_arena::isolate(run_all);
   }
 
-  void start(std::function<void()> work) override {
-    if (!beside_) beside_.emplace(1, 0U);
-    beside_->enqueue(std::move(work));
-  }
+  void start(std::function<void()> work) override { beside_.start(std::move(work)); }
 
  private:
-  std::optional<oneapi::tbb::task_arena> arena_;   ///< none with one thread or in the caller's arena
-  std::optional<oneapi::tbb::task_arena> beside_;  ///< the arena of `start`, made by its first call
+  std::optional<oneapi::tbb::task_arena> arena_;  ///< none with one thread or in the caller's arena
+  StepThread beside_;                             ///< goes first, since it uses the arena
 };
 
 }  // namespace

@@ -1,12 +1,17 @@
 // Steps beside the caller's frame, and steps inside the caller's own tasks.
 
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <graze/error.hpp>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "scheduler/moving_scene.hpp"
 #include "scheduler/report_text.hpp"
@@ -37,6 +42,13 @@ struct Spheres {
 };
 
 constexpr int frames = 6;
+
+/// Whether a step ends within a minute.
+bool ends_soon(const Scene& scene) {
+  const auto late = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (scene.is_stepping() && std::chrono::steady_clock::now() < late) std::this_thread::yield();
+  return !scene.is_stepping();
+}
 
 std::vector<ReportHandle> stepped(const SceneSettings& settings) {
   Spheres spheres(settings);
@@ -92,6 +104,35 @@ TEST_CASE("step_async: a scene may go or move while it steps") {
     if (run % 2 == 0) spheres.reset();
   }
   SUCCEED("destroyed without a race");
+}
+
+TEST_CASE("step_async: the step does not wait for threads of oneTBB that are at other work") {
+  const int workers = std::max(1, oneapi::tbb::info::default_concurrency() - 1);
+  std::atomic<bool> is_over{false};
+  std::atomic<int> began{0}, ended{0};
+  oneapi::tbb::task_arena busy(workers, 0);
+  for (int i = 0; i < workers; ++i)
+    busy.enqueue([&] {
+      ++began;
+      is_over.wait(false);
+      ++ended;
+    });
+  while (began < workers) std::this_thread::yield();
+  SceneSettings settings = settings_of(0.05, 0.3);
+  settings.threads = 1;
+  Spheres on_one(settings);
+  settings.threads = 4;
+  Spheres on_four(settings);
+  for (Spheres* const spheres : {&on_one, &on_four}) {
+    spheres->place(0);
+    spheres->scene.step_async();
+  }
+  CHECK(ends_soon(on_one.scene));
+  CHECK(ends_soon(on_four.scene));
+  is_over = true;
+  is_over.notify_all();
+  CHECK(difference_of(*on_one.scene.wait(), *on_four.scene.wait()) == "");
+  while (ended < workers) std::this_thread::yield();
 }
 
 TEST_CASE("arena: scenes that step inside the caller's tasks, in its arena or their own") {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <new>
 #include <thread>
@@ -131,6 +132,36 @@ TEST_CASE("task scheduler: a round uses as many threads as its work pays for, an
   CHECK(items == 404);
   // The last of the tasks takes all items.
   CHECK(finished == std::vector<unsigned>{0, 2, 7});
+}
+
+TEST_CASE("task scheduler: scenes step on a pool whose threads are all in tasks of another scene") {
+  const MovingScene moving;
+  const SceneSettings settings = settings_on(3, ContactDetail::features);
+  const auto expected = moving.play(settings_on(1, ContactDetail::features), frames_of_scheduler);
+  const auto pool = std::make_shared<examples::ThreadPool>(2);
+  std::atomic<bool> is_over{false};
+  std::atomic<int> began{0};
+  std::thread other([&] {
+    pool->run(3, [&](unsigned) {
+      ++began;
+      is_over.wait(false);
+    });
+  });
+  while (began < 3) std::this_thread::yield();
+  check_same(moving.play(settings, frames_of_scheduler, pool), expected);
+  Scene started(settings, pool);
+  for (std::uint64_t frame = 1; frame < 4; ++frame) {
+    started.step_async(frame);
+    const auto late = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (started.is_stepping() && std::chrono::steady_clock::now() < late) std::this_thread::yield();
+    if (started.is_stepping()) is_over = true;  // so that the test ends
+    is_over.notify_all();
+    CHECK(!is_over);
+    CHECK(started.wait()->tag() == frame);
+  }
+  is_over = true;
+  is_over.notify_all();
+  other.join();
 }
 
 TEST_CASE("task scheduler: a step that cannot be started throws, and the next one is as ever") {

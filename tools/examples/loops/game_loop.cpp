@@ -13,15 +13,12 @@
 //    stretches high in each step until nothing touches it.
 // 5. Contacts change the velocities of props. The next frame moves them.
 
-#include <oneapi/tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <graze/graze.hpp>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "examples/loops/crowd.hpp"
@@ -224,10 +221,6 @@ void print(const FrameTimes& times) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // oneTBB counts the thread that waits for graze as one of its own, and keeps one fewer than there are
-  // processors. On two of them a step beside other work would have a single thread.
-  const oneapi::tbb::global_control one_more(oneapi::tbb::global_control::max_allowed_parallelism,
-                                             std::thread::hardware_concurrency() + 1);
   const loops::Options options = loops::read_options(argc, argv);
   const std::size_t frames = options.length > 0 ? static_cast<std::size_t>(options.length) : 600;
   Game game(options.threads);

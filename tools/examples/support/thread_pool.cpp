@@ -6,6 +6,7 @@
 #include <deque>
 #include <mutex>
 #include <new>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -43,28 +44,41 @@ class Batch {
 }  // namespace
 
 struct ThreadPool::State {
-  std::mutex mutex;  // guards the two below
-  std::deque<std::function<void()>> queue;
+  using Queue = std::deque<std::function<void()>>;
+
+  std::mutex mutex;  // guards the five below
+  Queue started;     // goes first
+  Queue queue;
+  std::size_t idle = 0;
   bool is_closed = false;
-  std::condition_variable changed;
   std::vector<std::thread> threads;
+  std::condition_variable changed;
+  std::size_t helpers = 0;  // how many threads help with tasks at most
 
   void work() {
     std::unique_lock lock(mutex);
     while (true) {
-      changed.wait(lock, [this] { return is_closed || !queue.empty(); });
-      if (queue.empty()) return;
-      const std::function<void()> first = std::move(queue.front());
-      queue.pop_front();
+      ++idle;
+      changed.wait(lock, [this] { return is_closed || !started.empty() || !queue.empty(); });
+      --idle;
+      Queue& next = started.empty() ? queue : started;
+      if (next.empty()) return;
+      const std::function<void()> first = std::move(next.front());
+      next.pop_front();
       lock.unlock();
       first();
       lock.lock();
     }
   }
+  void add_thread() {
+    threads.emplace_back([this] { work(); });
+  }
 };
 
 ThreadPool::ThreadPool(unsigned threads) : state_(std::make_unique<State>()) {
-  for (unsigned i = 0; i < threads; ++i) state_->threads.emplace_back([this] { state_->work(); });
+  state_->helpers = threads;
+  const std::lock_guard lock(state_->mutex);
+  for (unsigned i = 0; i < threads; ++i) state_->add_thread();
 }
 
 ThreadPool::~ThreadPool() {
@@ -78,7 +92,7 @@ ThreadPool::~ThreadPool() {
 
 void ThreadPool::run(unsigned count, const std::function<void(unsigned task)>& task) {
   const auto batch = std::make_shared<Batch>(task, count);
-  const auto helpers = std::min<std::size_t>(count - 1, state_->threads.size());
+  const auto helpers = std::min<std::size_t>(count - 1, state_->helpers);
   try {
     const std::lock_guard lock(state_->mutex);
     for (std::size_t i = 0; i < helpers; ++i) state_->queue.emplace_back([batch] { batch->help(); });
@@ -90,10 +104,15 @@ void ThreadPool::run(unsigned count, const std::function<void(unsigned task)>& t
 }
 
 void ThreadPool::start(std::function<void()> work) {
-  if (state_->threads.empty()) return work();
+  if (state_->helpers == 0) return work();
   {
     const std::lock_guard lock(state_->mutex);
-    state_->queue.push_back(std::move(work));
+    state_->started.push_back(std::move(work));
+    // A thread that helps another scene may not come back before that scene's longest stage has ended.
+    if (state_->idle < state_->started.size()) try {
+        state_->add_thread();
+      } catch (const std::system_error&) {  // then the work waits for a thread
+      }
   }
   state_->changed.notify_one();
 }

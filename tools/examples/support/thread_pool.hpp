@@ -6,8 +6,8 @@
 
 namespace examples {
 
-/// A plain pool of threads, as a program may have one of its own. All of its threads take work from one
-/// queue. Any number of scenes may share it.
+/// A plain pool of threads, as a program may have one of its own. Any number of scenes may share it. If all
+/// threads are at work when a step is started, the pool gets one more for it.
 class ThreadPool final : public graze::TaskScheduler {
  public:
   /// Starts `threads` threads. With the thread that steps, so many threads and one more run tasks. Without
