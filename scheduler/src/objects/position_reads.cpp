@@ -6,6 +6,7 @@
 
 #include "core/base/bytes_of.hpp"
 #include "core/base/growth_policy.hpp"
+#include "core/base/prefetch.hpp"
 #include "objects/object_reading.hpp"
 
 namespace graze {
@@ -33,6 +34,24 @@ constexpr double nanoseconds_each_vertex = 2;
 constexpr double nanoseconds_each_written = 1;
 /// To plan the read of an object takes about as long, whether or not it is read then.
 constexpr double nanoseconds_each_plan = 40;
+
+/// How many objects ahead of the one that is read the next is fetched from memory.
+constexpr std::size_t objects_ahead = 3;
+
+void prefetch_range(const void* begin, std::size_t count) {
+  constexpr std::size_t line = 64;
+  const auto* const bytes = static_cast<const std::byte*>(begin);
+  for (std::size_t at = 0; at < count; at += line) prefetch(bytes + at);
+}
+
+/// Fetches the memory of the object that is read next. The processor finds the rest of a long range by
+/// itself.
+void prefetch_memory(const Object& object) {
+  constexpr std::size_t most = 4096;
+  if (!object.bound || !(object.is_read_in_every_step() || object.bound->is_notified)) return;
+  const PositionView& view = object.bound->view;
+  prefetch_range(view.data(), std::min(most, view.size() * view.stride_bytes()));
+}
 
 double nanoseconds_of(std::size_t planned, std::size_t vertices) {
   return nanoseconds_each_plan * static_cast<double>(planned) +
@@ -269,6 +288,8 @@ void PositionReads::read_planned(std::size_t begin, std::size_t end) {
 void PositionReads::read_small(std::span<Object*> small, std::size_t begin, std::size_t end) {
   Counts counts;
   for (std::size_t index = begin; index < end; ++index) {
+    if (index + objects_ahead < end) prefetch_range(small[index + objects_ahead], sizeof(Object));
+    if (index + 1 < end) prefetch_memory(*small[index + 1]);
     Object& object = *small[index];
     const AccessScope access({AccessRight::write(&object), {}});
     object.may_have_input = has_input(object);
@@ -298,9 +319,10 @@ void PositionReads::read_one(Object& object, std::optional<Problem>& problem, Co
     some_problems_.store(true, std::memory_order_relaxed);
   }
   // This comes last, since it may throw for lack of memory.
-  if (std::exchange(object.plan, ReadPlan::skip) == ReadPlan::read_with_blocks)
-    object.surface_to_write().make_blocks();
-  bytes_.count(object);
+  const ReadPlan plan = std::exchange(object.plan, ReadPlan::skip);
+  if (plan == ReadPlan::read_with_blocks) object.surface_to_write().make_blocks();
+  // A survey leaves the surface alone. To count it would bring it from memory.
+  if (plan != ReadPlan::survey) bytes_.count(object);
 }
 
 /// Shows the observer the memory of an object that was read, where it may be new.
