@@ -1,5 +1,7 @@
 // `graze_studies stress` as a user runs it: short runs of each study, what they write, bad arguments.
 
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -67,6 +69,30 @@ TEST_CASE("stress: scenes of more and more objects at one density") {
     }
 }
 
+TEST_CASE("stress: reading beside a plain loop that reads and copies as much") {
+  const nlohmann::json figures = figures_of({"--reading", "300", "--frames", "2"});
+  REQUIRE(figures.at("reading").size() == 16);
+  std::map<std::string, std::uint64_t> copied;
+  for (const auto& row : figures.at("reading")) {
+    CHECK(row.at("step_ms") > 0);
+    CHECK(row.at("plain_ms") > 0);
+    copied[row.at("positions").get<std::string>()] = row.at("copied");
+  }
+  CHECK(copied.at("bound, nothing near") == 0);
+  CHECK(copied.at("bound, as in S5") > 0);
+  CHECK(copied.at("bound, as in S5") < copied.at("bound, most near"));
+  CHECK(copied.at("copied by calls") == 300);
+}
+
+TEST_CASE("stress: a small scene beside a large one") {
+  const nlohmann::json figures = figures_of({"--together", "--frames", "4"});
+  REQUIRE(figures.at("together").size() == 14);
+  for (const auto& row : figures.at("together")) {
+    CHECK(row.at("hash") == figures.at("together")[0].at("hash"));
+    for (const char* what : {"alone_ms", "beside_ms"}) check_quantiles(row.at(what));
+  }
+}
+
 TEST_CASE("stress: a short soak equals scenes built afresh and does not grow") {
   const nlohmann::json figures = figures_of({"--soak", "--frames", "300"});
   CHECK(figures.at("checks") == 3);
@@ -94,6 +120,8 @@ TEST_CASE("stress: bad arguments are refused in one line") {
         {"--soak", "--minutes", "-1"},
         {"--objects", "1"},
         {"--objects", "many"},
+        {"--reading", "1"},
+        {"--together", "--reading", "100"},
         {"--determinism", "--repeats", "0"},
         {"--reader", "--seconds", "1", "--out", (folder / "none" / "figures.json").string()}}) {
     std::vector<std::string> arguments = {"stress"};

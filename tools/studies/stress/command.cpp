@@ -18,16 +18,19 @@
 #include "stress/neighbours/never_touching.hpp"
 #include "stress/objects.hpp"
 #include "stress/reader.hpp"
+#include "stress/reading.hpp"
 #include "stress/soak/soak.hpp"
+#include "stress/together.hpp"
 
 namespace graze::tools {
 namespace {
 
 struct StressOptions {
   bool reader = false, soak = false, determinism = false, budgets = false, coinciding = false, costly = false;
-  bool never_touching = false, inside = false;
+  bool never_touching = false, inside = false, together = false;
   double seconds = 60;
   ObjectsOptions objects;
+  ReadingOptions reading;
   SoakOptions soaking;
   DeterminismOptions playing;
   BudgetsOptions budgeted;
@@ -54,6 +57,11 @@ void run(StressOptions options) {
     result = run_never_touching_study(options.frames > 0 ? options.frames : 50);
   } else if (options.inside) {
     result = run_inside_study(options.frames > 0 ? options.frames : 5);
+  } else if (options.reading.objects > 0) {
+    if (options.frames > 0) options.reading.frames = options.frames;
+    result = run_reading_study(options.reading);
+  } else if (options.together) {
+    result = run_together_study(options.frames > 0 ? TogetherOptions{options.frames} : TogetherOptions{});
   } else if (options.budgets) {
     if (options.frames > 0) options.budgeted.frames = options.frames;
     result = run_budgets_study(options.budgeted);
@@ -72,7 +80,7 @@ void add_stress_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("stress",
                                          "Puts graze under load: one of --reader, --objects, --soak, "
                                          "--determinism, --budgets, --coinciding, --costly, "
-                                         "--never-touching and --inside.");
+                                         "--never-touching, --inside, --reading and --together.");
   const auto options = std::make_shared<StressOptions>();
   auto* const studies = command->add_option_group("studies")->require_option(1);
   studies->add_flag("--reader", options->reader,
@@ -93,6 +101,11 @@ void add_stress_command(CLI::App& app) {
       "--never-touching", options->never_touching,
       "Objects that lie in each other but can never touch, beside one that moves far from them");
   studies->add_flag("--inside", options->inside, "A body wholly inside a solid, beside a plain tree");
+  studies
+      ->add_option("--reading", options->reading.objects,
+                   "How long a step takes to read so many objects, beside a plain loop")
+      ->check(whole_number(2, 1'000'000));
+  studies->add_flag("--together", options->together, "A small scene that steps beside a large one");
   studies->add_flag("--budgets", options->budgets, "Time budgets where everything is in contact");
   command->add_option("--threads", options->budgeted.threads, "With how many threads --budgets steps")
       ->check(thread_number())
@@ -107,10 +120,12 @@ void add_stress_command(CLI::App& app) {
       ->check(whole_number(0))
       ->capture_default_str();
   command
-      ->add_option("--frames", options->frames,
-                   "How many frames --objects times, --determinism, --coinciding, --costly, --never-touching "
-                   "and --inside play and --budgets steps each scene; by default 20, 9, 9, 50, 5 and 100 of "
-                   "the latter six, and more of smaller scenes. --soak takes as many in place of --minutes")
+      ->add_option(
+          "--frames", options->frames,
+          "How many frames --objects times, --determinism, --coinciding, --costly, --never-touching, "
+          "--inside, --reading and --together play and --budgets steps each scene; by default 20, 9, "
+          "9, 50, 5, 9, 400 and 100 of the latter eight, and more of smaller scenes. --soak takes as "
+          "many in place of --minutes")
       ->check(whole_number(1));
   command->add_option("--repeats", options->playing.repeats, "How often --determinism plays each scene")
       ->check(whole_number(1))

@@ -29,7 +29,14 @@ DriftingBodies::DriftingBodies(std::shared_ptr<const Mesh> mesh, std::vector<Bod
 }
 
 DriftingBodies DriftingBodies::lattice(std::size_t count) {
-  constexpr double spacing = 2.55;
+  return lattice(count, 2.55);
+}
+
+DriftingBodies DriftingBodies::sparse_lattice(std::size_t count) {
+  return lattice(count, 3.2);
+}
+
+DriftingBodies DriftingBodies::lattice(std::size_t count, double spacing) {
   constexpr double jitter = 0.3;
   const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
   scenes::Random random(5);
@@ -49,10 +56,31 @@ DriftingBodies DriftingBodies::large_pair() {
   return {sphere(400, 250), {{{-0.999, 0, 0}, 0}, {{0.999, 0, 0}, 2}}, 0.006, 0.002, 0.02};
 }
 
+DriftingBodies DriftingBodies::heap(std::size_t count) {
+  constexpr double spacing = 1.95;
+  const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d cell(static_cast<double>(i % side), static_cast<double>(i / side % side),
+                               static_cast<double>(i / side / side));
+    bodies.push_back({spacing * cell, static_cast<double>(i % 7)});
+  }
+  return {sphere(32, 25), std::move(bodies), 0.02, 0.02, 0.04};
+}
+
+DriftingBodies DriftingBodies::entangled_pair() {
+  return {sphere(100, 100), {{{0, 0, 0}, 0}, {{0.01, 0, 0}, 2}}, 0.01, 0.002, 0.01};
+}
+
+std::vector<ObjectId> DriftingBodies::add_unbound_to(Scene& scene) const {
+  std::vector<ObjectId> ids;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) ids.push_back(scene.add(mesh_));
+  return ids;
+}
+
 void DriftingBodies::add_to(Scene& scene) const {
-  const std::size_t count = mesh_->vertex_count();
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    scene.bind_positions(scene.add(mesh_), PositionView(positions_.data() + 3 * count * i, count));
+  const std::vector<ObjectId> ids = add_unbound_to(scene);
+  for (std::size_t i = 0; i < ids.size(); ++i) scene.bind_positions(ids[i], positions_of(i));
 }
 
 void DriftingBodies::move(std::size_t frame) {

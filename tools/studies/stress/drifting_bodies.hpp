@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <graze/graze.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace graze::tools {
@@ -15,15 +16,34 @@ class DriftingBodies {
   /// Surfaces of 258 vertices on a jittered lattice: about one pair in a hundred neighbours touches, however
   /// many there are.
   static DriftingBodies lattice(std::size_t count);
+  /// As lattice(), but so far apart that no surface is near another.
+  static DriftingBodies sparse_lattice(std::size_t count);
   /// Two spheres of 100,000 vertices that touch in a small patch.
   static DriftingBodies large_pair();
+  /// Balls of 802 vertices in a cube, each in contact with its neighbours.
+  static DriftingBodies heap(std::size_t count);
+  /// Two spheres of 10,002 vertices at nearly the same position, in contact everywhere.
+  static DriftingBodies entangled_pair();
+
+  /// How near others must be for a step to look at them, in the unit of positions.
+  void set_range(double range) { settings_.range = range; }
+  void set_detail(ContactDetail detail) { settings_.detail = detail; }
 
   [[nodiscard]] std::size_t object_count() const { return bodies_.size(); }
   [[nodiscard]] const SceneSettings& settings() const { return settings_; }
   [[nodiscard]] std::size_t position_bytes() const { return positions_.size() * sizeof(float); }
 
+  /// The positions of all bodies, x, y and z of each vertex, body by body.
+  [[nodiscard]] std::span<const float> positions() const { return positions_; }
+  [[nodiscard]] std::size_t vertices_each() const { return mesh_->vertex_count(); }
+  /// Adds all bodies, and returns their ids.
+  [[nodiscard]] std::vector<ObjectId> add_unbound_to(Scene& scene) const;
   /// Adds all bodies and binds their positions, which must outlive the scene.
   void add_to(Scene& scene) const;
+  [[nodiscard]] PositionView positions_of(std::size_t body) const {
+    const std::size_t count = vertices_each();
+    return {positions_.data() + 3 * count * body, count};
+  }
   void move(std::size_t frame);
   /// Reads every position once: their sum.
   [[nodiscard]] float read() const;
@@ -33,6 +53,7 @@ class DriftingBodies {
     Eigen::Vector3d centre;
     double phase = 0;
   };
+  static DriftingBodies lattice(std::size_t count, double spacing);
   DriftingBodies(std::shared_ptr<const Mesh> mesh, std::vector<Body> bodies, double wobble, double drift,
                  double distance);
 

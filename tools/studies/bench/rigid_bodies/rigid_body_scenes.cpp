@@ -131,7 +131,7 @@ RigidBodyScene pile(bool is_quick) {
   return scene;
 }
 
-RigidBodyScene heap(bool is_quick) {
+RigidBodyScene heap_of_bodies(bool is_quick) {
   RigidBodyScene scene = on_floor("L shapes, rings and pawns fall", is_quick ? 60 : 360);
   drop(scene, {l_shape(), ring_shape(), pawn_shape()}, is_quick ? 4 : 36, is_quick ? 1 : 3, 0.7);
   return scene;
@@ -147,7 +147,7 @@ std::vector<RigidBodyScene> rigid_body_scenes(bool is_quick) {
   std::vector<RigidBodyScene> scenes = stacks(is_quick);
   scenes.push_back(planks(is_quick));
   scenes.push_back(pile(is_quick));
-  scenes.push_back(heap(is_quick));
+  scenes.push_back(heap_of_bodies(is_quick));
   return scenes;
 }
 
