@@ -30,17 +30,17 @@ constexpr std::size_t warm_up_frames = 3;
 constexpr double aimed_ratio = 1.5;
 
 /// How positions come to the step.
-struct Case {
+struct ReadingCase {
   const char* name;
   bool is_sparse;
   double range;    ///< of the scene
   bool is_copied;  ///< by set_positions(), which is counted
 };
 
-constexpr std::array<Case, 4> reading_cases = {{{"bound, nothing near", true, 0.04, false},
-                                                {"bound, as in S5", false, 0.04, false},
-                                                {"bound, most near", false, 0.3, false},
-                                                {"copied by calls", true, 0.04, true}}};
+constexpr std::array<ReadingCase, 4> reading_cases = {{{"bound, nothing near", true, 0.04, false},
+                                                       {"bound, as in S5", false, 0.04, false},
+                                                       {"bound, most near", false, 0.3, false},
+                                                       {"copied by calls", true, 0.04, true}}};
 
 /// Calls `work(begin, end)` for ranges of objects, on so many threads.
 class Ranges {
@@ -116,8 +116,8 @@ class PlainLoop {
 /// The scene whose steps are measured.
 class ReadScene {
  public:
-  ReadScene(const Case& kind, const DriftingBodies& world, unsigned threads)
-      : world_(world), scene_(settings_of(world, threads)) {
+  ReadScene(const ReadingCase& kind, const DriftingBodies& world, unsigned threads)
+      : scene_(settings_of(world, threads)) {
     if (!kind.is_copied) {
       world.add_to(scene_);
       return;
@@ -152,7 +152,6 @@ class ReadScene {
     return settings;
   }
 
-  const DriftingBodies& world_;
   Scene scene_;
   std::vector<ObjectId> ids_;
   std::vector<PositionView> views_;
@@ -160,7 +159,7 @@ class ReadScene {
   std::size_t copied_ = 0;
 };
 
-struct Measured {
+struct MeasuredReading {
   double step_ms = 0;
   double plain_ms = 0;
   double ratio = 0;  ///< the median of the frames' ratios
@@ -168,7 +167,7 @@ struct Measured {
   std::uint64_t hash = 0;
 };
 
-Measured measure_reading(const Case& kind, unsigned threads, const ReadingOptions& options) {
+MeasuredReading measure_reading(const ReadingCase& kind, unsigned threads, const ReadingOptions& options) {
   DriftingBodies world = kind.is_sparse ? DriftingBodies::sparse_lattice(options.objects)
                                         : DriftingBodies::lattice(options.objects);
   world.set_range(kind.range);
@@ -208,10 +207,10 @@ StressResult run_reading_study(const ReadingOptions& options) {
   const TextTable table = TextTable::of_numbers(
       {"positions", "threads", "objects copied", "plain loop, ms", "step, ms", "ratio"}, 22, 9);
   print(table.head());
-  for (const Case& kind : reading_cases) {
+  for (const ReadingCase& kind : reading_cases) {
     std::uint64_t hash_of_one = 0;
     for (const unsigned threads : reading_threads) {
-      const Measured found = measure_reading(kind, threads, options);
+      const MeasuredReading found = measure_reading(kind, threads, options);
       print(table.row({kind.name, std::to_string(threads), std::to_string(found.copied),
                        fixed(found.plain_ms, 2), fixed(found.step_ms, 2), fixed(found.ratio, 2)}));
       result.figures["reading"].push_back({{"positions", kind.name},

@@ -32,24 +32,24 @@ constexpr std::chrono::milliseconds pause_of_small{3};
 constexpr std::size_t steps_in_a_row = 20;
 
 /// Whose threads two scenes use.
-enum class Threads { own_arenas, one_arena, one_pool };
+enum class WhoseThreads { own_arenas, one_arena, one_pool };
 
 struct Way {
   const char* name;
-  Threads threads;
+  WhoseThreads threads;
   bool small_is_started;  ///< by step_async(), and then waited for
   bool large_is_started;
   bool is_control;  ///< in place of the large scene threads do arithmetic
 };
 
 constexpr std::array<Way, 7> ways = {
-    {{"arithmetic", Threads::own_arenas, false, false, true},
-     {"arenas of their own", Threads::own_arenas, false, false, false},
-     {"and the small one step_async", Threads::own_arenas, true, false, false},
-     {"and both step_async", Threads::own_arenas, true, true, false},
-     {"one arena", Threads::one_arena, false, false, false},
-     {"one pool", Threads::one_pool, false, false, false},
-     {"one pool, both step_async", Threads::one_pool, true, true, false}}};
+    {{"arithmetic", WhoseThreads::own_arenas, false, false, true},
+     {"arenas of their own", WhoseThreads::own_arenas, false, false, false},
+     {"and the small one step_async", WhoseThreads::own_arenas, true, false, false},
+     {"and both step_async", WhoseThreads::own_arenas, true, true, false},
+     {"one arena", WhoseThreads::one_arena, false, false, false},
+     {"one pool", WhoseThreads::one_pool, false, false, false},
+     {"one pool, both step_async", WhoseThreads::one_pool, true, true, false}}};
 
 struct Large {
   const char* name;
@@ -71,8 +71,8 @@ class Player {
       : world_(std::move(world)), way_(way), is_started_(is_started), shared_(shared) {
     SceneSettings settings = world_.settings();
     settings.threads = threads;
-    if (way.threads == Threads::one_arena) settings.arena = ArenaPolicy::callers;
-    if (way.threads == Threads::one_pool)
+    if (way.threads == WhoseThreads::one_arena) settings.arena = ArenaPolicy::callers;
+    if (way.threads == WhoseThreads::one_pool)
       scene_.emplace(settings, shared.pool);
     else
       scene_.emplace(settings);
@@ -87,7 +87,7 @@ class Player {
     if (is_started_) {
       scene_->step_async();
       report = scene_->wait();
-    } else if (way_.threads == Threads::one_arena) {
+    } else if (way_.threads == WhoseThreads::one_arena) {
       shared_.arena.execute([&] { report = scene_->step(); });
     } else {
       report = scene_->step();
@@ -108,7 +108,7 @@ class Player {
   scenes::ReportHash hash_;
 };
 
-/// Threads that do `work(i)` again and again while they are wanted.
+/// WhoseThreads that do `work(i)` again and again while they are wanted.
 class Busy {
  public:
   Busy(unsigned threads, std::function<void(unsigned)> work) : work_(std::move(work)) {
@@ -151,7 +151,7 @@ class Busy {
   std::vector<std::thread> threads_;
 };
 
-void calculate() {
+void calculate_a_while() {
   std::uint64_t value = 1;
   for (int i = 0; i < 100'000; ++i) value = value * 6364136223846793005U + 1442695040888963407U;
   volatile std::uint64_t result = value;  // so that nobody finds it needless
@@ -163,7 +163,7 @@ struct Together {
   std::uint64_t hash = 0;
 };
 
-Together play(const Large& large, const Way& way, std::size_t frames) {
+Together play_together(const Large& large, const Way& way, std::size_t frames) {
   const unsigned threads = std::max(2U, std::thread::hardware_concurrency());
   Shared shared(threads);
   Player small(DriftingBodies::heap(10), way, way.small_is_started, shared, threads);
@@ -174,7 +174,7 @@ Together play(const Large& large, const Way& way, std::size_t frames) {
   }
   Together found;
   Busy busy(way.is_control ? threads : 1, [&](unsigned) {
-    if (way.is_control) return calculate();
+    if (way.is_control) return calculate_a_while();
     found.large.push_back(other.step());
   });
   const std::size_t in_a_row = std::min(steps_in_a_row, frames);
@@ -202,7 +202,7 @@ StressResult run_together_study(const TogetherOptions& options) {
         {"threads", "alone", "p99", "beside", "p99", "longest", "the large one"}, 28, 7);
     print(table.head());
     for (const Way& way : ways) {
-      const Together found = play(large, way, options.frames);
+      const Together found = play_together(large, way, options.frames);
       const Distribution alone(found.alone), beside(found.beside), other(found.large);
       print(table.row({way.name, fixed(alone.median(), 2), fixed(alone.quantile(0.99), 2),
                        fixed(beside.median(), 2), fixed(beside.quantile(0.99), 2),
