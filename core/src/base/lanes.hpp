@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
-// What the vector types of GCC and clang can do, for compilers that have none (kernels/vectors.hpp): the same
-// operations in each lane, with the same results bit for bit.
+// Lanes stand for the vector types of GCC and clang where a compiler has none (kernels/vectors.hpp). They
+// have the same operations in each lane, with the same results bit for bit.
 
 namespace graze {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-// What graze uses of the compiler beyond C++20. GCC and clang have it. For other compilers each has a
-// portable form beside it. GRAZE_PORTABLE (a CMake option) takes the portable forms with every compiler, so
-// that they are tested where there is no other (docs/platforms.md). Kernels have more in kernels/vectors.hpp.
+// These macros are what graze uses of GCC and clang beyond C++20. Each has a portable form beside it, for
+// other compilers. GRAZE_PORTABLE (a CMake option) takes the portable forms with every compiler, so that
+// tests reach them (docs/platforms.md). Kernels have more macros in kernels/vectors.hpp.
 
 #if defined(__GNUC__) && !defined(GRAZE_PORTABLE)
 #define GRAZE_EXTENSIONS 1
