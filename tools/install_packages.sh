@@ -3,7 +3,7 @@
 # packages that the demonstration needs. With the argument `peers` they are also the libraries that `graze_studies bench`
 # compares graze with, and the programs that measure and check the sources and the Debian packages. With `platforms` they
 # are also the compilers and emulators of other platforms, and with `packages` what tries the Debian packages on a fresh
-# system. Run it as root, or where sudo asks for no password.
+# system, and the shells whose completions are tried. Run it as root, or where sudo asks for no password.
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
@@ -15,7 +15,7 @@ packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-de
   emscripten"
 [ "${1:-}" != peers ] || packages="$packages libfcl-dev libbullet-dev libembree-dev libcgal-dev libnanoflann-dev
   libbenchmark-dev valgrind clang-format clang-tidy shellcheck pyflakes3 doxygen doxygen-awesome-css dpkg-dev man-db lintian"
-[ "${1:-}" != packages ] || packages="$packages dpkg-dev man-db lintian debootstrap"
+[ "${1:-}" != packages ] || packages="$packages dpkg-dev man-db lintian debootstrap zsh fish"
 
 # The viewer's page is built with Node.js and npm. They may be there without these packages.
 command -v node >/dev/null || packages="$packages nodejs"

@@ -9,6 +9,8 @@
 4. A function has at most one argument that draws a random number. Compilers evaluate arguments in any order, so the
    scenes of two builds would differ. Within braces the order is that of the text.
 5. No folder of sources has more than 30 files: a larger one has folders by subject.
+6. core and scheduler use what a compiler has beyond C++20 in the files of EXTENSIONS alone. There each use has a portable
+   form beside it, or stands where the compiler is known.
 
 Prints each place where a rule is broken; the exit code is 1 where there is one.
 """
@@ -20,6 +22,16 @@ import sys
 
 LIBRARIES = ["core", "scheduler", "io"]
 MOST_FILES = 30  # in a folder
+EXTENSIONS = {
+    "core/include/graze/export.hpp",  # but for Windows
+    "core/include/graze/link_guard.hpp",  # with GCC's standard library
+    "core/internal/core/base/compiler.hpp", "core/internal/core/base/floating_point_scope.hpp",
+    "core/internal/core/base/prefetch.hpp", "core/src/arithmetic/exact.cpp", "core/src/kernels/vectors.hpp",
+    "core/src/kernels/registers.inc", "core/src/kernels/block_kernels.inc",  # for instruction sets of x86
+    "core/src/kernels/instruction_set.cpp",  # with kernels of x86
+}
+EXTENSION = (r"__builtin_|__attribute__|\[\[gnu::|\[\[clang::|#\s*pragma (?!once)|\b_Pragma|__int128|__extension__|__restrict\b"
+             r"|\basm\b|\b__asm|\b_mm\d*_|\bvector_size\b|\b__m\d|intrin\.h")
 COMMANDS = ["tools/graze", "tools/graze/recording", "tools/program"]  # the files in them, not the folders below
 
 # A comment, a raw text, a text, a character.
@@ -99,6 +111,9 @@ def check(root):
         if name.startswith("io/src/") and "open_input(" not in source and "OpenedFiles::add(" not in source:
             problems += [f"{name}:{line}: a file is opened without a word to OpenedFiles; use open_input"
                          for line in lines_with(source, r"\bifstream\b|\bfopen\(|\bgzopen\(")]
+        if name.startswith(("core/", "scheduler/")) and name not in EXTENSIONS:
+            problems += [f"{name}:{line}: uses what not every compiler has (core/base/compiler.hpp, kernels/vectors.hpp)"
+                         for line in lines_with(source, EXTENSION)]
         if file in command_files and file.name != "progress.cpp":
             problems += [f"{name}:{line}: prints by itself; use say or say_aside (output/terminal.hpp)"
                          for line in lines_with(source, r"\bf?printf\(|\bf?puts\(|\bcout\b|\bcerr\b")]

@@ -57,6 +57,16 @@ class SourceRulesTest(unittest.TestCase):
                                               "f(random.below(1)); g(random.below(2), 3);\n"})
         self.assertEqual([problem.split(": ")[0] for problem in found], ["tests/a.cpp:1", "tools/b.cpp:2"])
 
+    def test_what_not_every_compiler_has(self):
+        found = self.problems({"core/src/a.cpp": "#pragma once\n// __builtin_sqrt(x)\nreturn __builtin_sqrt(x);\n[[gnu::pure]] f();\n",
+                               "core/src/b.inc": "using Two [[nodiscard]] = int;\n#pragma GCC unroll 8\nContacts& __restrict out = x;\n",
+                               "scheduler/src/c.hpp": "#  include <immintrin.h>\n_mm256_add_ps(a, b);\n",
+                               "core/src/kernels/vectors.hpp": "__builtin_shufflevector(a, b, 0, 1);\n",
+                               "io/src/d.cpp": "__builtin_expect(x, 1);\n"})
+        self.assertEqual([problem.split(": ")[0] for problem in found],
+                         ["core/src/a.cpp:3", "core/src/a.cpp:4", "core/src/b.inc:2", "core/src/b.inc:3",
+                          "scheduler/src/c.hpp:1", "scheduler/src/c.hpp:2"])
+
     def test_folders_of_many_files(self):
         counts = {"tools/a": 30, "tools/a/b": 31, "core/src/c": 31, "tests/d": 31, "docs/e": 31}
         found = self.problems({f"{folder}/{index}.hpp": "" for folder, count in counts.items() for index in range(count)})

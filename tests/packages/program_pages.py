@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Compares the manual page and the completion of the program graze with what its --help says.
+"""Compares the manual page and the completions of the program graze with what its --help says.
 
 usage: program_pages.py PROGRAM [--write]
 
-Both files have parts between lines with "begin" and "end", which this script makes from the help. A part that is not
+The files have parts between lines with "begin" and "end", which this script makes from the help. A part that is not
 what the help says is an error. --write puts the parts there. An option that takes a text has to stand in VALUES.
 """
 
@@ -15,6 +15,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MAN = ROOT / "tools/graze/man/graze.1"
 BASH = ROOT / "tools/graze/completion/graze.bash"
+ZSH = ROOT / "tools/graze/completion/graze.zsh"
+FISH = ROOT / "tools/graze/completion/graze.fish"
 
 MESHES = "json obj ply off stl gltf glb fbx dae x 3ds blend 3mf"
 RECORDING = "files: graze"
@@ -147,6 +149,79 @@ def bash_parts(said):
     return {"commands": [*lines, "  esac", "}"]}
 
 
+def kind_of(command, option):
+    """What follows an option: the kind of VALUES as a word and a list, or nothing."""
+    if not option.type:
+        return None
+    kind, _, words = VALUES.get(f"{command} {option.names[-1]}", "words:").partition(":")
+    return kind, words.split()
+
+
+def quoted(text):
+    return "'" + text.replace("\\", "\\\\").replace("'", "\\'") + "'"
+
+
+def zsh_quoted(text):
+    return "'" + text.replace("'", "'\\''") + "'"
+
+
+def zsh_text(text):
+    """A description within brackets of _arguments."""
+    return text.replace("\\", "\\\\").replace("]", "\\]").replace("[", "\\[").replace(":", "\\:")
+
+
+def zsh_value(kind, words):
+    if kind == "files":
+        return f"file: _graze_files {' '.join(words)}"
+    return f"value:({' '.join(words).replace(':', chr(92) + ':')})" if words else "value: "
+
+
+def zsh_option(command, option):
+    names = " ".join(option.names)
+    kind = kind_of(command, option)
+    value = "".join(f":{zsh_value(*kind)}" for _ in range(2 if option.type.endswith("x 2") else 1)) if kind else ""
+    return [zsh_quoted(f"({names}){name}[{zsh_text(option.text)}]{value}") for name in option.names]
+
+
+def zsh_parts(said):
+    lines = ["_graze_commands() {", "  local -a commands=("]
+    lines += [f"    {zsh_quoted(command + ':' + text.replace(':', chr(92) + ':'))}" for command, text in said.commands.items()]
+    lines += ["  )", "  _describe command commands", "}", "", "# _graze_arguments [COMMAND]: what a command takes, or the program.",
+              "_graze_arguments() {", "  case $1 in", "    '')", "      _arguments -C \\"]
+    lines += [f"        {line} \\" for option in said.options for line in zsh_option("", option)]
+    lines += ["        '1:command:_graze_commands' \\", "        '*::argument:_graze_after_command'", "      ;;"]
+    for command, options in said.options_of.items():
+        kind, words = VALUES[command].partition(":")[::2]
+        count = "*" if "..." in said.files[command][0] else "1"
+        lines += [f"    {command})", "      _arguments \\"]
+        lines += [f"        {line} \\" for option in options for line in zsh_option(command, option)]
+        lines += [f"        {zsh_quoted(count + ':' + zsh_value(kind, words.split()))}", "      ;;"]
+    return {"commands": [*lines, "  esac", "}"]}
+
+
+def fish_option(command, option, condition):
+    names = " ".join(f"-{'l' if name.startswith('--') else 's'} {name.lstrip('-')}" for name in option.names)
+    kind = kind_of(command, option)
+    value = ""
+    if kind:
+        value = " -x" if kind[0] == "words" else f" -x -a '(__graze_files {' '.join(kind[1])})'"
+        if kind[0] == "words" and kind[1]:
+            value += f" -a '{' '.join(kind[1])}'"
+    return f"complete -c graze -n '{condition}' {names}{value} -d {quoted(option.text)}"
+
+
+def fish_parts(said):
+    lines = [f"complete -c graze -n __fish_use_subcommand -a {command} -d {quoted(text)}"
+             for command, text in said.commands.items()]
+    lines += [fish_option("", option, "__fish_use_subcommand") for option in said.options]
+    for command, options in said.options_of.items():
+        condition = f"__fish_seen_subcommand_from {command}"
+        endings = VALUES[command].partition(":")[2].strip()
+        lines.append(f"complete -c graze -n '{condition}' -a '(__graze_files {endings})'")
+        lines += [fish_option(command, option, condition) for option in options]
+    return {"commands": lines}
+
+
 def with_parts(text, mark, parts):
     for name, lines in parts.items():
         begin, end = f"{mark} begin {name}\n", f"{mark} end {name}\n"
@@ -171,7 +246,8 @@ def check_values(said):
 def main():
     said = Help(sys.argv[1])
     faults = check_values(said)
-    for path, mark, parts in ((MAN, '.\\"', man_parts(said)), (BASH, "#", bash_parts(said))):
+    for path, mark, parts in ((MAN, '.\\"', man_parts(said)), (BASH, "#", bash_parts(said)), (ZSH, "#", zsh_parts(said)),
+                              (FISH, "#", fish_parts(said))):
         old = path.read_text(encoding="utf-8")
         new = with_parts(old, mark, parts)
         if "--write" in sys.argv:

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Builds core and scheduler for other platforms, and runs the programs that say whether they answer as here:
+# Builds core and scheduler for other platforms, and for a compiler without extensions, and runs the programs that say whether they answer as here:
 #
-#   tests/platforms/run.sh RESULTS [PLATFORM...]    by default arm64, windows and wasm
+#   tests/platforms/run.sh RESULTS [PLATFORM...]    by default portable, arm64, windows and wasm
 #
 # RESULTS is a folder for the results of ctest. docs/platforms.md says what is compared.
 set -eu
@@ -16,7 +16,7 @@ build_page() {
 }
 
 status=0
-[ "$#" -gt 0 ] || set -- arm64 windows wasm
+[ "$#" -gt 0 ] || set -- portable arm64 windows wasm
 for name in "$@"; do
   echo "== $name"
   cmake -G Ninja -S tests/platforms -B "build/$name" --toolchain "$PWD/tests/platforms/toolchains/$name.cmake" \

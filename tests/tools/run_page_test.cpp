@@ -111,6 +111,31 @@ TEST_CASE("run --html: the data alone, with every frame and the scene's objects"
   }
 }
 
+TEST_CASE("run --html, view: the page has rules and ignored pairs, also by way of a recording") {
+  TemporaryFolder folder;
+  folder.write("plate.obj", plate_text());
+  const std::string scene = folder
+                                .write("rules.json", R"({"graze": 1, "contact_distance": 0.125, "range": 1,
+      "rules": [{"kinds": [2, 1], "contact_distance": 0.5}], "ignore": [["a", "c"], ["b", 1, "c", 2]], "objects": [
+      {"name": "a", "mesh": "plate.obj", "motion": "fixed", "kind": 1}, {"name": "b", "mesh": "plate.obj"},
+      {"name": "c", "mesh": "plate.obj", "kind": 2}]})")
+                                .string();
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  const ProgramResult run = run_graze(
+      {"run", scene, "--frames", "3", "--html", path("run.grazeview"), "--record", path("run.graze")});
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  REQUIRE(run_graze({"view", path("run.graze"), "-o", path("view.grazeview")}).exit_code == 0);
+  for (const char* const name : {"run.grazeview", "view.grazeview"}) {
+    const nlohmann::json head = DecodedPage(path(name)).head();
+    CHECK(head.at("ignored") == nlohmann::json::array({{0, 2, 0, 2}}));
+    CHECK(head.at("ignored_groups") == nlohmann::json::array({{1, 1, 2, 2, 0, 2}}));
+    const nlohmann::json rule = head.at("rules").at(0);
+    CHECK(rule.at("contact_distance") == 0.5);
+    CHECK((rule.at("kinds") == nlohmann::json{1, 2} || rule.at("kinds") == nlohmann::json{2, 1}));
+  }
+}
+
 TEST_CASE("run --html-every: writes each K-th frame and says so") {
   const PlateScene plates;
   const std::string file = plates.file("view.grazeview");

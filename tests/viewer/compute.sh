@@ -19,4 +19,5 @@ trap 'rm -rf "$folder"' EXIT
 here=$(dirname "$0")
 scene=$("$demo_scene" "$folder")
 node "$here/make_solids.mjs" "$folder"
+node "$here/make_filtered.mjs" "$folder"
 node "$here/compute_test.mjs" "$graze" "$scene" "$folder/solids.json" "$folder"

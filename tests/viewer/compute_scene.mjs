@@ -10,20 +10,31 @@ const SIDES = ['none', 'front', 'back'];
 const INSIDES = ['none', 'a_in_b', 'b_in_a', 'crossing'];
 
 /// Writes the objects of a page where their vertices are now, with all digits, and lets `graze run` answer. Gives rows as
-/// window.graze.rows() does.
-export function rowsOfProgram(graze, folder, head, meshes, vertices) {
+/// window.graze.rows() does. What the page says of pairs in the frame is said of these objects, too.
+export function rowsOfProgram(graze, folder, head, frame, meshes, vertices) {
   const objects = head.objects.map((object, i) => {
     const mesh = `now_${i}.obj`;
     writeFileSync(join(folder, mesh), objText(meshes[object.mesh], vertices[i]));
-    const { name, solid, settings } = object;
-    return { name, mesh, solid, motion: object.motion === 'fixed' ? 'fixed' : 'rigid', ...settings };
+    const { solid, settings } = object;
+    return { name: nameOf(i), mesh, solid, motion: object.motion === 'fixed' ? 'fixed' : 'rigid', ...settings };
   });
   const scene = join(folder, 'now.json');
   const { sweep_tolerance: _, swept_gap: __, ...settings } = head.settings;
-  writeFileSync(scene, JSON.stringify({ graze: 1, frames: 1, ...settings, objects }));
+  writeFileSync(scene, JSON.stringify({ graze: 1, frames: 1, ...settings, ...filtersOf(head, frame), objects }));
   const report = join(folder, 'now.jsonl');
   execFileSync(graze, ['run', scene, '--report', report]);
   return JSON.parse(readFileSync(report, 'utf8').split('\n')[1]).pairs.map(rowOf);
+}
+
+const nameOf = (object) => `object ${object}`;
+
+function filtersOf(head, frame) {
+  const now = (list) => (list ?? []).filter((entry) => entry.at(-2) <= frame && frame <= entry.at(-1));
+  return {
+    ignore: [
+      ...now(head.ignored).map(([a, b]) => [nameOf(a), nameOf(b)]),
+      ...now(head.ignored_groups).map(([a, groupA, b, groupB]) => [nameOf(a), groupA, nameOf(b), groupB])],
+    rules: (head.rules ?? []).filter(({ first, last }) => first <= frame && frame <= last).map(({ first: _, last: __, ...rule }) => rule) };
 }
 
 /// Vertices that no face uses have no place in a page, and anywhere is good for them.

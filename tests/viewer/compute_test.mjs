@@ -44,9 +44,7 @@ function pageOf(scene, name, ...more) {
 
 const openData = async (path) => Page.open(await FileChunks.open(await openAsBlob(path)));
 
-async function checkAgainstRecording() {
-  const page = await openData(pageOf(solids, 'solids.grazeview'));
-  const module = await ComputingModule.from(readFileSync(join(viewer, 'module.wasm')));
+async function checkAgainstRecording(name, page, module) {
   const wrong = [];
   let [pairs, contacts] = [0, 0];
   for (let frame = 0; frame < page.head.frames; ++frame) {
@@ -57,8 +55,37 @@ async function checkAgainstRecording() {
     contacts += [...recorded.contacts()].length;
     if (found.same < found.pairs || found.more > 0 || scene.notTaken.length > 0) wrong.push({ frame, ...found, notTaken: scene.notTaken });
   }
-  check(`the module has ${pairs} pairs and ${contacts} contacts of all frames of a recording, bit for bit`,
+  check(`${name}: the module has ${pairs} pairs and ${contacts} contacts of all frames of a recording, bit for bit`,
     wrong.length === 0 && contacts > 50, wrong.length === 0 ? '' : JSON.stringify(wrong));
+}
+
+/** A page of which something was left out has to answer otherwise, so that each is known to have an effect. */
+async function checkFilters(module) {
+  const scene = join(folder, 'filtered.json');
+  const page = await openData(pageOf(scene, 'filtered.grazeview'));
+  await checkAgainstRecording('filtered', page, module);
+  execFileSync(graze, ['run', scene, '--record', join(folder, 'filtered.graze')]);
+  execFileSync(graze, ['view', join(folder, 'filtered.graze'), '-o', join(folder, 'viewed.grazeview')]);
+  await checkAgainstRecording('filtered, by way of a recording', await openData(join(folder, 'viewed.grazeview')), module);
+  const frame = Math.floor(page.head.frames / 2);
+  const recorded = await page.load(frame, () => true);
+  const answer = (head) => compare(recorded, new PageScene(module, Object.assign(Object.create(page), { head }), frame).step());
+  const without = (key) => ({ ...page.head, [key]: undefined });
+  const objects = page.head.objects.map(({ settings: { hidden_groups: _, ...settings } = {}, ...object }) => ({ ...object, settings }));
+  const heads = {
+    ignored: without('ignored'), ignored_groups: without('ignored_groups'), rules: without('rules'),
+    hidden_groups: { ...page.head, objects },
+    'the frames of ignored': { ...page.head, ignored: page.head.ignored.map(([a, b]) => [a, b, frame + 1, frame + 1]) } };
+  for (const [name, head] of Object.entries(heads)) {
+    const found = answer(head);
+    check(`the page needs ${name}`, found.same < found.pairs || found.more > 0, JSON.stringify(found));
+  }
+}
+
+async function checkModule() {
+  const module = await ComputingModule.from(readFileSync(join(viewer, 'module.wasm')));
+  await checkAgainstRecording('solids', await openData(pageOf(solids, 'solids.grazeview')), module);
+  await checkFilters(module);
   same('words of the library reach the page', thrownBy(() => module.call('set_positions', 99, new Float64Array(3), 1)),
     'the scene has no object 99 of the page');
 }
@@ -123,8 +150,9 @@ async function checkSameAsProgram(name, page, data) {
   const meshes = [];
   data.objects.forEach((object, i) => (meshes[head.objects[i].mesh] = object.mesh));
   const shown = await rows(page);
+  const frame = await page.evaluate(() => window.graze.frame);
   const contacts = shown.reduce((sum, row) => sum + row.contacts.length, 0);
-  same(`${name}: ${shown.length} pairs and ${contacts} contacts are the program's`, shown, rowsOfProgram(graze, folder, head, meshes, await vertices(page)));
+  same(`${name}: ${shown.length} pairs and ${contacts} contacts are the program's`, shown, rowsOfProgram(graze, folder, head, frame, meshes, await vertices(page)));
   return contacts;
 }
 
@@ -194,7 +222,7 @@ async function checkWithout() {
   await page.close();
 }
 
-await checkAgainstRecording();
+await checkModule();
 await checkSolids();
 await checkDemo();
 await checkWithout();

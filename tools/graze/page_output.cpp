@@ -118,6 +118,7 @@ PlayedPage::PlayedPage(const fs::path& path, io::Player& player, const SceneSett
     page_.writer().add_object(object.id, page_object(object.name, object.mesh, known));
     is_deformable_.push_back(known.motion == Motion::deformable);
   }
+  page_.writer().set_pair_filters(player.pair_filters());
 }
 
 void PlayedPage::add(std::uint32_t frame, const io::Player& player, const FrameReport& report) {

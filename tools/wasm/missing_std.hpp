@@ -51,25 +51,6 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
 
 }  // namespace std
 
-#include <Eigen/Core>
-
-namespace Eigen::internal {
-
-/// Sums of three doubles, such as dot products. Eigen adds them in this order where it has vector registers,
-/// as on all other platforms that were tried. It has none for WebAssembly, and its order there would give
-/// other last bits.
-template <typename Function, typename Evaluator>
-requires std::is_same_v<typename Evaluator::Scalar, double>
-struct redux_novec_unroller<Function, Evaluator, 0, 3> {
-  static double run(const Evaluator& values, const Function& add) {
-    const auto at = [&values](Index i) {
-      return values.coeffByOuterInner(i / Evaluator::InnerSizeAtCompileTime,
-                                      i % Evaluator::InnerSizeAtCompileTime);
-    };
-    return add(add(at(0), at(1)), at(2));
-  }
-};
-
-}  // namespace Eigen::internal
+#include "sums_of_three.hpp"
 
 #endif

@@ -73,6 +73,12 @@ EMSCRIPTEN_KEEPALIVE int add_mesh(const double* rest, std::size_t vertices, cons
 EMSCRIPTEN_KEEPALIVE int set_object_number(const char* name, double value) {
   return result_of([&] { return graze::wasm::made->set_object_number(name, value) ? 1 : 0; });
 }
+EMSCRIPTEN_KEEPALIVE int set_face_groups(const uint32_t* groups, std::size_t count) {
+  return result_of([&] { return graze::wasm::made->set_face_groups({groups, count}), 1; });
+}
+EMSCRIPTEN_KEEPALIVE int set_hidden_groups(const uint32_t* groups, std::size_t count) {
+  return result_of([&] { return graze::wasm::made->set_hidden_groups({groups, count}), 1; });
+}
 /// The motion is a number of the enumeration: deformable, rigid, fixed.
 EMSCRIPTEN_KEEPALIVE int add_object(uint32_t page_index, uint32_t mesh, uint32_t motion) {
   return result_of(
@@ -88,6 +94,23 @@ EMSCRIPTEN_KEEPALIVE int set_pose(uint32_t page_index, const double* rows) {
     std::array<double, 12> pose;
     std::copy_n(rows, pose.size(), pose.begin());
     return graze::wasm::made->set_pose(page_index, pose), 0;
+  });
+}
+EMSCRIPTEN_KEEPALIVE int ignore_pair(uint32_t a, uint32_t b) {
+  return result_of([&] { return graze::wasm::made->ignore(a, b), 0; });
+}
+EMSCRIPTEN_KEEPALIVE int ignore_groups(uint32_t a, uint32_t group_a, uint32_t b, uint32_t group_b) {
+  return result_of([&] {
+    return graze::wasm::made->ignore(a, static_cast<std::uint8_t>(group_a), b,
+                                     static_cast<std::uint8_t>(group_b)),
+           0;
+  });
+}
+/// A threshold that is not a number is left to the scene.
+EMSCRIPTEN_KEEPALIVE int set_rule(uint32_t kind_a, uint32_t kind_b, double contact_distance, double range,
+                                  const double* epsilon, std::size_t count) {
+  return result_of([&] {
+    return graze::wasm::made->set_rule(kind_a, kind_b, contact_distance, range, {epsilon, count}), 0;
   });
 }
 /// The size of the table, which lies at table().

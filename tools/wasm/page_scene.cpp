@@ -1,6 +1,7 @@
 #include "page_scene.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <concepts>
 #include <graze/error.hpp>
 #include <graze/scene_enumerators.hpp>
@@ -54,6 +55,12 @@ PositionView view_of(std::span<const double> coordinates) {
   return PositionView(coordinates.data(), coordinates.size() / 3);
 }
 
+std::vector<std::uint8_t> bytes_of(std::span<const std::uint32_t> numbers) {
+  std::vector<std::uint8_t> bytes;
+  for (const std::uint32_t number : numbers) bytes.push_back(static_cast<std::uint8_t>(number));
+  return bytes;
+}
+
 }  // namespace
 
 bool PageScene::set_number(std::string_view key, double value) {
@@ -86,6 +93,14 @@ bool PageScene::set_object_number(std::string_view name, double value) {
   return is_taken;
 }
 
+void PageScene::set_face_groups(std::span<const std::uint32_t> groups) {
+  object_settings_.face_groups = bytes_of(groups);
+}
+
+void PageScene::set_hidden_groups(std::span<const std::uint32_t> groups) {
+  object_settings_.hidden_groups = bytes_of(groups);
+}
+
 void PageScene::add_object(std::uint32_t page_index, std::uint32_t mesh, Motion motion) {
   object_settings_.motion = motion;
   const ObjectId id = scene().add(meshes_.at(mesh), std::exchange(object_settings_, {}));
@@ -99,6 +114,23 @@ void PageScene::set_positions(std::uint32_t page_index, std::span<const double> 
 
 void PageScene::set_pose(std::uint32_t page_index, const std::array<double, 12>& rows) {
   scene().set_pose_rows(id_of(page_index), rows);
+}
+
+void PageScene::ignore(std::uint32_t a, std::uint32_t b) {
+  scene().ignore(id_of(a), id_of(b));
+}
+
+void PageScene::ignore(std::uint32_t a, std::uint8_t group_a, std::uint32_t b, std::uint8_t group_b) {
+  scene().ignore(id_of(a), group_a, id_of(b), group_b);
+}
+
+void PageScene::set_rule(std::uint32_t kind_a, std::uint32_t kind_b, double contact_distance, double range,
+                         std::span<const double> epsilon) {
+  PairRule rule;
+  if (!std::isnan(contact_distance)) rule.contact_distance = contact_distance;
+  if (!std::isnan(range)) rule.range = range;
+  rule.epsilon.assign(epsilon.begin(), epsilon.end());
+  scene().set_rule(kind_a, kind_b, rule);
 }
 
 const std::string& PageScene::step(std::uint64_t page_frame, std::uint64_t number) {

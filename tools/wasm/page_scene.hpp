@@ -30,6 +30,9 @@ class PageScene {
                          std::span<const std::uint32_t> corner_counts);
   /// Sets a setting of the next object by its name, as set_number() does.
   bool set_object_number(std::string_view name, double value);
+  /// Sets the groups of the next object's faces, and which of them are hidden.
+  void set_face_groups(std::span<const std::uint32_t> groups);
+  void set_hidden_groups(std::span<const std::uint32_t> groups);
   /// Adds an object with the settings that were set since the last one. `page_index` is its index in the
   /// page.
   void add_object(std::uint32_t page_index, std::uint32_t mesh, Motion motion);
@@ -37,6 +40,13 @@ class PageScene {
   void set_positions(std::uint32_t page_index, std::span<const double> positions);
   /// Places a rigid or fixed object by the upper three rows of its matrix.
   void set_pose(std::uint32_t page_index, const std::array<double, 12>& rows);
+
+  /// Takes a pair out, or groups of its faces, as Scene::ignore() does.
+  void ignore(std::uint32_t a, std::uint32_t b);
+  void ignore(std::uint32_t a, std::uint8_t group_a, std::uint32_t b, std::uint8_t group_b);
+  /// Gives thresholds to pairs of two kinds. A NaN leaves a threshold to the scene.
+  void set_rule(std::uint32_t kind_a, std::uint32_t kind_b, double contact_distance, double range,
+                std::span<const double> epsilon);
 
   /// Steps, and returns the table of the report. `page_frame` and `number` say which frame of the page and of
   /// its source it stands for.

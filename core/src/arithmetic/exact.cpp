@@ -1,5 +1,7 @@
 #include "arithmetic/exact.hpp"
 
+#include "core/base/compiler.hpp"
+
 namespace graze {
 namespace {
 
@@ -9,7 +11,7 @@ struct Product {
   Limb low, high;
 };
 Product multiply(Limb left, Limb right) {
-#ifdef __SIZEOF_INT128__
+#if GRAZE_EXTENSIONS && defined(__SIZEOF_INT128__)
   __extension__ using Double = unsigned __int128;
   const Double product = Double{left} * right;
   return {static_cast<Limb>(product), static_cast<Limb>(product >> 64U)};

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "kernels/vectors.hpp"
+
 namespace graze {
 
 /// Points of an array of coordinates, loaded so that one register holds three coordinates and the number that
@@ -13,7 +15,7 @@ namespace graze {
 template <typename Number>
 class PointRegisters {
  public:
-  using Four [[gnu::vector_size(4 * sizeof(Number))]] = Number;
+  GRAZE_VECTOR(Four, Number, 4);
 
   PointRegisters(const Number* numbers, std::size_t count)
       : numbers_(numbers), last_(static_cast<std::uint32_t>(count - 1)) {}

@@ -6,6 +6,7 @@
 #include <graze/contact_geometry.hpp>
 #include <optional>
 
+#include "core/base/compiler.hpp"
 #include "core/base/floating_point_scope.hpp"
 #include "response/closest_points.hpp"
 #include "response/feature_normals.hpp"
@@ -119,7 +120,7 @@ ClosestPoints closest_of_faces(const PlacedFeature& a, const PlacedFeature& b) {
 }
 
 /// The feature of lower dimension is a's.
-[[gnu::always_inline]] inline ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
+GRAZE_ALWAYS_INLINE inline ClosestPoints closest_in_order(const PlacedFeature& a, const PlacedFeature& b) {
   if (a.is(FeatureKind::face)) return closest_of_faces(a, b);
   if (a.is(FeatureKind::edge))
     return b.is(FeatureKind::edge) ? closest_of_segments(a.edge(), b.edge()) : closest_to_face(a.edge(), b);
@@ -128,7 +129,7 @@ ClosestPoints closest_of_faces(const PlacedFeature& a, const PlacedFeature& b) {
   return {a.vertex(), b.vertex(), b.vertex() - a.vertex(), true};
 }
 
-[[gnu::always_inline]] inline ClosestPoints closest_points(const PlacedFeature& a, const PlacedFeature& b) {
+GRAZE_ALWAYS_INLINE inline ClosestPoints closest_points(const PlacedFeature& a, const PlacedFeature& b) {
   return a.feature.kind <= b.feature.kind ? closest_in_order(a, b) : closest_in_order(b, a).swapped();
 }
 
@@ -164,9 +165,8 @@ Eigen::Vector3d touching_normal(const PlacedFeature& a, const PlacedFeature& b, 
 }
 
 /// The part of the geometry that needs no sign. The push, the separation and the sides follow.
-[[gnu::always_inline]] inline ContactGeometry unsigned_geometry(const PlacedFeature& a,
-                                                                const PlacedFeature& b,
-                                                                const ClosestPoints& at) {
+GRAZE_ALWAYS_INLINE inline ContactGeometry unsigned_geometry(const PlacedFeature& a, const PlacedFeature& b,
+                                                             const ClosestPoints& at) {
   ContactGeometry geometry;
   geometry.point_a = at.a;
   geometry.point_b = at.b;

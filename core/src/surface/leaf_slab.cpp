@@ -49,18 +49,18 @@ class Reach {
     points_.load(vertex[1], v1);
     points_.load(vertex[2], v2);
     points_.load(vertex[3], v3);
-    const Four xy01 = __builtin_shufflevector(v0, v1, 0, 4, 1, 5);
-    const Four xy23 = __builtin_shufflevector(v2, v3, 0, 4, 1, 5);
-    const Four z01 = __builtin_shufflevector(v0, v1, 2, 6, 2, 6);
-    const Four z23 = __builtin_shufflevector(v2, v3, 2, 6, 2, 6);
-    const Four x = __builtin_shufflevector(xy01, xy23, 0, 1, 4, 5) - from_[0];
-    const Four y = __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7) - from_[1];
-    const Four z = __builtin_shufflevector(z01, z23, 0, 1, 4, 5) - from_[2];
+    const Four xy01 = GRAZE_SHUFFLE(v0, v1, 0, 4, 1, 5);
+    const Four xy23 = GRAZE_SHUFFLE(v2, v3, 0, 4, 1, 5);
+    const Four z01 = GRAZE_SHUFFLE(v0, v1, 2, 6, 2, 6);
+    const Four z23 = GRAZE_SHUFFLE(v2, v3, 2, 6, 2, 6);
+    const Four x = GRAZE_SHUFFLE(xy01, xy23, 0, 1, 4, 5) - from_[0];
+    const Four y = GRAZE_SHUFFLE(xy01, xy23, 2, 3, 6, 7) - from_[1];
+    const Four z = GRAZE_SHUFFLE(z01, z23, 0, 1, 4, 5) - from_[2];
     const Four along = x * direction_[0] + y * direction_[1] + z * direction_[2];
     const Four squared = x * x + y * y + z * z;
-    low_ = along < low_ ? along : low_;
-    high_ = along > high_ ? along : high_;
-    squared_ = squared > squared_ ? squared : squared_;
+    low_ = GRAZE_PICK(along < low_, along, low_);
+    high_ = GRAZE_PICK(along > high_, along, high_);
+    squared_ = GRAZE_PICK(squared > squared_, squared, squared_);
   }
   template <typename Pick>
   static double over_lanes(const Four& of_lanes, Pick pick) {

@@ -374,7 +374,7 @@ namespace {
 /// Computes `posed` of each point, x and y at once.
 void pose_vertices(const std::array<double, 12>& rows, std::span<const Eigen::Vector3d> rest,
                    Eigen::Vector3d* now) {
-  using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
+  GRAZE_VECTOR(Two, double, 2);
   const auto column = [&](std::size_t number) { return Two{rows[number], rows[4 + number]}; };
   const Two first = column(0), second = column(1), third = column(2), by = column(3);
   // In variables of their own, since what is written could be the rows for all that the compiler knows.
@@ -453,8 +453,8 @@ class PointExtent {
     for (const std::uint32_t vertex : vertices) {
       Four x;
       points_.load(vertex, x);
-      low_ = x < low_ ? x : low_;
-      high_ = x > high_ ? x : high_;
+      low_ = GRAZE_PICK(x < low_, x, low_);
+      high_ = GRAZE_PICK(x > high_, x, high_);
     }
   }
   [[nodiscard]] Box box() const { return {{low_[0], low_[1], low_[2]}, {high_[0], high_[1], high_[2]}}; }

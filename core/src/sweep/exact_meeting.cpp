@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "core/base/compiler.hpp"
 #include "sweep/first_root.hpp"
 
 namespace graze {
@@ -127,8 +128,8 @@ constexpr int most_bits = 180;
 /// Finds a meeting with numbers of one capacity. It is never inlined: its numbers take stack only where they
 /// are needed (docs/numerics.md).
 template <typename Number>
-[[gnu::noinline]] std::optional<SweptMeeting> find_meeting(SweptPair pair, const FeatureSweep& sweep,
-                                                           std::uint64_t budget) {
+GRAZE_NEVER_INLINE std::optional<SweptMeeting> find_meeting(SweptPair pair, const FeatureSweep& sweep,
+                                                            std::uint64_t budget) {
   return ExactMeeting<Number>(pair, sweep, budget).find();
 }
 

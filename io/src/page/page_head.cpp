@@ -161,6 +161,7 @@ std::string PageHead::json() const {
   series.write(json);
   if (!diverged.empty()) write_whole_numbers(json, "diverged", diverged);
   if (!dropped.empty()) write_dropped(json, dropped);
+  filters.write(json, options.every, frame_numbers.size());
   json.close('}');
   return json.line();
 }

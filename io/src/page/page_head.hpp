@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "page/mesh_table.hpp"
+#include "page/page_filters.hpp"
 #include "text/json_text.hpp"
 
 namespace graze::io {
@@ -64,6 +65,7 @@ struct PageHead {
   PageSeries series;
   std::vector<std::uint64_t> diverged;
   std::vector<DroppedFrames> dropped;
+  PageFilters filters;
 
   [[nodiscard]] std::string json() const;
 };

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "page/mesh_table.hpp"
 #include "page/motion_table.hpp"
-#include "page/page_head.hpp"
 
 namespace graze::io {
 

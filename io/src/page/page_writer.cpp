@@ -5,6 +5,7 @@
 #include "page/gzip.hpp"
 #include "page/page_block.hpp"
 #include "page/page_file.hpp"
+#include "page/page_filters.hpp"
 #include "page/page_head.hpp"
 #include "page/page_objects.hpp"
 
@@ -42,6 +43,7 @@ struct PageWriter::State {
   PageFile file;
   PageObjects objects;
   PageMeshes meshes;
+  PageFilters filters;
   PageBlock block;                           ///< the frames that wait
   std::uint64_t block_frames = 0;            ///< in a block, 0 until the first one is written
   std::uint64_t calls = 0;                   ///< of frame()
@@ -153,6 +155,7 @@ PageHead PageWriter::State::head() {
   head.series = series;
   head.diverged = diverged_frames();
   head.dropped = dropped_frames();
+  head.filters = filters;
   for (const WrittenObject& object : objects.all()) {
     const std::uint64_t end =
         object.removed ? page_frames_before(*object.removed, options.every) : frame_numbers.size();
@@ -188,6 +191,10 @@ void PageWriter::set_positions(ObjectId id, const PositionView& positions) {
 
 void PageWriter::set_pose(ObjectId id, const std::array<double, 12>& rows) {
   state_->objects.set_pose(id, rows);
+}
+
+void PageWriter::set_pair_filters(const PairFilters& filters) {
+  state_->filters.set(filters, state_->objects, state_->calls);
 }
 
 void PageWriter::mark_diverged() {

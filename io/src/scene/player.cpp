@@ -77,13 +77,14 @@ struct Player::State {
     group_ignored(loaded, description);
     for (LoadedSceneObject& object : loaded.objects) add(object, description.objects[object.entry]);
     index_names(description);
-    for (const RuleDescription& rule : description.rules) scene.set_rule(rule.kinds[0], rule.kinds[1], rule);
+    for (const RuleDescription& rule : description.rules) set_rule(rule);
     for (const IgnoreDescription& ignored : description.ignore) ignore(ignored);
     frame_count = description.frames.value_or(longest_motion(playbacks));
   }
 
   void add(LoadedSceneObject& loaded, const ObjectDescription& entry);
   void take_warnings(Playback& playback);
+  void set_rule(const RuleDescription& rule);
   void ignore(const IgnoreDescription& ignored);
   void ignore_groups(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second,
                      const std::array<std::uint8_t, 2>& groups);
@@ -98,6 +99,7 @@ struct Player::State {
   /// The objects of each entry by its name, and other objects by their own.
   std::unordered_map<std::string, std::vector<std::size_t>> objects_by_name;
   std::uint64_t ignored_pairs = 0;
+  PairFilters filters;
   std::vector<Playback> playbacks;  ///< of each object. It outlives the scene, which reads its positions
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;
@@ -164,6 +166,14 @@ const std::vector<std::size_t>& Player::State::named(const std::string& name,
   throw InputError(where + ": no object is called \"" + name + "\"; the scene has " + known);
 }
 
+void Player::State::set_rule(const RuleDescription& rule) {
+  scene.set_rule(rule.kinds[0], rule.kinds[1], rule);
+  std::erase_if(filters.rules, [&](const PairFilters::KindRule& other) {
+    return std::minmax(other.kind_a, other.kind_b) == std::minmax(rule.kinds[0], rule.kinds[1]);
+  });
+  filters.rules.push_back({rule.kinds[0], rule.kinds[1], rule});
+}
+
 void Player::State::ignore(const IgnoreDescription& ignored) {
   const auto& first = named(ignored.names[0], ignored.place);
   const auto& second = named(ignored.names[1], ignored.place);
@@ -176,15 +186,21 @@ void Player::State::ignore(const IgnoreDescription& ignored) {
   if (&first == &second) return;  // group_ignored() has given them a group
   count_ignored(first.size(), second.size(), ignored.place);
   for (const std::size_t a : first)
-    for (const std::size_t b : second)
-      if (a != b) scene.ignore(objects[a].id, objects[b].id);
+    for (const std::size_t b : second) {
+      if (a == b) continue;
+      scene.ignore(objects[a].id, objects[b].id);
+      filters.ignored.emplace_back(objects[a].id, objects[b].id);
+    }
 }
 
 void Player::State::ignore_groups(const std::vector<std::size_t>& first,
                                   const std::vector<std::size_t>& second,
                                   const std::array<std::uint8_t, 2>& groups) {
   for (const std::size_t a : first)
-    for (const std::size_t b : second) scene.ignore(objects[a].id, groups[0], objects[b].id, groups[1]);
+    for (const std::size_t b : second) {
+      scene.ignore(objects[a].id, groups[0], objects[b].id, groups[1]);
+      filters.ignored_groups.push_back({{objects[a].id, groups[0]}, {objects[b].id, groups[1]}});
+    }
 }
 
 void Player::State::advance_object(std::size_t index, std::uint32_t frame) {
@@ -213,6 +229,9 @@ Scene& Player::scene() {
 }
 std::span<const SceneObject> Player::objects() const {
   return state_->objects;
+}
+const PairFilters& Player::pair_filters() const {
+  return state_->filters;
 }
 std::uint32_t Player::frame_count() const {
   return state_->frame_count;

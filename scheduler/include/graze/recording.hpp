@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <graze/export.hpp>
 #include <graze/mesh.hpp>
+#include <graze/pair_filters.hpp>
 #include <graze/scene.hpp>
 #include <graze/settings.hpp>
 #include <memory>
@@ -126,7 +127,7 @@ struct ReplayObject {
   std::uint64_t serial = 0;
   /// The mesh of the object.
   std::shared_ptr<const Mesh> mesh;
-  /// The settings that the object was added with.
+  /// The settings that the object was added with. The groups of its faces are those of its mesh now.
   ObjectSettings settings;
 };
 
@@ -171,6 +172,9 @@ class GRAZE_API Replay {
 
   /// Returns the objects of the scene in the order of addition, after the last step.
   [[nodiscard]] std::span<const ReplayObject> objects() const;
+  /// Returns what had been said of pairs of objects until the last step. It is another pointer after a step
+  /// that took up such a call, and none before the first step.
+  [[nodiscard]] const std::shared_ptr<const PairFilters>& pair_filters() const;
   /// Gives the positions of the vertices of object `index` after the last step. `index` is one into
   /// objects(), and is not checked.
   void read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const;

@@ -60,6 +60,7 @@ class Replay::State {
   std::size_t rows_not_compared = 0;
   std::size_t rows_compared_in_part = 0;
   std::vector<ReplayObject> objects;
+  std::shared_ptr<const PairFilters> filters;
   std::unique_ptr<ReplayedScene> played;
 
  private:
@@ -122,6 +123,7 @@ bool Replay::State::step() {
   reader_.check_passed(index, payload_);
   report = scene_->step(expected_.tag);
   objects = played->objects();
+  filters = played->pair_filters();
   compare();
   return true;
 }
@@ -223,6 +225,9 @@ std::size_t Replay::rows_compared_in_part() const {
 }
 std::span<const ReplayObject> Replay::objects() const {
   return state_->objects;
+}
+const std::shared_ptr<const PairFilters>& Replay::pair_filters() const {
+  return state_->filters;
 }
 void Replay::read_positions(std::size_t index, std::vector<Eigen::Vector3d>& positions) const {
   state_->played->read_positions(state_->objects[index].id, positions);

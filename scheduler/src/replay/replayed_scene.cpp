@@ -103,6 +103,7 @@ void ReplayedScene::take(const ReplaceRecord& record) {
   std::shared_ptr<const Mesh> mesh = reader_.mesh(record.mesh);
   scene_.replace_mesh(object->object.id, mesh, record.new_of_old, record.face_groups);
   object->object.mesh = std::move(mesh);
+  object->object.settings.face_groups = record.face_groups;
   object->positions.clear();  // the binding has ended with this call
 }
 
@@ -110,6 +111,7 @@ void ReplayedScene::take(const RemoveObject& record) {
   Object* const object = find(record.object);
   if (object == nullptr) return;
   scene_.remove(object->object.id);
+  filters_.forget(object->object.id);
   object->is_removed = true;
   removed_.push_back(record.object);
 }
@@ -173,6 +175,7 @@ void ReplayedScene::take(const UnbindRecord& record) {
 
 void ReplayedScene::take(const SetRule& record) {
   if (record.rule.range) least_range_ = std::min(least_range_, *record.rule.range);
+  filters_.take(record);
   scene_.set_rule(record.kind_a, record.kind_b, record.rule);
 }
 
@@ -186,14 +189,19 @@ void ReplayedScene::take(const PositionsChanged& record) {
 void ReplayedScene::take(const IgnorePair& record) {
   const Object* const a = find(record.a);
   const Object* const b = find(record.b);
-  if (a != nullptr && b != nullptr) staging_.repeat(IgnorePair{a->object.id, b->object.id, record.ignored});
+  if (a == nullptr || b == nullptr) return;
+  const IgnorePair call{a->object.id, b->object.id, record.ignored};
+  filters_.take(call);
+  staging_.repeat(call);
 }
 
 void ReplayedScene::take(const IgnoreGroups& record) {
   const Object* const a = find(record.a);
   const Object* const b = find(record.b);
-  if (a != nullptr && b != nullptr)
-    staging_.repeat(IgnoreGroups{a->object.id, record.group_a, b->object.id, record.group_b, record.ignored});
+  if (a == nullptr || b == nullptr) return;
+  const IgnoreGroups call{a->object.id, record.group_a, b->object.id, record.group_b, record.ignored};
+  filters_.take(call);
+  staging_.repeat(call);
 }
 
 void ReplayedScene::take(const MarkTeleport& record) {

@@ -10,6 +10,7 @@
 #include "calls/staging.hpp"
 #include "recording/records.hpp"
 #include "recording/scene_model.hpp"
+#include "replay/known_filters.hpp"
 #include "replay/recording_reader.hpp"
 
 namespace graze {
@@ -33,6 +34,8 @@ class ReplayedScene {
   [[nodiscard]] std::string name_of(ObjectId recorded) const;
   /// The objects, in the order of addition.
   [[nodiscard]] std::vector<ReplayObject> objects() const;
+  /// Returns what was said of pairs, as KnownFilters::all() does.
+  [[nodiscard]] std::shared_ptr<const PairFilters> pair_filters() { return filters_.all(); }
   void read_positions(ObjectId id, std::vector<Eigen::Vector3d>& positions) const;
   [[nodiscard]] std::array<double, 12> pose(ObjectId id) const;
   /// Forgets the objects that were removed before the last step.
@@ -78,6 +81,7 @@ class ReplayedScene {
   std::map<std::uint64_t, Object> objects_;               ///< by serial
   std::unordered_map<ObjectId, std::uint64_t> recorded_;  ///< serials, by recorded id
   std::unordered_map<ObjectId, std::uint64_t> replayed_;  ///< serials, by the id in this scene
+  KnownFilters filters_;                                  ///< by ids in this scene
   std::vector<ObjectId> removed_;                         ///< recorded ids
 };
 

@@ -35,6 +35,7 @@ class ReplayedPage {
 
   void add(const Recording& recording, const Replay& replay) {
     change_objects(replay);
+    change_filters(replay);
     if (page_.writer().takes_next_frame()) place_objects(replay);
     if (replay.difference()) page_.writer().mark_diverged();
     const RecordedFrame frame = recording.frame(replay.frame_index());
@@ -50,10 +51,12 @@ class ReplayedPage {
     std::map<ObjectId, std::shared_ptr<const Mesh>> now;
     for (const ReplayObject& object : replay.objects()) now[object.id] = object.mesh;
     // An object with another mesh is another one for the page.
+    bool has_changed = now.size() != known_.size();
     std::erase_if(known_, [&](const auto& known) {
       const auto found = now.find(known.first);
       const bool is_same = found != now.end() && found->second == known.second;
       if (!is_same) page_.writer().remove_object(known.first);
+      has_changed = has_changed || !is_same;
       return !is_same;
     });
     for (const ReplayObject& object : replay.objects()) {
@@ -64,6 +67,13 @@ class ReplayedPage {
       page_.writer().add_object(object.id, page_object(name, object.mesh, settings));
     }
     known_ = std::move(now);
+    if (has_changed) known_filters_.reset();
+  }
+  /// The page has other numbers of the objects after each change of them.
+  void change_filters(const Replay& replay) {
+    if (known_filters_ == replay.pair_filters()) return;
+    known_filters_ = replay.pair_filters();
+    page_.writer().set_pair_filters(*known_filters_);
   }
   void place_objects(const Replay& replay) {
     for (std::size_t i = 0; i < replay.objects().size(); ++i) {
@@ -79,6 +89,7 @@ class ReplayedPage {
 
   PageOutput page_;
   std::map<ObjectId, std::shared_ptr<const Mesh>> known_;  ///< the objects of the page
+  std::shared_ptr<const PairFilters> known_filters_;       ///< what the page knows of pairs
   std::vector<Eigen::Vector3d> positions_;
 };
 

@@ -3,7 +3,9 @@
 #include <cfenv>
 #include <optional>
 
-#if defined(__SSE2_MATH__)
+#include "core/base/compiler.hpp"
+
+#if GRAZE_EXTENSIONS && defined(__SSE2_MATH__)
 #include <xmmintrin.h>
 #endif
 
@@ -28,7 +30,7 @@ class FloatingPointScope {
 
 /// Whether the calling thread computes as in a FloatingPointScope already. It may say no where it does.
 inline bool is_in_default_mode() {
-#if defined(__SSE2_MATH__)
+#if GRAZE_EXTENSIONS && defined(__SSE2_MATH__)
   constexpr unsigned exception_flags = 0x3F;
   constexpr unsigned defaults = 0x1F80;
   return (_mm_getcsr() & ~exception_flags) == defaults;

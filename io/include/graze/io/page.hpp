@@ -7,6 +7,7 @@
 #include <graze/export.hpp>
 #include <graze/mesh.hpp>
 #include <graze/object_id.hpp>
+#include <graze/pair_filters.hpp>
 #include <graze/position_view.hpp>
 #include <graze/report.hpp>
 #include <graze/settings.hpp>
@@ -124,6 +125,10 @@ class GRAZE_API PageWriter {
         rows[static_cast<std::size_t>(row * 4 + column)] = pose.matrix()(row, column);
     set_pose(id, rows);
   }
+  /// Says what counts for pairs from the next frame on, in place of what was said before. The page needs it
+  /// where it computes. What names an object that the page does not have is left out. After an object was
+  /// added for an id anew, say it again.
+  void set_pair_filters(const PairFilters& filters);
   /// Marks the next frame as one in which a replay gave another answer than the recording has.
   void mark_diverged();
   /// Says that so many frames of the source are missing before the next frame, since a recorder dropped them.

@@ -6,6 +6,7 @@
 #include <graze/export.hpp>
 #include <graze/io/scene_file.hpp>
 #include <graze/io/scene_object.hpp>
+#include <graze/pair_filters.hpp>
 #include <graze/scene.hpp>
 #include <memory>
 #include <span>
@@ -46,6 +47,8 @@ class GRAZE_API Player {
   [[nodiscard]] Scene& scene();
   /// Returns the objects of the scene, in the order in which they were added.
   [[nodiscard]] std::span<const SceneObject> objects() const;
+  /// Returns the rules and the ignored pairs of the description. They stay as they are.
+  [[nodiscard]] const PairFilters& pair_filters() const;
   /// Returns the number of frames of the description, or of the longest motion if the description has none.
   /// It is at least 1.
   [[nodiscard]] std::uint32_t frame_count() const;

@@ -88,7 +88,7 @@ export class Computing {
     const words = [`${same} of ${pairs} recorded pairs are equal bit for bit`];
     if (apart > 0) words.push(`distances differ by up to ${short(apart)}${isRounded ? ', as this page has rounded positions of deformable objects' : ''}`);
     if (missing + more > 0)
-      words.push(`${missing} pairs are missing and ${more} are more: a page does not know pairs that were taken out, nor rules of kinds`);
+      words.push(`${missing} pairs are missing and ${more} are more`);
     if (recorded.block.regionDistance.length > 0) words.push('lines between regions are not computed');
     if (notTaken.length > 0) words.push(`settings not taken over: ${[...new Set(notTaken)].slice(0, 6).join(', ')}`);
     return words;

@@ -27,6 +27,7 @@ export class PageScene {
       if (!meshes.has(mesh)) meshes.set(mesh, this.addMesh(mesh));
       this.addObject(object, meshes.get(mesh)!, page.head);
     }
+    this.takeFilters(page.head);
   }
 
   /** Tells the module where an object is. */
@@ -72,14 +73,38 @@ export class PageScene {
     return this.module.call('add_mesh', mesh.rest, mesh.vertexCount, corners, corners.length, counts, counts.length);
   }
 
+  /** Ignored pairs and rules of this frame. */
+  private takeFilters(head: Head): void {
+    const isNow = (first: number, last: number) => first <= this.frame && this.frame <= last;
+    const isThere = (object: number) => this.page.objects[object]!.isThere;
+    for (const [a, b, first, last] of head.ignored ?? [])
+      if (isNow(first, last) && isThere(a) && isThere(b)) this.module.call('ignore_pair', a, b);
+    for (const [a, groupA, b, groupB, first, last] of head.ignored_groups ?? [])
+      if (isNow(first, last) && isThere(a) && isThere(b)) this.module.call('ignore_groups', a, groupA, b, groupB);
+    for (const { kinds, contact_distance, range, epsilon, first, last } of head.rules ?? [])
+      if (isNow(first, last)) {
+        const numbers = new Float64Array(epsilon ?? []);
+        this.module.call('set_rule', ...kinds, Number(contact_distance ?? NaN), range === 'infinity' ? Infinity : range ?? NaN, numbers, numbers.length);
+      }
+  }
+
   private addObject(object: ObjectState, mesh: number, head: Head): void {
     const { motion, solid, swept, settings } = head.objects[object.index]!;
     const all = { solid: solid ?? false, swept: swept ?? false, ...settings };
     for (const [name, value] of Object.entries(all))
-      if (typeof value === 'object' || Number(value) > Number.MAX_SAFE_INTEGER || this.module.call('set_object_number', name, Number(value)) !== 1)
+      if (!this.takeObjectSetting(name, value))
         this.notTaken.push(`${name.replaceAll('_', ' ')} of ${head.objects[object.index]!.name}`);
     this.module.call('add_object', object.index, mesh, MOTIONS.indexOf(motion));
     this.place(object);
+  }
+
+  private takeObjectSetting(name: string, value: unknown): boolean {
+    const { module } = this;
+    if (Array.isArray(value)) {
+      const numbers = new Uint32Array(value as number[]);
+      return (name === 'face_groups' || name === 'hidden_groups') && module.call(`set_${name}`, numbers, numbers.length) === 1;
+    }
+    return Number(value) <= Number.MAX_SAFE_INTEGER && module.call('set_object_number', name, Number(value)) === 1;
   }
 }
 

@@ -55,6 +55,21 @@ export interface Head {
   diverged?: number[];
   /** Page frames, and how many frames of the source are missing before each. */
   dropped?: [number, number][];
+  /** Pairs of objects that are ignored, with the first and the last page frame. Not in older data, as the next ones. */
+  ignored?: [a: number, b: number, first: number, last: number][];
+  /** Groups of faces of two objects that are ignored, with the first and the last page frame. */
+  ignored_groups?: [a: number, groupA: number, b: number, groupB: number, first: number, last: number][];
+  rules?: RuleHead[];
+}
+
+/** Thresholds of pairs of two kinds. */
+export interface RuleHead {
+  kinds: [number, number];
+  contact_distance?: number;
+  range?: number | 'infinity';
+  epsilon?: number[];
+  first: number;
+  last: number;
 }
 
 /** How many frames of the source are missing right before a page frame, or after it where it is the last. */
