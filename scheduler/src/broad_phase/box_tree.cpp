@@ -144,9 +144,8 @@ void BoxTree::move(std::uint32_t slot, const Box& box) {
   put(leaf_of_[slot], box);
 }
 
-void BoxTree::add(const Box& box) {
+void BoxTree::add(std::uint32_t slot, const Box& box) {
   filters_are_current_ = false;
-  const auto slot = static_cast<std::uint32_t>(leaf_of_.size());
   const std::uint32_t leaf = end_++;
   if (leaf == slot_of_.size()) {
     const std::size_t levels_before = level_count_;
@@ -157,22 +156,19 @@ void BoxTree::add(const Box& box) {
       refit_node(static_cast<std::uint32_t>(level), 0);
   }
   slot_of_[leaf] = slot;
-  leaf_of_.push_back(leaf);
+  if (slot == leaf_of_.size()) leaf_of_.emplace_back();
+  leaf_of_[slot] = leaf;
   put(leaf, box);
 }
 
-void BoxTree::rename(std::span<const std::uint32_t> new_slots) {
+void BoxTree::rename(std::span<const std::uint32_t> new_slots, std::size_t count) {
   filters_are_current_ = false;
-  std::uint32_t count = 0;
   for (std::uint32_t slot = 0; slot < new_slots.size(); ++slot) {
     const std::uint32_t leaf = leaf_of_[slot];
     slot_of_[leaf] = new_slots[slot];
-    if (new_slots[slot] == no_slot)
-      put(leaf, {});
-    else
-      leaf_of_[count++] = leaf;
+    if (new_slots[slot] == no_slot) put(leaf, {});
   }
-  leaf_of_.resize(count);
+  renumber(leaf_of_, new_slots, count);
   find_end();
 }
 

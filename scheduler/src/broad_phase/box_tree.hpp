@@ -27,11 +27,12 @@ class BoxTree {
   /// Replaces the box of every slot and keeps the order.
   void move_all(std::span<const Box> boxes, TaskPool& tasks);
   void move(std::uint32_t slot, const Box& box);
-  /// Adds a box for a new slot, the next after the highest, in a leaf behind all others.
-  void add(const Box& box);
+  /// Adds a box for a new slot, in a leaf behind all others. The slot is the next after the highest, or one
+  /// that `rename` has left free.
+  void add(std::uint32_t slot, const Box& box);
   /// Renumbers all slots: slot i becomes `new_slots[i]`, or is removed where that is no_slot. The remaining
-  /// slots are numbered from 0 and keep their order.
-  void rename(std::span<const std::uint32_t> new_slots);
+  /// slots keep their order. There are `count` slots then, and those between that are free are added next.
+  void rename(std::span<const std::uint32_t> new_slots, std::size_t count);
 
   /// Prepares for queries that leave out the pairs that filters take out for good. `classes` has the tree's
   /// slots. Without such pairs it costs nothing, here and in queries.

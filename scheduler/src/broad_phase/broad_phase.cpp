@@ -98,23 +98,22 @@ std::span<const SlotPair> BroadPhase::find(const ObjectSummaries& summaries, con
 /// Removes objects that are gone and adds new ones, which have no loose box yet.
 void BroadPhase::update_slots(const ObjectSummaries& summaries) {
   const auto new_slots = summaries.new_slots();
+  const std::size_t before = loose_.size();
+  const std::size_t count = summaries.all().size();
+  renumber(loose_, new_slots, count);
   if (!new_slots.empty()) {
-    tree_.rename(new_slots);
-    classes_.rename(new_slots);
-    std::size_t count = 0;
-    for (std::size_t slot = 0; slot < new_slots.size(); ++slot)
-      if (new_slots[slot] != no_slot) loose_[count++] = loose_[slot];
-    loose_.resize(count);
+    tree_.rename(new_slots, count);
+    classes_.rename(new_slots, count);
     std::size_t kept = 0;
     for (const SlotPair pair : pairs_)
       if (const SlotPair moved = remapped_pair(pair, new_slots); moved != no_pair) pairs_[kept++] = moved;
     pairs_.resize(kept);
   }
-  for (std::size_t slot = loose_.size(); slot < summaries.all().size(); ++slot) {
-    loose_.emplace_back();
-    tree_.add({});
-    classes_.add(summaries.all()[slot]);
-  }
+  visit_new_slots(new_slots, before, count, [&](std::uint32_t slot) {
+    loose_[slot] = {};
+    tree_.add(slot, {});
+    classes_.add(slot, summaries.all()[slot]);
+  });
 }
 
 /// Gives every object that has left its loose box a new one, and lists these objects in `left_`.

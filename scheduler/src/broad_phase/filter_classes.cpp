@@ -14,32 +14,22 @@ FilterClasses::FilterClasses() {
   touching_[shared_bit] = ~std::uint64_t{0};
 }
 
-void FilterClasses::add(const FilterTraits& traits) {
+void FilterClasses::add(std::uint32_t slot, const FilterTraits& traits) {
   const Member member{traits.group, sort_of(traits), bit_of(traits)};
   if (member.group != 0) make_room_for_group();
-  members_.push_back(member);
-  const FilteredPairs more = pairs_with(member);
-  filtered_.fixed += more.fixed;
-  filtered_.by_layer += more.by_layer;
-  filtered_.in_group += more.in_group;
+  if (slot == members_.size()) members_.emplace_back();
+  members_[slot] = member;
+  filtered_ += pairs_with(member);
   count(member, true);
 }
 
-void FilterClasses::rename(std::span<const std::uint32_t> new_slots) {
-  std::size_t kept = 0;
+void FilterClasses::rename(std::span<const std::uint32_t> new_slots, std::size_t count_now) {
   for (std::size_t slot = 0; slot < new_slots.size(); ++slot) {
-    const Member member = members_[slot];
-    if (new_slots[slot] != no_slot) {
-      members_[kept++] = member;
-      continue;
-    }
-    count(member, false);
-    const FilteredPairs fewer = pairs_with(member);
-    filtered_.fixed -= fewer.fixed;
-    filtered_.by_layer -= fewer.by_layer;
-    filtered_.in_group -= fewer.in_group;
+    if (new_slots[slot] != no_slot) continue;
+    count(members_[slot], false);
+    filtered_ -= pairs_with(members_[slot]);
   }
-  members_.resize(kept);
+  renumber(members_, new_slots, count_now);
 }
 
 WantedFilter FilterClasses::wanted_by(const NodeFilter& node) const {
@@ -103,6 +93,8 @@ FilteredPairs FilterClasses::pairs_with(const Member& member) const {
       pairs.by_layer += sorts_[other].count;
     else if (member.group != 0)
       pairs.in_group += count_in_group(member.group, other);
+    if (verdict == PairVerdict::elsewhere)
+      pairs.elsewhere += sorts_[other].count - (member.group == 0 ? 0 : count_in_group(member.group, other));
   }
   return pairs;
 }

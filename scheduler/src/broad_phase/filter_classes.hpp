@@ -16,6 +16,22 @@ struct FilteredPairs {
   std::uint64_t fixed = 0;
   std::uint64_t by_layer = 0;
   std::uint64_t in_group = 0;
+  std::uint64_t elsewhere = 0;  ///< PairVerdict::elsewhere
+
+  FilteredPairs& operator+=(const FilteredPairs& more) {
+    fixed += more.fixed;
+    by_layer += more.by_layer;
+    in_group += more.in_group;
+    elsewhere += more.elsewhere;
+    return *this;
+  }
+  FilteredPairs& operator-=(const FilteredPairs& fewer) {
+    fixed -= fewer.fixed;
+    by_layer -= fewer.by_layer;
+    in_group -= fewer.in_group;
+    elsewhere -= fewer.elsewhere;
+    return *this;
+  }
 };
 
 /// The filters of some objects together, such as those in a node of a tree.
@@ -54,16 +70,16 @@ class FilterClasses {
  public:
   FilterClasses();
 
-  /// Adds an object in the next slot.
-  void add(const FilterTraits& traits);
+  /// Adds an object in a slot, which is the next one, or was left free by `rename`.
+  void add(std::uint32_t slot, const FilterTraits& traits);
   /// Renames slots as BoxTree::rename does.
-  void rename(std::span<const std::uint32_t> new_slots);
+  void rename(std::span<const std::uint32_t> new_slots, std::size_t count);
 
   /// The numbers of all pairs that can never touch.
   [[nodiscard]] const FilteredPairs& filtered() const { return filtered_; }
   /// Whether there is a pair that can never touch.
   [[nodiscard]] bool filters_some() const {
-    return filtered_.fixed + filtered_.by_layer + filtered_.in_group > 0;
+    return filtered_.fixed + filtered_.by_layer + filtered_.in_group + filtered_.elsewhere > 0;
   }
   /// Whether there are so many sorts of objects that WantedFilter may let pairs pass that never touch.
   [[nodiscard]] bool needs_check() const { return bits_[shared_bit].count > 0; }

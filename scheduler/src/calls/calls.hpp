@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/pair_place.hpp"
 #include "base/spare_positions.hpp"
 #include "core/mesh/face_groups.hpp"
 #include "core/pair/self_exclusion.hpp"
@@ -28,6 +29,9 @@ struct AddObject {
   std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
   std::shared_ptr<const SelfExclusion> self;      ///< null unless it is tested against itself
   std::shared_ptr<const Mesh> mesh;               ///< the surface's
+  /// Object::serial, which no other object has. Without it, the object comes behind all others.
+  std::optional<std::uint64_t> serial = {};
+  PairPlace place = {};  ///< Object::place
 };
 struct RemoveObject {
   ObjectId object;

@@ -167,7 +167,7 @@ bool Staging::has_step_read(const Binding& binding) const {
 
 // ---- Calls
 
-ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+AddObject addition_of(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
   const FloatingPointScope scope;
   if (mesh == nullptr) throw Error("object '" + settings.name + "': there is no mesh");
   if (const auto problem = problem_of(settings)) throw Error(*problem);
@@ -177,7 +177,11 @@ ObjectId Staging::add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
                  settings, face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who),
                  {},       mesh};
   call.self = self_exclusion_of(*call.surface, settings);
-  const ObjectId object = call.object = ids_.allocate(std::move(mesh), settings);
+  return call;
+}
+
+ObjectId Staging::add(AddObject call) {
+  const ObjectId object = call.object = ids_.allocate(call.mesh, call.settings);
   Calls calls(queue_);
   try {
     calls.add(std::move(call));
@@ -254,6 +258,24 @@ void Staging::remove(ObjectId object) {
     ids_.lose(object.index, LostCalls::removal);
     pinned.keep();
   }
+}
+
+ObjectId Staging::name_ghost(const AddObject& ghost) {
+  const ObjectId id = ids_.allocate(ghost.mesh, ghost.settings);
+  ids_.publish(id);
+  return id;
+}
+
+void Staging::forget_ghost(ObjectId ghost) {
+  const ObjectIds::Pin pinned = ids_.pin(ghost);
+  if (pinned) (void)ids_.remove(ghost);
+}
+
+SparePositions::Loan Staging::copy_for_ghost(ObjectId ghost, const PositionView& positions) {
+  const ObjectIds::Pin pinned = ids_.pin(ghost);
+  SparePositions::Loan copy = ids_.lend_positions(*pinned, positions.size(), positions.is_double());
+  std::memcpy(copy->data(), positions.data(), positions.size() * positions.stride_bytes());
+  return copy;
 }
 
 /// Adds that an object jumps, where it is one of the scene.

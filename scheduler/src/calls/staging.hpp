@@ -23,6 +23,9 @@
 
 namespace graze {
 
+/// Makes the call that adds an object, without its id. Throws Error for a missing mesh or bad settings.
+[[nodiscard]] AddObject addition_of(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
+
 /// Queues the calls on a scene from any thread, in the order in which they were made, until a step collects
 /// them. Ids are checked here, so an id is valid or stale at the moment of the call. No call waits for
 /// another thread, except calls that bind, unbind, or otherwise end a binding, and those that replace meshes.
@@ -37,7 +40,11 @@ namespace graze {
 class Staging {
  public:
   /// Throws Error for a missing mesh or bad settings, and std::bad_alloc. Nothing has changed then.
-  ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings);
+  ObjectId add(std::shared_ptr<const Mesh> mesh, const ObjectSettings& settings) {
+    return add(addition_of(std::move(mesh), settings));
+  }
+  /// Adds an object by a call that has no id yet.
+  ObjectId add(AddObject call);
   /// Throws Error for a missing mesh or lists that do not fit, and std::bad_alloc. Nothing has changed then.
   void replace_mesh(ObjectId object, std::shared_ptr<const Mesh> mesh,
                     std::span<const std::uint32_t> new_of_old, std::span<const std::uint8_t> face_groups);
@@ -69,6 +76,14 @@ class Staging {
   void repeat(OneCall call) {
     CallQueue::Chain(queue_).add(std::move(call));
   }
+
+  // Of a GhostSource, which gives its objects to the store by itself.
+  /// Returns the id of a ghost.
+  [[nodiscard]] ObjectId name_ghost(const AddObject& ghost);
+  /// Frees that id. The object is removed from the store.
+  void forget_ghost(ObjectId ghost);
+  /// Copies packed positions of a ghost, one for each of its vertices.
+  [[nodiscard]] SparePositions::Loan copy_for_ghost(ObjectId ghost, const PositionView& positions);
 
   /// Pins the object that an id names. The pin is empty if it names none.
   [[nodiscard]] ObjectIds::Pin find(ObjectId object) { return ids_.pin(object); }

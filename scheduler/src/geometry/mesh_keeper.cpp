@@ -13,13 +13,10 @@ KeptHandle<KeptMeshes> MeshKeeper::keep() {
   KeptMeshes& now = lists_.next();
   if (last.get() != nullptr) now.begin_with(*last.get());
   for (const DepartedObject& departed : store_.departed()) now.set(departed.id, nullptr);
-  const auto objects = store_.objects();
-  for (auto object = objects.rbegin(); object != objects.rend() && (*object)->serial >= seen_serial_;
-       ++object)
-    now.set((*object)->id, (*object)->users_mesh);
+  store_.visit_arrived(seen_arrival_, [&](const Object& object) { now.set(object.id, object.users_mesh); });
   if (store_.some_replaced())
     for (const Object* const object : store_.replaced()) now.set(object->id, object->users_mesh);
-  seen_serial_ = store_.next_serial();
+  seen_arrival_ = store_.next_arrival();
   seen_departures_ = departures;
   byte_count_ = lists_.byte_count() + now.byte_count_of_parts();
   return lists_.last();

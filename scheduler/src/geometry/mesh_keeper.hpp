@@ -23,7 +23,7 @@ class MeshKeeper {
  private:
   const ObjectStore& store_;
   KeptPool<KeptMeshes> lists_;
-  std::uint64_t seen_serial_ = 0;      ///< that of the next object, at the last list
+  std::uint64_t seen_arrival_ = 0;     ///< that of the next object, at the last list
   std::uint64_t seen_departures_ = 0;  ///< ObjectStore::arrivals_and_departures, then
   std::size_t byte_count_ = 0;
 };

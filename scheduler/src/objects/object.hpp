@@ -22,6 +22,7 @@
 #include "core/pair/self_exclusion.hpp"
 #include "core/surface/surface.hpp"
 #include "core/sweep/swept_surface.hpp"
+#include "objects/filter_traits.hpp"
 
 namespace graze {
 
@@ -159,6 +160,8 @@ struct ObjectSweep {
 struct Object {
   ObjectId id;
   std::uint64_t serial = 0;  ///< ascends in the order of addition. It is never reused
+  /// The number of objects that came before. It is the serial, unless objects come with serials of their own.
+  std::uint64_t arrival = 0;
   ObjectSettings settings;
   std::shared_ptr<const FaceGroups> face_groups;  ///< null if all faces are in group 0, and none is hidden
   std::shared_ptr<const SelfExclusion> self;      ///< null unless it is tested against itself
@@ -166,6 +169,7 @@ struct Object {
   const IndexedMesh* mesh = nullptr;              ///< the surface's
   std::shared_ptr<const Mesh> users_mesh;         ///< the same, as the caller gave it
   bool in_parts = false;                          ///< it is large, so several tasks read and refit it
+  PairPlace place;                                ///< says where its pairs are tested
   std::uint64_t mesh_number = 0;                  ///< how often its mesh was replaced (NamedMesh)
   std::unique_ptr<ReplacedMesh> replaced;         ///< null, unless that was after the last report
 
@@ -242,6 +246,12 @@ struct Object {
     return *owned_surface;
   }
 };
+
+inline FilterTraits filter_traits_of(const Object& object) {
+  const ObjectSettings& settings = object.settings;
+  return {settings.group, settings.layer, settings.collides_with, settings.motion == Motion::fixed,
+          object.place};
+}
 
 /// Checks after a read that each object's state is one that can be. Does nothing without GRAZE_VALIDATE.
 void validate(std::span<const std::unique_ptr<Object>> objects);

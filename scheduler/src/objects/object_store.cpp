@@ -57,13 +57,14 @@ const Object* ObjectStore::find_serial(std::uint64_t serial) const {
 
 /// Takes up the settings of an object that is added. Objects that may be in swept pairs from now on are read
 /// in the next step if they are unread.
-void ObjectStore::take_up_sweep(const ObjectSettings& settings) {
-  if (!swept_.take_up(settings)) return;
+bool ObjectStore::take_up_sweep(const ObjectSettings& settings) {
+  if (!swept_.take_up(settings)) return false;
   for (const auto& object : objects_) {
     if (object == nullptr || object->sweep != nullptr || !swept_.may_meet(object->settings)) continue;
     make_sweep(*object, *object->mesh);
     if (object->is_unread()) reads_.expect(*object);
   }
+  return true;
 }
 
 void ObjectStore::make_sweep(Object& object, const IndexedMesh& mesh) const {
@@ -76,12 +77,16 @@ void ObjectStore::apply(AddObject& call) {
   take_up_sweep(call.settings);
   auto object = std::make_unique<Object>();
   if (swept_.some() && swept_.may_meet(call.settings)) make_sweep(*object, call.surface->mesh());
+  const std::uint64_t serial = call.serial.value_or(next_serial_);
+  const bool is_inserted = serial < next_serial_;
   make_room_for_one(serials_);
-  make_room_for_one(objects_);
+  make_room_for_one(is_inserted ? inserted_ : objects_);
   if (by_index_.size() <= call.object.index) by_index_.resize(call.object.index + std::size_t{1}, nullptr);
   // From here on nothing throws.
   object->id = call.object;
-  object->serial = next_serial_++;
+  object->serial = serial;
+  object->arrival = next_arrival_++;
+  object->place = call.place;
   object->settings = std::move(call.settings);
   object->face_groups = std::move(call.face_groups);
   object->self = std::move(call.self);
@@ -89,9 +94,14 @@ void ObjectStore::apply(AddObject& call) {
   put_surface(*object, std::move(call.surface));
   bytes_.count(*object);
   by_index_[call.object.index] = object.get();
-  serials_.push_back(object->serial);
-  objects_.push_back(std::move(object));
   will_have_changed_ = true;
+  if (is_inserted) {
+    ++insertions_;
+    return inserted_.push_back(std::move(object));
+  }
+  next_serial_ = serial + 1;
+  serials_.push_back(serial);
+  objects_.push_back(std::move(object));
 }
 
 /// The object is what an added one would be. But a posed one keeps its pose, or waits for a good one still.
@@ -114,6 +124,8 @@ void ObjectStore::apply(ReplaceMesh& call) {
   Object now;
   now.id = object->id;
   now.serial = object->serial;
+  now.arrival = object->arrival;
+  now.place = object->place;
   now.settings = std::move(object->settings);
   now.settings.face_groups = std::move(call.group_of_face);
   now.face_groups = std::move(call.face_groups);
@@ -147,6 +159,7 @@ void ObjectStore::apply(const RemoveObject& call) {
   if (object == nullptr) return;
   make_room_for_one(removed_);
   make_room_for_one(departed_);
+  sort_in_inserted();
   by_index_[call.object.index] = nullptr;
   bytes_.leave_out(*object);
   object->removed = true;
@@ -305,6 +318,31 @@ void ObjectStore::forget() noexcept {
   last_failed_ = true;
 }
 
+/// Sorts the inserted objects in. If there is no memory for that, nothing has changed.
+void ObjectStore::sort_in_inserted() {
+  if (inserted_.empty()) return;
+  const std::size_t before = objects_.size();
+  objects_.reserve(before + inserted_.size());
+  serials_.reserve(before + inserted_.size());
+  const auto precedes = [](const auto& left, const auto& right) { return left->serial < right->serial; };
+  std::sort(inserted_.begin(), inserted_.end(), precedes);
+  // From the back, so that each moves once. The slot of a removed object is null, and keeps its serial.
+  objects_.resize(before + inserted_.size());
+  serials_.resize(objects_.size());
+  std::size_t from = before;
+  for (std::size_t to = objects_.size(); !inserted_.empty(); --to) {
+    if (from > 0 && serials_[from - 1] > inserted_.back()->serial) {
+      --from;
+      serials_[to - 1] = serials_[from];
+      objects_[to - 1] = std::move(objects_[from]);
+    } else {
+      serials_[to - 1] = inserted_.back()->serial;
+      objects_[to - 1] = std::move(inserted_.back());
+      inserted_.pop_back();
+    }
+  }
+}
+
 void ObjectStore::drop_removed() {
   if (removed_.empty()) return;
   reads_.drop_removed();
@@ -334,6 +372,7 @@ void ObjectStore::read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagn
   const bool has_changed = std::exchange(will_have_changed_, false);
   ++steps_;
   swept_.begin_step(std::exchange(last_failed_, false));
+  sort_in_inserted();
   drop_removed();
   if (!std::exchange(promises_count_, true))
     for (const auto& object : objects_) object->promises.motion = Promises::any_distance;
@@ -350,6 +389,13 @@ void ObjectStore::read_unread(std::span<Object* const> wanted, TaskPool& tasks,
   will_have_changed_ = true;
 }
 
+void ObjectStore::read_ghosts(std::span<Object* const> ghosts, TaskPool& tasks,
+                              std::vector<Diagnostic>& diagnostics) {
+  reads_.read_ghosts(ghosts, reads_of_step(), tasks, diagnostics);
+  mark_new_seen();
+  validate(objects_);
+}
+
 ReadsOfStep ObjectStore::reads_of_step() const {
   return {first_unseen_, objects_.size(), observer_};
 }
@@ -361,11 +407,9 @@ void ObjectStore::mark_new_seen() {
     if (!has_input(object)) object.promises.motion = 0;
     object.is_unplaced = object.frozen && !std::exchange(object.is_settled, false);
   };
-  for (auto object = objects_.rbegin(); object != objects_.rend() && (*object)->serial >= first_unseen_;
-       ++object)
-    mark(**object);
+  visit_arrived(first_unseen_, mark);
   for (Object* const object : replaced_) mark(*object);
-  first_unseen_ = next_serial_;
+  first_unseen_ = next_arrival_;
 }
 
 }  // namespace graze

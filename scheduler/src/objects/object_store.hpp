@@ -45,6 +45,9 @@ class ObjectStore {
   void apply(UnbindPositions& call, std::vector<Diagnostic>& diagnostics);
   void apply(const PositionsChanged& call);
   void apply(const MarkTeleport& call);
+  /// Takes up the layers and masks of objects that are swept elsewhere, and returns whether that lets more
+  /// objects be in swept pairs. They are read in the next step.
+  bool take_up_sweep(const ObjectSettings& settings);
   /// Reserves memory for that many objects.
   void reserve(std::size_t count);
   /// Reserves memory for the ways of all objects that may be in swept pairs, also of those that come later.
@@ -59,6 +62,14 @@ class ObjectStore {
   void read_positions(TaskPool& tasks, std::vector<Diagnostic>& diagnostics, MemoryObserver* observer);
   /// Reads the objects in `wanted`, which are unread, listed once each and planned to be read.
   void read_unread(std::span<Object* const> wanted, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
+
+  /// Reads objects to which a GhostSource has given a pose or positions. Each is listed once.
+  void read_ghosts(std::span<Object* const> ghosts, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
+  /// Sorts in the objects that came since `read_positions`, and drops those that went.
+  void sort_ghosts() {
+    sort_in_inserted();
+    drop_removed();
+  }
 
   /// Ignores all promises made before the next read. Call it after a step that failed at any point, even
   /// before it began, since the caller may count from positions that no step has seen.
@@ -80,8 +91,21 @@ class ObjectStore {
   [[nodiscard]] bool is_outdated(const SetPositions& call) const;
   /// The serial of the next object that is added.
   [[nodiscard]] std::uint64_t next_serial() const { return next_serial_; }
+  /// The arrival of the next object that is added.
+  [[nodiscard]] std::uint64_t next_arrival() const { return next_arrival_; }
   /// A number that grows whenever objects come or go: how many did either.
-  [[nodiscard]] std::uint64_t arrivals_and_departures() const { return 2 * next_serial_ - objects_.size(); }
+  [[nodiscard]] std::uint64_t arrivals_and_departures() const { return 2 * next_arrival_ - objects_.size(); }
+  /// How many objects have come before others that were there.
+  [[nodiscard]] std::uint64_t insertions() const { return insertions_; }
+  /// Calls `visit(object)` with each object whose arrival is at least `arrival`. Valid after
+  /// `read_positions`.
+  template <typename Visit>
+  void visit_arrived(std::uint64_t arrival, const Visit& visit) const {
+    // Where none was inserted, they are the last.
+    for (auto object = objects_.rbegin();
+         object != objects_.rend() && (insertions_ > 0 || (*object)->arrival >= arrival); ++object)
+      if ((*object)->arrival >= arrival) visit(**object);
+  }
   /// The object of a serial, or null.
   [[nodiscard]] const Object* find_serial(std::uint64_t serial) const;
   /// Whether a step has seen the object at a place of its own, with the mesh that it has.
@@ -111,9 +135,9 @@ class ObjectStore {
   [[nodiscard]] std::size_t byte_count() const;
 
  private:
-  void take_up_sweep(const ObjectSettings& settings);
   void make_sweep(Object& object, const IndexedMesh& mesh) const;
-  [[nodiscard]] bool is_new(const Object& object) const { return object.serial >= first_unseen_; }
+  [[nodiscard]] bool is_new(const Object& object) const { return object.arrival >= first_unseen_; }
+  void sort_in_inserted();
   void drop_removed();
   void mark_new_seen();
   [[nodiscard]] ReadsOfStep reads_of_step() const;
@@ -130,10 +154,13 @@ class ObjectStore {
   std::vector<Object*> by_index_;
   std::vector<std::unique_ptr<Object>> removed_;
   std::vector<DepartedObject> departed_;
-  std::vector<Object*> replaced_;  ///< objects with another mesh since the last report
+  std::vector<Object*> replaced_;                  ///< objects with another mesh since the last report
+  std::vector<std::unique_ptr<Object>> inserted_;  ///< that come amid `objects_` before the next read
   std::uint64_t next_serial_ = 0;
+  std::uint64_t next_arrival_ = 0;
+  std::uint64_t insertions_ = 0;
   std::uint64_t steps_ = 0;         ///< the number of steps that have read positions
-  std::uint64_t first_unseen_ = 0;  ///< the serial of the first object that no step has seen
+  std::uint64_t first_unseen_ = 0;  ///< the arrival of the first object that no step has seen
   bool promises_count_ = true;
   bool will_have_changed_ = false;  ///< `changed` holds at the next `read_positions`, whatever it reads
 };

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace graze {
 namespace {
@@ -14,7 +15,7 @@ constexpr double nanoseconds_each_summary = 20;
 
 ObjectSummary summary_of(const Object& object) {
   ObjectSummary summary;
-  static_cast<FilterTraits&>(summary) = filter_traits_of(object.settings);
+  static_cast<FilterTraits&>(summary) = filter_traits_of(object);
   summary.box = object.box;
   summary.margin = object.settings.margin;
   summary.serial = object.serial;
@@ -30,25 +31,39 @@ double shift_of(const Box& before, const Box& now) {
 
 }  // namespace
 
-/// Serials ascend, so an equal count and an equal last serial mean that the objects are the same.
-void ObjectSummaries::update_slots(std::span<const std::unique_ptr<Object>> objects) {
+/// Walks the objects before and now side by side, since serials ascend in both. Without insertions, an equal
+/// count and an equal last serial mean that they are the same. A serial may come again with another arrival.
+void ObjectSummaries::update_slots(std::span<const std::unique_ptr<Object>> objects,
+                                   std::uint64_t insertions) {
   new_slots_.clear();
   const std::size_t before = summaries_.size();
-  if (objects.size() == before && (before == 0 || objects.back()->serial == summaries_.back().serial)) return;
-  std::uint32_t now = 0;
+  const bool some_inserted = std::exchange(insertions_, insertions) != insertions;
+  if (!some_inserted && objects.size() == before &&
+      (before == 0 || objects.back()->serial == summaries_.back().serial))
+    return;
   new_slots_.resize(before);
-  for (std::size_t slot = 0; slot < before; ++slot) {
-    const bool stays = now < objects.size() && objects[now]->serial == summaries_[slot].serial;
-    new_slots_[slot] = stays ? now : no_slot;
-    if (stays) summaries_[now++] = summaries_[slot];
+  bool some_move = false;
+  std::uint32_t now = 0;
+  for (std::uint32_t slot = 0; slot < before; ++slot) {
+    const std::uint64_t serial = summaries_[slot].serial;
+    while (now < objects.size() && objects[now]->serial < serial) ++now;
+    const bool stays =
+        now < objects.size() && objects[now]->serial == serial && objects[now]->arrival == arrivals_[slot];
+    new_slots_[slot] = stays ? now++ : no_slot;
+    some_move = some_move || new_slots_[slot] != slot;
   }
-  summaries_.resize(now);
-  if (now == before) new_slots_.clear();
-  for (; now < objects.size(); ++now) summaries_.push_back(summary_of(*objects[now]));
+  if (!some_move) new_slots_.clear();
+  renumber(summaries_, new_slots_, objects.size());
+  renumber(arrivals_, new_slots_, objects.size());
+  visit_new_slots(new_slots_, before, objects.size(), [&](std::uint32_t slot) {
+    summaries_[slot] = summary_of(*objects[slot]);
+    arrivals_[slot] = objects[slot]->arrival;
+  });
 }
 
-void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks) {
-  update_slots(objects);
+void ObjectSummaries::refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks,
+                              std::uint64_t insertions) {
+  update_slots(objects, insertions);
   changed_.resize(objects.size());
   std::atomic<bool> some_unread = false;
   const auto refresh_slice = [&](unsigned, std::size_t index) {

@@ -40,8 +40,10 @@ struct SweptSummary {
 /// The summaries of all objects in one array, in the order of addition. Stepping thread only.
 class ObjectSummaries {
  public:
-  /// Updates all summaries. The box of a new object counts as unmoved.
-  void refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks);
+  /// Updates all summaries. The box of a new object counts as unmoved. `insertions` is
+  /// ObjectStore::insertions.
+  void refresh(std::span<const std::unique_ptr<Object>> objects, TaskPool& tasks,
+               std::uint64_t insertions = 0);
   /// Updates the summaries of objects that were read after the last full refresh.
   void refresh(std::span<Object* const> read_late);
 
@@ -62,7 +64,7 @@ class ObjectSummaries {
   /// The slot of the object of a serial, or no_slot.
   [[nodiscard]] std::uint32_t find_slot(std::uint64_t serial) const;
   /// The new slot of each object that existed before the last refresh, or no_slot for a removed one. It is
-  /// empty if no slot has changed. New objects get the last slots.
+  /// empty if no slot has changed. New objects get the last slots, or those between that are free.
   [[nodiscard]] std::span<const std::uint32_t> new_slots() const { return new_slots_; }
   [[nodiscard]] bool some_unread() const { return some_unread_; }
   /// Whether an object may have changed since the refresh before, or is unread. It means nothing for new
@@ -73,22 +75,26 @@ class ObjectSummaries {
   /// Reserves memory for that many objects.
   void reserve(std::size_t objects) {
     summaries_.reserve(objects);
+    arrivals_.reserve(objects);
     new_slots_.reserve(objects);
     changed_.reserve(objects);
   }
   [[nodiscard]] std::size_t byte_count() const {
-    return bytes_of(summaries_) + bytes_of(new_slots_) + bytes_of(changed_) + bytes_of(sweeps_);
+    return bytes_of(summaries_) + bytes_of(arrivals_) + bytes_of(new_slots_) + bytes_of(changed_) +
+           bytes_of(sweeps_);
   }
 
  private:
   /// Removes the summaries of removed objects and adds those of new ones.
-  void update_slots(std::span<const std::unique_ptr<Object>> objects);
+  void update_slots(std::span<const std::unique_ptr<Object>> objects, std::uint64_t insertions);
 
   std::vector<ObjectSummary> summaries_;
+  std::vector<std::uint64_t> arrivals_;  ///< Object::arrival of each
   std::vector<std::uint32_t> new_slots_;
   std::vector<std::uint8_t> changed_;  ///< in one array, since every pair reads it for both objects
   std::vector<SweptSummary> sweeps_;   ///< in an array of their own, for the scenes that have them
   bool some_unread_ = false;
+  std::uint64_t insertions_ = 0;  ///< of the last refresh
 };
 
 }  // namespace graze

@@ -174,6 +174,25 @@ void PositionReads::read_unread(std::span<Object* const> wanted, const ReadsOfSt
   for (Object* const object : wanted) show_memory(*object);
 }
 
+void PositionReads::read_ghosts(std::span<Object* const> ghosts, const ReadsOfStep& step, TaskPool& tasks,
+                                std::vector<Diagnostic>& diagnostics) {
+  begin(step);
+  make_room(planned_, ghosts.size());
+  make_room(found_, ghosts.size());
+  for (Object* const object : ghosts) {
+    // A ghost is near what is here, so it is never only surveyed.
+    add_promise(*object);
+    object->end_view();
+    object->demand = Demand::nothing;
+    object->goes_by_lists = false;
+    object->plan = with_blocks_ ? ReadPlan::read_with_blocks : ReadPlan::read;
+    object->state = ReadState::read;
+    list_planned(*object);
+  }
+  read_all({}, nanoseconds_of(ghosts.size(), vertices_to_read_), tasks);
+  report_problems(diagnostics);
+}
+
 /// Decides how an object with input is read. It stays unread if promises allow that.
 bool PositionReads::plan(Object& object, Counts& counts) const {
   if (stays_unread(object)) {

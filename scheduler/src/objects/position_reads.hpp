@@ -29,7 +29,7 @@ class MemoryObserver {
 
 /// The step that reads belong to.
 struct ReadsOfStep {
-  std::uint64_t first_unseen = 0;      ///< the serial of the first object that no step has seen
+  std::uint64_t first_unseen = 0;      ///< the arrival of the first object that no step has seen
   std::size_t objects = 0;             ///< how many there are
   MemoryObserver* observer = nullptr;  ///< null where nobody looks
 };
@@ -62,6 +62,9 @@ class PositionReads {
   void read(const ReadsOfStep& step, bool has_changed, TaskPool& tasks, std::vector<Diagnostic>& diagnostics);
   /// Reads the objects in `wanted`, which were left unread or surveyed in this step.
   void read_unread(std::span<Object* const> wanted, const ReadsOfStep& step, TaskPool& tasks,
+                   std::vector<Diagnostic>& diagnostics);
+  /// Reads objects that came into a step after `read`, or moved then.
+  void read_ghosts(std::span<Object* const> ghosts, const ReadsOfStep& step, TaskPool& tasks,
                    std::vector<Diagnostic>& diagnostics);
   /// Forgets which objects are listed twice or not at all, after a step that failed. No object counts as
   /// listed when it is called.
@@ -100,7 +103,7 @@ class PositionReads {
     bool changed = false;
   };
 
-  [[nodiscard]] bool is_new(const Object& object) const { return object.serial >= step_.first_unseen; }
+  [[nodiscard]] bool is_new(const Object& object) const { return object.arrival >= step_.first_unseen; }
   void begin(const ReadsOfStep& step);
   void drop_those_without_input();
   void make_room_for_late();

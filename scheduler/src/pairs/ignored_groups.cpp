@@ -9,9 +9,8 @@ void IgnoredGroups::set(const Object& a, std::uint8_t group_a, const Object& b, 
   auto found = pairs_.find(serials);
   if (found == pairs_.end()) {
     if (!ignored) return;
-    const bool counts =
-        a.serial != b.serial &&
-        lasting_verdict(filter_traits_of(a.settings), filter_traits_of(b.settings)) == PairVerdict::tested;
+    const bool counts = a.serial != b.serial &&
+                        lasting_verdict(filter_traits_of(a), filter_traits_of(b)) == PairVerdict::tested;
     found = pairs_.emplace(serials, Known{GroupFilter(a.face_groups, b.face_groups), counts}).first;
   }
   changed.add(serials);

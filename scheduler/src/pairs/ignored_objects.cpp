@@ -13,7 +13,7 @@ PairSet::Pair sorted_pair(std::uint64_t serial_a, std::uint64_t serial_b) {
 }
 
 bool is_counted(const Object& a, const Object& b) {
-  return lasting_verdict(filter_traits_of(a.settings), filter_traits_of(b.settings)) == PairVerdict::tested;
+  return lasting_verdict(filter_traits_of(a), filter_traits_of(b)) == PairVerdict::tested;
 }
 
 }  // namespace

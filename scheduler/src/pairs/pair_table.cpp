@@ -19,7 +19,7 @@ PairList PairTable::list(const FrameReport& previous, std::span<Object* const> t
   const auto objects = store_.objects();
   statistics.objects = objects.size();
   statistics.pairs_total = objects.empty() ? 0 : std::uint64_t{objects.size()} * (objects.size() - 1) / 2;
-  summaries_.refresh(objects, tasks);
+  summaries_.refresh(objects, tasks, store_.insertions());
   if (store_.swept().some()) summaries_.take_up_sweeps(objects, store_.swept());
   find_listed(previous);
   find_ended(previous);

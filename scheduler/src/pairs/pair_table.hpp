@@ -41,6 +41,9 @@ class PairTable {
   /// The jobs of the last `list`.
   [[nodiscard]] std::span<PairJob> jobs() { return jobs_; }
 
+  /// Lets the next `list` look up the rows of the report that it is given.
+  void forget_rows() { rows_frame_ = ~std::uint64_t{0}; }
+
   /// Begins the list of a report's rows, which are added in its order.
   void begin_rows(std::uint64_t frame);
   void add_row(const PairJob& job) { add_row(job.slots); }

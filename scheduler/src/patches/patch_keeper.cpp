@@ -24,12 +24,12 @@ std::span<Object* const> PatchKeeper::tools() {
 /// once.
 void PatchKeeper::list_tools() {
   std::erase_if(tools_, [&](const auto& tool) { return store_.find_serial(tool->serial()) == nullptr; });
-  const auto objects = store_.objects();
-  auto first = objects.end();
-  while (first != objects.begin() && (*(first - 1))->serial >= seen_serial_) --first;
-  for (; first != objects.end(); ++first)
-    if ((*first)->settings.patch_radius > 0) tools_.push_back(std::make_unique<PatchTool>(**first));
-  seen_serial_ = store_.next_serial();
+  store_.visit_arrived(seen_arrival_, [&](Object& object) {
+    if (object.settings.patch_radius > 0) tools_.push_back(std::make_unique<PatchTool>(object));
+  });
+  std::sort(tools_.begin(), tools_.end(),
+            [](const auto& left, const auto& right) { return left->serial() < right->serial(); });
+  seen_arrival_ = store_.next_arrival();
   objects_.clear();
   for (const auto& tool : tools_) objects_.push_back(&tool->object());
   listed_at_ = store_.arrivals_and_departures();

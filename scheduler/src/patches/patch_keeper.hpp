@@ -47,8 +47,8 @@ class PatchKeeper {
   ObjectStore& store_;
   std::vector<std::unique_ptr<PatchTool>> tools_;  ///< in the order of addition
   std::vector<Object*> objects_;                   ///< of these
-  std::uint64_t listed_at_ = 0;    ///< ObjectStore::arrivals_and_departures, when they were listed
-  std::uint64_t seen_serial_ = 0;  ///< that of the next object, then
+  std::uint64_t listed_at_ = 0;     ///< ObjectStore::arrivals_and_departures, when they were listed
+  std::uint64_t seen_arrival_ = 0;  ///< that of the next object, then
   PatchSources sources_;
   std::vector<Object*> to_refit_;
   KeptPool<KeptPatches> patches_;

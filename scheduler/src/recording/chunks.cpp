@@ -90,7 +90,7 @@ Record read_record(ByteSource& source) {
   return read_record_of(source, kind, std::make_index_sequence<std::variant_size_v<Record>>());
 }
 
-void write_mesh(ByteBuffer& chunk, const IndexedMesh& mesh, std::uint64_t number) {
+MeshChunk mesh_chunk_of(const IndexedMesh& mesh) {
   MeshChunk written;
   written.rest = PositionView(mesh.rest());
   for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
@@ -98,15 +98,23 @@ void write_mesh(ByteBuffer& chunk, const IndexedMesh& mesh, std::uint64_t number
     written.corners.insert(written.corners.end(), corners.begin(), corners.end());
     written.corner_counts.push_back(static_cast<std::uint8_t>(corners.size()));
   }
+  return written;
+}
+
+void write_mesh(ByteBuffer& chunk, const IndexedMesh& mesh, std::uint64_t number) {
   begin_chunk(chunk);
-  write_fields(chunk, written);
+  write_fields(chunk, mesh_chunk_of(mesh));
   seal_chunk(chunk, ChunkKind::mesh, number);
+}
+
+Mesh mesh_in(const MeshChunk& chunk) {
+  return Mesh::from_polygons(chunk.rest, chunk.corners, chunk.corner_counts);
 }
 
 std::shared_ptr<const Mesh> read_mesh(ByteSource& source) {
   MeshChunk read;
   source(read);
-  return std::make_shared<const Mesh>(Mesh::from_polygons(read.rest, read.corners, read.corner_counts));
+  return std::make_shared<const Mesh>(mesh_in(read));
 }
 
 }  // namespace graze

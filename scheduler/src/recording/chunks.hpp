@@ -156,6 +156,9 @@ void visit_records(ByteSource& source, std::uint64_t count, const Visit& visit) 
   for (std::uint64_t i = 0; i < count; ++i) visit(read_record(source));
 }
 
+[[nodiscard]] MeshChunk mesh_chunk_of(const IndexedMesh& mesh);
+/// The mesh of a chunk.
+[[nodiscard]] Mesh mesh_in(const MeshChunk& chunk);
 /// The chunk of a mesh.
 void write_mesh(ByteBuffer& chunk, const IndexedMesh& mesh, std::uint64_t number);
 [[nodiscard]] std::shared_ptr<const Mesh> read_mesh(ByteSource& source);

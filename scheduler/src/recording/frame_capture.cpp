@@ -183,8 +183,8 @@ void FrameCapture::add_freezing_call(const Object& object) {
 }
 
 void FrameCapture::add(const AddObject& call) {
-  add_record(
-      AddRecord{call.object, store_->next_serial(), number_of(call.surface->shared_mesh()), call.settings});
+  add_record(AddRecord{call.object, call.serial.value_or(store_->next_serial()),
+                       number_of(call.surface->shared_mesh()), call.settings});
 }
 
 void FrameCapture::add(const ReplaceMesh& call) {

@@ -39,7 +39,7 @@ Step::Step(const SceneSettings& settings, SceneContent& content, Staging& stagin
       meshes_(store_),
       patches_(tasks_, store_) {}
 
-void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* capture) {
+void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* capture, GhostSource* ghosts) {
   const Clock::time_point start = Clock::now();
   Lap lap(start);
   ReportBuilder builder(report);
@@ -47,6 +47,10 @@ void Step::run(const FrameReport& previous, FrameReport& report, FrameCapture* c
 
   apply_calls(builder.diagnostics(), capture);
   store_.read_positions(tasks_, builder.diagnostics(), capture);
+  if (ghosts != nullptr) {
+    ghosts->bring(store_, pairs_.filter(), tasks_);
+    can_repeat_report_ = false;
+  }
   builder.set_geometry(geometry_.keep());
   builder.set_meshes(meshes_.keep());
   statistics.times.read_ms = lap();

@@ -17,6 +17,7 @@
 #include "recording/frame_capture.hpp"
 #include "report/report_builder.hpp"
 #include "report/report_pool.hpp"
+#include "step/ghost_source.hpp"
 #include "step/row_writer.hpp"
 #include "step/scene_content.hpp"
 #include "step/step_reserve.hpp"
@@ -29,8 +30,14 @@ class Step {
   Step(const SceneSettings& settings, SceneContent& content, Staging& staging, ReportPool& reports);
 
   /// Fills `report`, the last one that the pool has begun, which follows `previous`. If it throws, neither
-  /// the report nor this object can be used again. `capture` sees what is taken up, unless it is null.
-  void run(const FrameReport& previous, FrameReport& report, FrameCapture* capture);
+  /// the report nor this object can be used again. `capture` sees what is taken up, and `ghosts` brings more
+  /// objects, unless they are null.
+  void run(const FrameReport& previous, FrameReport& report, FrameCapture* capture, GhostSource* ghosts);
+  /// Lets the next step look its pairs up in the report that it is given, which has other rows than the last.
+  void expect_other_rows() {
+    pairs_.forget_rows();
+    can_repeat_report_ = false;
+  }
   /// Reserves memory ahead of time, unless all numbers are 0.
   void reserve(const SceneCapacity& capacity) { reserve_.reserve(capacity); }
 

@@ -53,11 +53,14 @@ std::unique_ptr<Step> Stepper::begun_afresh() {
 
 void Stepper::fill(FrameReport& report, std::uint64_t tag) {
   ReportBuilder builder(report);
-  const ReportHandle previous = reports_.latest();
-  builder.begin(previous->frame() + 1, tag);
+  const ReportHandle latest = reports_.latest();
+  const std::unique_ptr<const FrameReport> other = std::move(other_previous_);
+  if (other != nullptr) step_->expect_other_rows();
+  const FrameReport& previous = other != nullptr ? *other : *latest;
+  builder.begin(previous.frame() + 1, tag);
   if (!untold_.empty()) builder.diagnostics().swap(untold_);
   try {
-    step_->run(*previous, report, capture_.get());
+    step_->run(previous, report, capture_.get(), ghosts_);
   } catch (...) {
     untold_.swap(builder.diagnostics());
     step_.reset();

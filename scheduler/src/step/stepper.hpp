@@ -33,6 +33,14 @@ class Stepper {
   /// Lets a recorder see the steps from the next one on, until it is closed.
   void attach(std::shared_ptr<FrameCapture> capture) { capture_ = std::move(capture); }
 
+  /// Lets a source bring ghosts, which are objects into all steps from the next one on. It stays, unless it
+  /// is null.
+  void take_ghosts_from(GhostSource* ghosts) { ghosts_ = ghosts; }
+  /// Lets the next step go on from another report of the last frame, as if it had been published.
+  void go_on_from(std::unique_ptr<const FrameReport> report) { other_previous_ = std::move(report); }
+  /// What steps do not change but by calls.
+  [[nodiscard]] SceneContent& content() { return content_; }
+
   /// Collects the calls made so far for the next `run`.
   void collect_calls() { staging_.collect(); }
   /// Fills and publishes the next report, with the caller's tag.
@@ -50,8 +58,10 @@ class Stepper {
   ReportPool& reports_;
   SceneContent content_;
   std::shared_ptr<FrameCapture> capture_;  ///< null where nobody records
-  std::unique_ptr<Step> step_;             ///< null after a failed step
-  std::vector<Diagnostic> untold_;         ///< diagnostics of a failed step, not reported yet
+  GhostSource* ghosts_ = nullptr;          ///< null where all objects are this process's
+  std::unique_ptr<const FrameReport> other_previous_;
+  std::unique_ptr<Step> step_;      ///< null after a failed step
+  std::vector<Diagnostic> untold_;  ///< diagnostics of a failed step, not reported yet
 };
 
 }  // namespace graze
