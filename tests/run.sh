@@ -85,14 +85,14 @@ if [ "$runs" = platforms ]; then
 elif [ "$runs" = all ]; then
   run_lint text order tidy
   # In batches, which takes half as long. The libraries take as many instructions as compiled one by one.
-  build_preset release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DGRAZE_TEST_OPTIONS=-O1
+  build_preset release -DGRAZE_MPI=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DGRAZE_TEST_OPTIONS=-O1
   test_preset release
   run_sanitizers
 else
   run_lint text order
   # One test builds graze once more, as shared libraries, and two build many programs against what is installed. To count
   # instructions takes two minutes.
-  build_preset check
+  build_preset check -DGRAZE_MPI=ON
   test_preset check --exclude-regex '^contract_(static|shared)$|^instructions$'
 fi
 

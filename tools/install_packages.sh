@@ -9,7 +9,7 @@ set -eu
 packages="g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libassimp-dev assimp-testmodels libspdlog-dev
   nlohmann-json3-dev libcli11-dev libpng-dev zlib1g-dev"
 [ "${1:-}" = demo ] || packages="$packages libtinyobjloader-dev catch2 libgmp-dev clang libclang-rt-dev locales gnuplot-nox
-  libmd4c-html0-dev libmd4c-dev chromium
+  libmd4c-html0-dev libmd4c-dev chromium libopenmpi-dev openmpi-bin
   python3 python3-numpy python3-venv python3-build python3-setuptools python3-wheel"
 [ "${1:-}" != platforms ] || packages="$packages g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64
   emscripten"

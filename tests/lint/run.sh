@@ -78,8 +78,10 @@ check_order() {
 # configure ON|OFF: writes down how the sources are compiled, in batches or each by itself.
 configure() {
   mkdir -p "$build"
+  mpi=OFF
+  if command -v mpicxx >/dev/null; then mpi=ON; fi
   cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DGRAZE_IO=OFF \
-    -DGRAZE_BUILD_TOOLS=OFF -DGRAZE_BUILD_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+    -DGRAZE_MPI="$mpi" -DGRAZE_BUILD_TOOLS=OFF -DGRAZE_BUILD_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -DCMAKE_UNITY_BUILD="$1" -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 >"$build/log" 2>&1
 }
 
