@@ -11,6 +11,7 @@
 
 #if GRAZE_EXTENSIONS
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a type stands in none
 #define GRAZE_VECTOR(name, number, count) using name [[gnu::vector_size((count) * sizeof(number))]] = number
 #define GRAZE_PICK(condition, first, second) ((condition) ? (first) : (second))
 #define GRAZE_SHUFFLE(first, second, ...) __builtin_shufflevector(first, second, __VA_ARGS__)

@@ -175,7 +175,7 @@ AddObject addition_of(std::shared_ptr<const Mesh> mesh, const ObjectSettings& se
   check_solid(*mesh, settings, who);
   AddObject call{{},       std::make_unique<Surface>(mesh),
                  settings, face_groups_of(indexed(*mesh), settings.face_groups, settings.hidden_groups, who),
-                 {},       mesh};
+                 {},       std::move(mesh)};
   call.self = self_exclusion_of(*call.surface, settings);
   return call;
 }
