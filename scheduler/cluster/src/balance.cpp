@@ -162,109 +162,91 @@ void Rank::take_over_objects(ByteSource& source, SceneContent& content) {
   }
 }
 
-/// Takes up the objects that come, and the rows. Returns the rows that this rank has from now on.
-std::vector<ClusterRow> Rank::take_over(std::span<const Transport::Bytes> messages,
-                                        const std::map<Number, int>& moves, SceneContent& content) {
-  std::vector<ClusterRow> adopted;
+/// Keeps the rows of which no object goes: returns those that this rank has, and notes with which rank the
+/// others are listed.
+std::vector<ClusterRow> Rank::keep_rows(const std::map<Number, int>& moves) {
   listed_with_.clear();
-  const auto moves_some = [&](const ClusterRow& row) {
-    return moves.contains(row.a()) || moves.contains(row.b());
-  };
-  for (const ClusterRow& row : found_)
-    if (!moves_some(row)) adopted.push_back(row);
+  std::vector<ClusterRow> kept;
   for (const ClusterRow& row : rows_)
-    if (!moves_some(row)) {
-      const int rank = rank_of_pair(row.a(), rank_of(row.a()), row.b(), rank_of(row.b()));
-      for (const Number number : {row.a(), row.b()})
-        if (rank != post_.rank() && is_own(number)) listed_with_[rank].insert(number);
-    }
-  for (const Transport::Bytes& bytes : messages) {
-    ByteSource source(bytes);
-    take_over_objects(source, content);
-    while (source.at() < bytes.size()) {
-      MovingRow ranks;
-      source(ranks);
-      take_over_row(ranks, read_row(source), adopted);
-    }
+    if (!moves.contains(row.a()) && !moves.contains(row.b()))
+      take_over_row({rank_of(row.a()), rank_of(row.b())}, row, kept);
+  return kept;
+}
+
+/// Takes up the objects that come, and the rows.
+void Rank::take_over(std::span<const std::byte> message, SceneContent& content,
+                     std::vector<ClusterRow>& rows) {
+  ByteSource source(message);
+  take_over_objects(source, content);
+  while (source.at() < message.size()) {
+    MovingRow ranks;
+    source(ranks);
+    take_over_row(ranks, read_row(source), rows);
   }
-  std::sort(arrived_.begin(), arrived_.end());
-  sort_rows(adopted);
-  return adopted;
 }
 
 /// Brings the ghosts of all pairs that were listed at once, so that the next step finds them in its last
 /// report.
 void Rank::bring_listed(SceneContent& content) {
-  own_.clear();
-  for (const auto& object : store_->objects())
-    if (object->place.offers != 0) own_.push_back(object.get());
-  std::vector<int> others;
-  std::vector<Transport::Bytes> messages;
-  for (int rank = 0; rank < post_.size(); ++rank) {
-    if (rank == post_.rank()) continue;
+  list_own();
+  std::map<int, std::vector<Object*>> ghosts;
+  for (const int rank : others()) {
     std::set<Number> wanted = listed_with_[rank];
     for (const Number number : sender_.ghosts_at(rank)) wanted.insert(number);
-    std::vector<Object*> objects;
-    for (Object* const object : own_)
-      if (wanted.contains(object->serial)) objects.push_back(object);
-    read_unread(objects, content.tasks);
-    ByteBuffer message;
-    sender_.tell(rank, objects, *store_, last_poses_, message);
-    others.push_back(rank);
-    messages.push_back(taken_from(message));
+    ghosts[rank] = own_of(wanted);
   }
-  const auto heard = post_.exchange(&ClusterStatistics::bytes_moves, others, messages);
+  exchange_ghosts(&ClusterStatistics::bytes_moves, others(), ghosts, content.filter, content.tasks);
   (void)sender_.take_mesh_bytes();
-  for (std::size_t i = 0; i < heard.size(); ++i) ghosts_.hear(others[i], heard[i], *store_, content.filter);
-  ghosts_.read(*store_, content.filter, ignored_, content.tasks);
 }
 
-/// A row by the ids of this rank's scene. Of an object that was removed since, its id is a default one.
-ClusterRow Rank::by_own_ids(const ClusterRow& row) const {
-  ClusterRow renamed = row;
-  const auto id = [&](Number number) {
-    const Object* const object = store_->find_serial(number);
-    return object == nullptr ? ObjectId() : object->id;
-  };
-  renamed.pair.a = id(row.a());
-  renamed.pair.b = id(row.b());
-  return renamed;
+std::vector<int> Rank::others() const {
+  std::vector<int> ranks;
+  for (int rank = 0; rank < post_.size(); ++rank)
+    if (rank != post_.rank()) ranks.push_back(rank);
+  return ranks;
 }
 
-bool Rank::balance(double max_imbalance, SceneContent& content, std::unique_ptr<FrameReport>& previous) {
+/// The report of rows by the ids of this rank's scene. Rows of an object that was removed have ended already,
+/// and are left out.
+std::unique_ptr<FrameReport> Rank::report_by_own_ids(std::span<const ClusterRow> rows) const {
+  std::vector<ClusterRow> renamed;
+  for (const ClusterRow& row : rows) {
+    const Object* const a = store_->find_serial(row.a());
+    const Object* const b = store_->find_serial(row.b());
+    if (a == nullptr || b == nullptr) continue;
+    renamed.push_back(row);
+    renamed.back().pair.a = a->id;
+    renamed.back().pair.b = b->id;
+  }
+  return report_of(renamed, stepped_, 0);
+}
+
+std::unique_ptr<FrameReport> Rank::balance(double max_imbalance, SceneContent& content) {
   arrived_.clear();
   departed_.clear();
-  if (!is_unbalanced(max_imbalance)) return false;
+  if (!is_unbalanced(max_imbalance)) return nullptr;
   moved_in_step_ = stepped_;
   const std::map<Number, int> moves = agreed_moves();
-  if (moves.empty()) return false;
+  if (moves.empty()) return nullptr;
   std::vector<ByteBuffer> written(static_cast<std::size_t>(post_.size()));
   write_moving_objects(moves, content.tasks, written);
   write_moving_rows(moves, written);
+  std::vector<ClusterRow> rows = keep_rows(moves);
   for (const auto& [number, to] : moves) leave(number, moves, content.filter);
   store_->sort_ghosts();
-  std::vector<int> others;
-  std::vector<Transport::Bytes> messages;
-  for (int rank = 0; rank < post_.size(); ++rank) {
-    if (rank == post_.rank()) continue;
-    others.push_back(rank);
-    messages.push_back(taken_from(written[static_cast<std::size_t>(rank)]));
-  }
-  std::vector<Transport::Bytes> heard = post_.exchange(&ClusterStatistics::bytes_moves, others, messages);
+  const auto tell = [&](int rank, ByteBuffer& message) {
+    message.append(written[static_cast<std::size_t>(rank)].bytes());
+  };
+  for (const Transport::Bytes& message : post_.exchange(&ClusterStatistics::bytes_moves, others(), tell))
+    take_over(message, content, rows);
   // Rows of which both objects are this rank's from now on.
-  heard.push_back(taken_from(written[static_cast<std::size_t>(post_.rank())]));
-  const std::vector<ClusterRow> adopted = take_over(heard, moves, content);
+  take_over(written[static_cast<std::size_t>(post_.rank())].bytes(), content, rows);
+  std::sort(arrived_.begin(), arrived_.end());
+  sort_rows(rows);
   borders_.forget_all();
   bring_listed(content);
   store_->forget_departed();  // no row that the next step sees is of those
-  std::vector<ClusterRow> rows;
-  for (const ClusterRow& row : adopted) {
-    const ClusterRow renamed = by_own_ids(row);
-    // Rows of an object that was removed have ended already.
-    if (renamed.pair.a != ObjectId() && renamed.pair.b != ObjectId()) rows.push_back(renamed);
-  }
-  previous = report_of(rows, stepped_, 0);
-  return true;
+  return report_by_own_ids(rows);
 }
 
 }  // namespace graze::cluster

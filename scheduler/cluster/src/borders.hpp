@@ -23,6 +23,11 @@ namespace graze::cluster {
 /// PairPlace of an object of rank `of` that is a ghost in rank `here`.
 [[nodiscard]] PairPlace place_of_ghost(Number number, int of, int here);
 
+/// Whether an object of a rank's scene is a ghost.
+[[nodiscard]] inline bool is_ghost(const Object& object) {
+  return object.place.offers == 0;
+}
+
 /// A box of an object that the rank owns, in one step.
 struct OwnBox {
   Number number = 0;
@@ -30,8 +35,8 @@ struct OwnBox {
   FilterTraits traits;
 };
 
-/// What one rank knows of the borders between its objects and those of the others: which boxes others know,
-/// which they have sent, and so which objects have to be ghosts where.
+/// Finds the objects that have to be ghosts in other ranks. Neighbours tell each other the boxes of their
+/// objects, and this class remembers which boxes each side knows.
 class Borders {
  public:
   explicit Borders(int rank) : rank_(rank) {}

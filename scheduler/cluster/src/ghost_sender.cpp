@@ -8,7 +8,7 @@
 namespace graze::cluster {
 namespace {
 
-/// What a ghost has to have of an object's settings. It is not tested against itself, and nobody asks it.
+/// The settings of a ghost. It is not tested against itself, since its own rank does that.
 ObjectSettings settings_of_ghost(const ObjectSettings& own) {
   ObjectSettings settings = own;
   settings.self = false;

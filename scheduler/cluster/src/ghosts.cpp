@@ -160,7 +160,7 @@ void Ghosts::read(ObjectStore& store, PairFilter& filter, const Ignored& ignored
     if (has_input(object)) moved.push_back(&object);
   }
   store.read_ghosts(moved, tasks, none);
-  // Those that stand in this step are taken for seen by the first read.
+  // The first read takes all that have come for seen. New ones are not, so they stand in this step.
   for (Object* const object : new_)
     if (object->sweep != nullptr) object->sweep->kept_step = 0;
   for (const GhostState& state : states_) {

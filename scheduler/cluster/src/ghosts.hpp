@@ -75,7 +75,7 @@ class Ghosts {
 /// Tells other ranks of the objects that they have as ghosts. Stepping thread only.
 class GhostSender {
  public:
-  /// What is told of an object.
+  /// The state of an object as a rank was told it last.
   struct Told {
     std::uint64_t version = 0;
     std::uint64_t mesh_number = 0;
@@ -87,7 +87,7 @@ class GhostSender {
 
   /// Whether a rank has ghosts of this one.
   [[nodiscard]] bool some_at(int rank) const;
-  /// Writes what a rank has to know: `wanted` are the objects of this rank that are to be its ghosts.
+  /// Writes the news for a rank. Its ghosts are to be `wanted`, which are objects of this rank.
   /// `last_poses` says where posed objects stood in the last step, if they are in swept pairs.
   void tell(int rank, std::span<Object* const> wanted, const ObjectStore& store,
             const std::map<Number, std::array<double, 12>>& last_poses, ByteBuffer& message);

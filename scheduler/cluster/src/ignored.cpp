@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "borders.hpp"
+
 namespace graze::cluster {
 namespace {
 
@@ -13,7 +15,7 @@ Object* object_of(Number number, const ObjectStore& store) {
 
 bool is_own(Number number, const ObjectStore& store) {
   const Object* const object = store.find_serial(number);
-  return object != nullptr && object->place.offers != 0;
+  return object != nullptr && !is_ghost(*object);
 }
 
 /// The call with the lower number first.
@@ -22,7 +24,7 @@ Ignored::Call in_order(Ignored::Call call) {
     std::swap(call.a, call.b);
     if (call.groups) std::swap((*call.groups)[0], (*call.groups)[1]);
   }
-  // Of one object the order of the groups does not matter.
+  // The order of two groups of one object does not matter.
   if (call.b == call.a && call.groups) std::sort(call.groups->begin(), call.groups->end());
   return call;
 }

@@ -44,7 +44,7 @@ class Ignored {
       if (!stays(call.a == number ? call.b : call.a)) undo(call);
   }
 
-  /// What is known of an object, as calls.
+  /// The calls that make all that is known of an object.
   [[nodiscard]] std::vector<Call> of(Number number) const;
   /// Takes up a call that another rank knew.
   void learn(const Call& call);

@@ -23,7 +23,7 @@
 #include "recording/chunks.hpp"
 #include "recording/records.hpp"
 
-// What ranks send each other. Objects are named by their numbers, which are Object::serial.
+// The messages of ranks. Objects are named by their numbers, which are Object::serial.
 
 namespace graze::cluster {
 
@@ -34,7 +34,7 @@ inline ObjectId id_of(Number number) {
   return {static_cast<std::uint32_t>(number), 1};
 }
 
-/// What all ranks tell all before they read in a step.
+/// A rank tells it to all others before it reads in a step.
 struct StepNote {
   std::uint64_t settings_hash = 0;  ///< of what all have alike
   std::uint64_t stepped = 0;        ///< frames so far, to find out that ranks do not step together
@@ -43,7 +43,7 @@ struct StepNote {
   bool some_swept = false;
 };
 
-/// What all ranks tell all when they have read.
+/// A rank tells it to all others when it has read.
 struct RankNote {
   std::array<double, 6> extent{};   ///< the box of all boxes of objects that the rank owns. It may be empty
   std::array<double, 6> objects{};  ///< the box of the objects themselves
@@ -108,7 +108,7 @@ struct Move {
   int to = 0;
 };
 
-/// What a message about ghosts has next.
+/// The kinds of news in a message about ghosts.
 enum class GhostNews : std::uint8_t { end, mesh, arrival, replacement, state, departure };
 
 }  // namespace graze::cluster
@@ -167,9 +167,6 @@ inline Box box_of(const std::array<double, 6>& numbers) {
   box.min = {numbers[0], numbers[1], numbers[2]};
   box.max = {numbers[3], numbers[4], numbers[5]};
   return box;
-}
-inline Transport::Bytes taken_from(const ByteBuffer& buffer) {
-  return {buffer.bytes().begin(), buffer.bytes().end()};
 }
 
 }  // namespace graze::cluster

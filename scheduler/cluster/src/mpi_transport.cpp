@@ -102,7 +102,7 @@ class MpiTransport final : public Transport {
  private:
   static constexpr int tag = 1;
 
-  /// Where the bytes of each rank begin. Makes room for all of them.
+  /// Makes room for the bytes of all ranks, and returns where those of each begin.
   static std::vector<int> starts_of(const std::vector<int>& counts, Bytes& all) {
     std::vector<int> starts;
     std::size_t end = 0;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "recording/byte_buffer.hpp"
+
 namespace graze::cluster {
 
 /// A transport that counts what goes through it. Stepping thread only.
@@ -26,10 +28,19 @@ class Post {
     count(kind, given.size() * static_cast<std::size_t>(size() - 1), static_cast<std::size_t>(size() - 1));
     return transport_->all_gather(given);
   }
+  /// Writes a message for each of `ranks` by `write(rank, message)`, and returns what each of them sends.
+  template <typename Write>
   [[nodiscard]] std::vector<Transport::Bytes> exchange(Kind kind, std::span<const int> ranks,
-                                                       std::span<const Transport::Bytes> messages) {
+                                                       const Write& write) {
+    std::vector<Transport::Bytes> messages;
+    messages.reserve(ranks.size());
+    for (const int rank : ranks) {
+      ByteBuffer message;
+      write(rank, message);
+      count(kind, message.size(), 1);
+      messages.emplace_back(message.bytes().begin(), message.bytes().end());
+    }
     const Waiting waiting(statistics);
-    for (const Transport::Bytes& message : messages) count(kind, message.size(), 1);
     return transport_->exchange(ranks, messages);
   }
   [[nodiscard]] std::vector<Transport::Bytes> gather(std::span<const std::byte> given) {

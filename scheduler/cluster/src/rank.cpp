@@ -12,31 +12,37 @@ void Rank::bring(ObjectStore& store, PairFilter& filter, TaskPool& tasks) {
   store_ = &store;
   ghosts_.begin_step();
   ignored_.take_up(store, filter);
-  list_own(filter);
+  list_own();
+  bound_own(filter);
   agree();
   find_neighbours();
   exchange_boxes();
-  exchange_ghosts(filter, tasks);
+  bring_near(filter, tasks);
   keep_poses();
   gone_.clear();
   for (const DepartedObject& departed : store.departed()) gone_.emplace(departed.id, departed.serial);
 }
 
-/// Lists the objects that the rank owns, with the boxes outside of which no pair of theirs can be near.
-void Rank::list_own(const PairFilter& filter) {
+/// Lists the objects that the rank owns.
+void Rank::list_own() {
   own_.clear();
-  boxes_.clear();
-  for (const auto& object : store_->objects()) {
-    if (object->place.offers == 0) continue;
-    own_.push_back(object.get());
+  for (const auto& object : store_->objects())
+    if (!is_ghost(*object)) own_.push_back(object.get());
+}
+
+/// Makes the boxes outside of which no pair of an own object can be near.
+void Rank::bound_own(const PairFilter& filter) {
+  std::vector<OwnBox> boxes;
+  boxes.reserve(own_.size());
+  for (const Object* const object : own_) {
     Box box = object->box;
     if (store_->swept().some() && store_->swept().moves(*object)) box.add(object->sweep->motion.start_box());
     const double reach = filter.half_reaches()[object->settings.kind] + object->settings.margin;
     FilterTraits traits = filter_traits_of(*object);
     traits.place = {};
-    boxes_.push_back({object->serial, grown(box, reach + filter.swept_gap()), traits});
+    boxes.push_back({object->serial, grown(box, reach + filter.swept_gap()), traits});
   }
-  borders_.begin_step(boxes_);
+  borders_.begin_step(boxes);
 }
 
 /// Finds out what all ranks have to agree on before they read. In a scene where an object is swept, the
@@ -108,13 +114,10 @@ void Rank::find_neighbours() {
 }
 
 void Rank::exchange_boxes() {
-  std::vector<Transport::Bytes> messages;
-  for (const int rank : neighbours_) {
-    ByteBuffer message;
+  const auto tell = [&](int rank, ByteBuffer& message) {
     borders_.tell(rank, extents_[static_cast<std::size_t>(rank)], message);
-    messages.push_back(taken_from(message));
-  }
-  const auto heard = post_.exchange(&ClusterStatistics::bytes_boxes, neighbours_, messages);
+  };
+  const auto heard = post_.exchange(&ClusterStatistics::bytes_boxes, neighbours_, tell);
   for (std::size_t i = 0; i < heard.size(); ++i) borders_.hear(neighbours_[i], heard[i]);
 }
 
@@ -124,6 +127,11 @@ std::vector<Object*> Rank::to_be_ghosts_at(int rank) {
   std::set<Number> wanted = borders_.wanted_by(rank);
   if (const auto listed = listed_with_.find(rank); listed != listed_with_.end())
     wanted.insert(listed->second.begin(), listed->second.end());
+  return own_of(wanted);
+}
+
+/// The own objects of these numbers.
+std::vector<Object*> Rank::own_of(const std::set<Number>& wanted) const {
   std::vector<Object*> objects;
   auto next = wanted.begin();
   for (Object* const object : own_) {
@@ -142,24 +150,29 @@ void Rank::read_unread(std::span<Object* const> objects, TaskPool& tasks) {
   if (!wanted.empty()) store_->read_unread(wanted, tasks, problems);
 }
 
-void Rank::exchange_ghosts(PairFilter& filter, TaskPool& tasks) {
-  std::vector<Transport::Bytes> messages;
-  std::vector<std::vector<Object*>> wanted;
-  for (const int rank : neighbours_) {
-    wanted.push_back(to_be_ghosts_at(rank));
-    read_unread(wanted.back(), tasks);
-  }
-  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-    ByteBuffer message;
-    sender_.tell(neighbours_[i], wanted[i], *store_, last_poses_, message);
-    messages.push_back(taken_from(message));
-  }
-  const auto heard = post_.exchange(&ClusterStatistics::bytes_positions, neighbours_, messages);
+/// Tells each rank of its ghosts, and brings those of this rank to where their ranks say. `ghosts` are by
+/// rank. All are read before any is told of, since an object may be a ghost in several ranks.
+void Rank::exchange_ghosts(Post::Kind kind, std::span<const int> ranks,
+                           const std::map<int, std::vector<Object*>>& ghosts, PairFilter& filter,
+                           TaskPool& tasks) {
+  for (const auto& [rank, objects] : ghosts) read_unread(objects, tasks);
+  const auto tell = [&](int rank, ByteBuffer& message) {
+    sender_.tell(rank, ghosts.at(rank), *store_, last_poses_, message);
+  };
+  const auto heard = post_.exchange(kind, ranks, tell);
+  // The messages stay until the ghosts are read, since positions are read from them.
+  for (std::size_t i = 0; i < heard.size(); ++i) ghosts_.hear(ranks[i], heard[i], *store_, filter);
+  ghosts_.read(*store_, filter, ignored_, tasks);
+}
+
+/// Brings the ghosts of all pairs that may be near.
+void Rank::bring_near(PairFilter& filter, TaskPool& tasks) {
+  std::map<int, std::vector<Object*>> ghosts;
+  for (const int rank : neighbours_) ghosts[rank] = to_be_ghosts_at(rank);
+  exchange_ghosts(&ClusterStatistics::bytes_positions, neighbours_, ghosts, filter, tasks);
   const std::uint64_t of_meshes = sender_.take_mesh_bytes();
   post_.statistics.bytes_positions -= of_meshes;
   post_.statistics.bytes_meshes += of_meshes;
-  for (std::size_t i = 0; i < heard.size(); ++i) ghosts_.hear(neighbours_[i], heard[i], *store_, filter);
-  ghosts_.read(*store_, filter, ignored_, tasks);
 }
 
 /// Keeps where posed objects in swept pairs stand, for ranks to which they come in the next step.
@@ -178,40 +191,43 @@ std::optional<Number> Rank::number_of(ObjectId id) const {
 
 bool Rank::is_own(Number number) const {
   const Object* const object = store_->find_serial(number);
-  return object != nullptr && object->place.offers != 0;
+  return object != nullptr && !is_ghost(*object);
 }
 
 void Rank::share_rows(const FrameReport& report) {
   std::map<int, ByteBuffer> for_others;
   found_.clear();
+  places_.clear();
+  listed_with_.clear();
   for (const PairReport& pair : report.pairs()) {
     const Number a = *number_of(pair.a);
     const Number b = *number_of(pair.b);
     const ClusterRow& row = found_.emplace_back(row_of(report, pair, id_of(a), id_of(b)));
-    for (const Number number : {a, b})
-      if (const int rank = ghosts_.rank_of(number); rank >= 0) write_row(for_others[rank], row);
+    for (const Number number : {a, b}) {
+      const int rank = ghosts_.rank_of(number);
+      if (rank < 0) continue;
+      places_[number] = rank;
+      write_row(for_others[rank], row);
+    }
   }
-  std::vector<Transport::Bytes> messages;
-  for (const int rank : neighbours_) messages.push_back(taken_from(for_others[rank]));
-  const auto heard = post_.exchange(&ClusterStatistics::bytes_contacts, neighbours_, messages);
+  const auto tell = [&](int rank, ByteBuffer& message) { message.append(for_others[rank].bytes()); };
+  const auto heard = post_.exchange(&ClusterStatistics::bytes_contacts, neighbours_, tell);
   rows_ = found_;
-  listed_with_.clear();
-  places_.clear();
-  for (const ClusterRow& row : found_)
-    for (const Number number : {row.a(), row.b()})
-      if (const int rank = ghosts_.rank_of(number); rank >= 0) places_[number] = rank;
-  for (std::size_t i = 0; i < heard.size(); ++i) {
-    const std::size_t before = rows_.size();
-    read_rows(heard[i], rows_);
-    for (const ClusterRow& row : std::span(rows_).subspan(before))
-      for (const Number number : {row.a(), row.b()})
-        if (is_own(number))
-          listed_with_[neighbours_[i]].insert(number);
-        else
-          places_[number] = neighbours_[i];
-  }
+  for (std::size_t i = 0; i < heard.size(); ++i) take_up_rows(neighbours_[i], heard[i]);
   sort_rows(rows_);
   count_loads();
+}
+
+/// Takes up the rows that another rank has found with objects of this one.
+void Rank::take_up_rows(int rank, std::span<const std::byte> message) {
+  const std::size_t before = rows_.size();
+  read_rows(message, rows_);
+  for (const ClusterRow& row : std::span(rows_).subspan(before))
+    for (const Number number : {row.a(), row.b()})
+      if (is_own(number))
+        listed_with_[rank].insert(number);
+      else
+        places_[number] = rank;
 }
 
 }  // namespace graze::cluster

@@ -22,8 +22,8 @@
 
 namespace graze::cluster {
 
-/// What a rank does in each step beside its own scene: it tells other ranks of its objects, and brings
-/// theirs. Stepping thread only.
+/// The part of a rank beside its own scene. In each step it tells other ranks of its objects, and brings
+/// theirs as ghosts. Stepping thread only.
 class Rank final : public GhostSource {
  public:
   Rank(Staging& staging, Post& post)
@@ -38,9 +38,8 @@ class Rank final : public GhostSource {
   /// theirs.
   void share_rows(const FrameReport& report);
   /// Lets objects go to other ranks if the load of one is more than that many times the mean. Call it after
-  /// share_rows(). Returns whether any did. Then the next step goes on from `previous`.
-  [[nodiscard]] bool balance(double max_imbalance, SceneContent& content,
-                             std::unique_ptr<FrameReport>& previous);
+  /// share_rows(). If any did, it returns the report that the next step goes on from, and otherwise null.
+  [[nodiscard]] std::unique_ptr<FrameReport> balance(double max_imbalance, SceneContent& content);
   /// The objects that came and went by the last `balance`, by the ids of this rank's scene and their numbers.
   [[nodiscard]] std::span<const std::pair<Number, ObjectId>> arrived() const { return arrived_; }
   [[nodiscard]] std::span<const Number> departed() const { return departed_; }
@@ -54,15 +53,22 @@ class Rank final : public GhostSource {
   [[nodiscard]] Ignored& ignored() { return ignored_; }
 
  private:
-  void list_own(const PairFilter& filter);
+  void list_own();
+  void bound_own(const PairFilter& filter);
   void agree();
   void find_neighbours();
   void exchange_boxes();
   [[nodiscard]] std::vector<Object*> to_be_ghosts_at(int rank);
+  [[nodiscard]] std::vector<Object*> own_of(const std::set<Number>& wanted) const;
   void read_unread(std::span<Object* const> objects, TaskPool& tasks);
-  void exchange_ghosts(PairFilter& filter, TaskPool& tasks);
+  void exchange_ghosts(Post::Kind kind, std::span<const int> ranks,
+                       const std::map<int, std::vector<Object*>>& ghosts, PairFilter& filter,
+                       TaskPool& tasks);
+  void bring_near(PairFilter& filter, TaskPool& tasks);
   void keep_poses();
+  void take_up_rows(int rank, std::span<const std::byte> message);
 
+  // These are in balance.cpp.
   [[nodiscard]] bool is_own(Number number) const;
   void count_loads();
   [[nodiscard]] bool is_unbalanced(double max_imbalance) const;
@@ -71,13 +77,14 @@ class Rank final : public GhostSource {
                             std::vector<ByteBuffer>& messages);
   void write_moving_rows(const std::map<Number, int>& moves, std::vector<ByteBuffer>& messages);
   void leave(Number number, const std::map<Number, int>& moves, PairFilter& filter);
-  [[nodiscard]] std::vector<ClusterRow> take_over(std::span<const Transport::Bytes> messages,
-                                                  const std::map<Number, int>& moves, SceneContent& content);
+  [[nodiscard]] std::vector<ClusterRow> keep_rows(const std::map<Number, int>& moves);
+  void take_over(std::span<const std::byte> message, SceneContent& content, std::vector<ClusterRow>& rows);
   void take_over_objects(ByteSource& source, SceneContent& content);
   void take_over_row(const MovingRow& ranks, ClusterRow row, std::vector<ClusterRow>& adopted);
   void bring_listed(SceneContent& content);
   [[nodiscard]] int rank_of(Number number) const;
-  [[nodiscard]] ClusterRow by_own_ids(const ClusterRow& row) const;
+  [[nodiscard]] std::vector<int> others() const;
+  [[nodiscard]] std::unique_ptr<FrameReport> report_by_own_ids(std::span<const ClusterRow> rows) const;
 
   Staging& staging_;
   Post& post_;
@@ -86,8 +93,7 @@ class Rank final : public GhostSource {
   GhostSender sender_;
   Ignored ignored_;
   ObjectStore* store_ = nullptr;
-  std::vector<Object*> own_;   ///< ascending by number
-  std::vector<OwnBox> boxes_;  ///< of these
+  std::vector<Object*> own_;  ///< ascending by number
   std::uint64_t stepped_ = 0;
   std::uint64_t load_ = 0;    ///< of the last step, in nanoseconds
   std::vector<Box> extents_;  ///< by rank

@@ -48,7 +48,7 @@ auto fields(T& r) {
 namespace graze::cluster {
 namespace {
 
-/// What the fields above name must be all that a row has, but for its places in a report.
+/// The fields above must name all that a row has, but for its places in a report.
 template <typename Row, std::size_t bytes>
 inline constexpr bool has_size = sizeof(Row) == bytes;
 static_assert(has_size<Feature, 8> && has_size<Contact, 112> && has_size<Impact, 48> &&

@@ -57,14 +57,6 @@ std::uint64_t hash_of(SceneSettings settings, const ClusterSettings& cluster) {
   return hash;
 }
 
-std::array<double, 12> rows_of(const Eigen::Isometry3d& pose) {
-  std::array<double, 12> rows;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      rows[static_cast<std::size_t>(4 * row + column)] = pose.matrix()(row, column);
-  return rows;
-}
-
 /// The message of a diagnostic, which names the object as callers know it.
 std::string renamed(std::string message, ObjectId from, ObjectId to) {
   const std::string name = number_of(from);
@@ -87,10 +79,6 @@ void translate(const FrameReport& report, const Rank& rank, std::vector<Diagnost
     }
     diagnostics.push_back(std::move(diagnostic));
   }
-}
-
-void write(ByteBuffer& buffer, const std::vector<Diagnostic>& diagnostics) {
-  write_fields(buffer, diagnostics);
 }
 
 }  // namespace
@@ -167,8 +155,8 @@ class Scene::State {
   std::vector<Diagnostic> diagnostics;  ///< of the last step
   std::uint64_t frame = 0;
   std::uint64_t tag = 0;
-  ObjectSettings swept{.layer = 0,
-                       .collides_with = 0};  ///< of all objects that were added. The mutex guards it
+  /// The layers and masks of all swept objects that were added. The mutex guards it.
+  ObjectSettings swept{.layer = 0, .collides_with = 0};
 };
 
 Report Scene::State::step(std::uint64_t with_tag) {
@@ -206,8 +194,8 @@ void Scene::State::take_moves() {
   departed.clear();
   if (!cluster.max_imbalance) return;
   const FloatingPointScope scope;
-  std::unique_ptr<FrameReport> previous;
-  if (!rank.balance(*cluster.max_imbalance, stepper.content(), previous)) return;
+  std::unique_ptr<FrameReport> previous = rank.balance(*cluster.max_imbalance, stepper.content());
+  if (previous == nullptr) return;
   stepper.go_on_from(std::move(previous));
   const std::lock_guard lock(mutex);
   for (const Number number : rank.departed()) {
@@ -226,8 +214,7 @@ Report Scene::State::gather() {
   ByteBuffer given;
   ByteBuffer rows;
   for (const ClusterRow& row : rank.found()) write_row(rows, row);
-  write(given, diagnostics);
-  write_fields(given, std::uint64_t{rows.size()});
+  write_fields(given, diagnostics, std::uint64_t{rows.size()});
   given.append(rows.bytes());
   const auto all = post.gather(given.bytes());
   if (all.empty()) return nullptr;
@@ -319,9 +306,6 @@ ObjectSettings Scene::object_settings(ObjectId object) const {
   return named ? named->settings : ObjectSettings();
 }
 
-void Scene::set_pose(ObjectId object, const Eigen::Isometry3d& pose) {
-  set_pose_rows(object, rows_of(pose));
-}
 void Scene::set_pose_rows(ObjectId object, const std::array<double, 12>& rows) {
   state_->if_own(object, [&](ObjectId id) { state_->staging.set_pose(id, rows); });
 }
@@ -381,7 +365,7 @@ Report Scene::step(std::uint64_t tag) {
 }
 
 Report Scene::gather() {
-  return state_->gather();
+  return state_->or_fail([&] { return state_->gather(); });
 }
 const ClusterStatistics& Scene::statistics() const {
   return state_->post.statistics;

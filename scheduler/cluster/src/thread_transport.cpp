@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = Transport::Bytes;
 
-/// What the threads share: for each pair of ranks the messages on their way, in the order of sending.
+/// The messages on their way between threads, for each pair of ranks in the order of sending.
 class Mailboxes {
  public:
   explicit Mailboxes(int size) : size_(size), boxes_(static_cast<std::size_t>(size * size)) {}

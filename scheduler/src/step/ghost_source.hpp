@@ -1,8 +1,5 @@
 #pragma once
 
-#include <graze/report.hpp>
-#include <vector>
-
 #include "base/task_pool.hpp"
 #include "objects/object_store.hpp"
 #include "pairs/pair_filter.hpp"

@@ -335,36 +335,32 @@ std::vector<std::string> texts_of(const FrameReport& report) {
 namespace {
 
 /// A transport that takes its time, another one for each message.
-class LateTransport final : public cluster::Transport {
+class LateTransport final : public ForwardingTransport {
  public:
   explicit LateTransport(std::shared_ptr<Transport> transport)
-      : transport_(std::move(transport)), random_(static_cast<std::uint64_t>(transport_->rank())) {}
+      : ForwardingTransport(std::move(transport)), random_(static_cast<std::uint64_t>(rank())) {}
 
-  [[nodiscard]] int rank() const override { return transport_->rank(); }
-  [[nodiscard]] int size() const override { return transport_->size(); }
   [[nodiscard]] std::vector<Bytes> all_gather(std::span<const std::byte> given) override {
     pause();
-    return transport_->all_gather(given);
+    return ForwardingTransport::all_gather(given);
   }
   [[nodiscard]] std::vector<Bytes> gather(std::span<const std::byte> given) override {
     pause();
-    return transport_->gather(given);
+    return ForwardingTransport::gather(given);
   }
   void sum(std::span<std::uint64_t> numbers) override {
     pause();
-    transport_->sum(numbers);
+    ForwardingTransport::sum(numbers);
   }
   [[nodiscard]] std::vector<Bytes> exchange(std::span<const int> ranks,
                                             std::span<const Bytes> messages) override {
     pause();
-    return transport_->exchange(ranks, messages);
+    return ForwardingTransport::exchange(ranks, messages);
   }
-  void fail(const std::string& why) noexcept override { transport_->fail(why); }
 
  private:
   void pause() { std::this_thread::sleep_for(std::chrono::microseconds(random_.below(2000))); }
 
-  std::shared_ptr<Transport> transport_;
   scenes::Random random_;
 };
 
@@ -391,8 +387,6 @@ Played played_by_cluster(const PlaySettings& settings, std::span<const std::vect
         const cluster::ClusterStatistics& of_step = rank.scene.statistics();
         played.sum.ghosts += of_step.ghosts;
         played.sum.arrivals += of_step.arrivals;
-        played.sum.bytes_contacts += of_step.bytes_contacts;
-        played.sum.bytes_moves += of_step.bytes_moves;
       }
     } catch (const std::exception& problem) {
       const std::lock_guard lock(mutex);

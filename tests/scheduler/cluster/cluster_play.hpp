@@ -45,7 +45,7 @@ struct ClusterCall {
   PairRule rule = {};
 };
 
-/// What a play has of each kind.
+/// Says how many objects and frames a play has, and of which kinds.
 struct PlaySettings {
   SceneSettings scene;
   std::uint64_t seed = 1;
@@ -67,7 +67,31 @@ struct PlaySettings {
 [[nodiscard]] std::vector<std::vector<std::string>> played_by_one(
     const PlaySettings& settings, std::span<const std::vector<ClusterCall>> frames);
 
-/// What a rank does in a play.
+/// A transport that hands all to another one.
+class ForwardingTransport : public cluster::Transport {
+ public:
+  explicit ForwardingTransport(std::shared_ptr<Transport> transport) : transport_(std::move(transport)) {}
+
+  [[nodiscard]] int rank() const final { return transport_->rank(); }
+  [[nodiscard]] int size() const final { return transport_->size(); }
+  [[nodiscard]] std::vector<Bytes> all_gather(std::span<const std::byte> given) override {
+    return transport_->all_gather(given);
+  }
+  [[nodiscard]] std::vector<Bytes> gather(std::span<const std::byte> given) override {
+    return transport_->gather(given);
+  }
+  void sum(std::span<std::uint64_t> numbers) override { transport_->sum(numbers); }
+  [[nodiscard]] std::vector<Bytes> exchange(std::span<const int> ranks,
+                                            std::span<const Bytes> messages) override {
+    return transport_->exchange(ranks, messages);
+  }
+  void fail(const std::string& why) noexcept final { transport_->fail(why); }
+
+ private:
+  std::shared_ptr<Transport> transport_;
+};
+
+/// A rank that takes part in a play.
 class PlayingRank {
  public:
   PlayingRank(const PlaySettings& settings, std::shared_ptr<cluster::Transport> transport,
@@ -89,7 +113,7 @@ class PlayingRank {
 /// The rows of a report as text, and its diagnostics.
 [[nodiscard]] std::vector<std::string> texts_of(const FrameReport& report);
 
-/// What the ranks of a cluster say, as text.
+/// The texts of all reports of a cluster.
 struct Played {
   std::vector<std::vector<std::string>> gathered;              ///< by frame
   std::vector<std::vector<std::vector<std::string>>> by_rank;  ///< by rank and frame

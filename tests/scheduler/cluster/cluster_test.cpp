@@ -71,6 +71,18 @@ void require_same_plays(const PlaySettings& settings, int most_ranks = 4) {
   }
 }
 
+/// Lets threads work as ranks, and returns for each what Error it has thrown.
+template <typename Work>
+std::vector<std::string> problems_of(int ranks, const Work& work) {
+  const auto transports = cluster::thread_transports(ranks);
+  std::vector<std::string> problems(transports.size());
+  std::vector<std::thread> threads;
+  for (std::size_t rank = 0; rank < transports.size(); ++rank)
+    threads.emplace_back([&, rank] { problems[rank] = error_of([&] { work(rank, transports[rank]); }); });
+  for (std::thread& thread : threads) thread.join();
+  return problems;
+}
+
 PlaySettings play_of(std::uint64_t seed, ContactDetail detail) {
   PlaySettings settings;
   settings.seed = seed;
@@ -186,15 +198,10 @@ TEST_CASE("cluster: the first swept object sweeps objects of other ranks in its 
 }
 
 TEST_CASE("cluster: ranks with different settings are found out") {
-  const auto transports = cluster::thread_transports(2);
-  std::array<std::string, 2> problems;
-  std::vector<std::thread> threads;
-  for (std::size_t rank = 0; rank < 2; ++rank)
-    threads.emplace_back([&, rank] {
-      cluster::Scene scene({.contact_distance = rank == 0 ? 0.1 : 0.2}, transports[rank]);
-      problems[rank] = error_of([&] { (void)scene.step(); });
-    });
-  for (std::thread& thread : threads) thread.join();
+  const auto problems = problems_of(2, [](std::size_t rank, std::shared_ptr<cluster::Transport> transport) {
+    cluster::Scene scene({.contact_distance = rank == 0 ? 0.1 : 0.2}, transport);
+    (void)scene.step();
+  });
   for (const std::string& problem : problems)
     CHECK(problem.find("the ranks of a cluster have different settings") != std::string::npos);
 }
@@ -257,38 +264,45 @@ TEST_CASE("cluster: what it does not offer is refused") {
 }
 
 TEST_CASE("cluster: a rank that fails ends the steps of all") {
-  const auto transports = cluster::thread_transports(3);
-  std::array<std::string, 3> problems;
-  std::vector<std::thread> threads;
-  for (std::size_t rank = 0; rank < 3; ++rank)
-    threads.emplace_back([&, rank] {
-      cluster::Scene scene({}, transports[rank]);
-      problems[rank] = error_of([&] {
-        for (int frame = 0; frame < 5; ++frame) {
-          if (frame == 3 && rank == 1) transports[rank]->fail("has no more to say");
-          if (frame == 3 && rank == 1) return;
-          (void)scene.step();
-        }
-      });
-    });
-  for (std::thread& thread : threads) thread.join();
+  const auto problems = problems_of(3, [](std::size_t rank, std::shared_ptr<cluster::Transport> transport) {
+    cluster::Scene scene({}, transport);
+    for (int frame = 0; frame < 5; ++frame) {
+      if (frame == 3 && rank == 1) return transport->fail("has no more to say");
+      (void)scene.step();
+    }
+  });
   CHECK(problems[0] == "rank 1 has no more to say");
   CHECK(problems[1] == "");
   CHECK(problems[2] == "rank 1 has no more to say");
 }
 
+TEST_CASE("cluster: a rank that cannot gather tells the others") {
+  /// Has no room for what others send.
+  class Narrow final : public ForwardingTransport {
+   public:
+    using ForwardingTransport::ForwardingTransport;
+    [[nodiscard]] std::vector<Bytes> gather(std::span<const std::byte>) override {
+      throw Error("there is no room for the rows of all");
+    }
+  };
+  const auto problems = problems_of(2, [](std::size_t rank, std::shared_ptr<cluster::Transport> transport) {
+    if (rank == 0) transport = std::make_shared<Narrow>(transport);
+    cluster::Scene scene({}, transport);
+    (void)scene.step();
+    (void)scene.gather();
+    (void)scene.step();
+  });
+  CHECK(problems[0] == "there is no room for the rows of all");
+  CHECK(problems[1] == "rank 0 failed: there is no room for the rows of all");
+}
+
 TEST_CASE("cluster: two objects of one number near each other are found out") {
-  const auto transports = cluster::thread_transports(2);
-  std::array<std::string, 2> problems;
-  std::vector<std::thread> threads;
-  for (std::size_t rank = 0; rank < 2; ++rank)
-    threads.emplace_back([&, rank] {
-      cluster::Scene scene({}, transports[rank]);
-      for (std::uint32_t number = 0; number < 4; ++number)
-        if (number != 1 || rank == 0) scene.add(number, plate_mesh());
-      problems[rank] = error_of([&] { (void)scene.step(); });
-    });
-  for (std::thread& thread : threads) thread.join();
+  const auto problems = problems_of(2, [](std::size_t rank, std::shared_ptr<cluster::Transport> transport) {
+    cluster::Scene scene({}, transport);
+    for (std::uint32_t number = 0; number < 4; ++number)
+      if (number != 1 || rank == 0) scene.add(number, plate_mesh());
+    (void)scene.step();
+  });
   CHECK((problems[0] + problems[1]).find("two ranks own an object of number") != std::string::npos);
 }
 

@@ -31,6 +31,12 @@ class DriftingBodies {
 
   [[nodiscard]] std::size_t object_count() const { return bodies_.size(); }
   [[nodiscard]] const SceneSettings& settings() const { return settings_; }
+  /// The settings for so many threads.
+  [[nodiscard]] SceneSettings settings_with(unsigned threads) const {
+    SceneSettings settings = settings_;
+    settings.threads = threads;
+    return settings;
+  }
   [[nodiscard]] std::size_t position_bytes() const { return positions_.size() * sizeof(float); }
 
   /// The positions of all bodies, x, y and z of each vertex, body by body.

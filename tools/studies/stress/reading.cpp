@@ -117,7 +117,7 @@ class PlainLoop {
 class ReadScene {
  public:
   ReadScene(const ReadingCase& kind, const DriftingBodies& world, unsigned threads)
-      : scene_(settings_of(world, threads)) {
+      : scene_(world.settings_with(threads)) {
     if (!kind.is_copied) {
       world.add_to(scene_);
       return;
@@ -146,12 +146,6 @@ class ReadScene {
   [[nodiscard]] std::uint64_t hash() const { return hash_.value(); }
 
  private:
-  static SceneSettings settings_of(const DriftingBodies& world, unsigned threads) {
-    SceneSettings settings = world.settings();
-    settings.threads = threads;
-    return settings;
-  }
-
   Scene scene_;
   std::vector<ObjectId> ids_;
   std::vector<PositionView> views_;

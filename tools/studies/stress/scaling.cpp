@@ -14,7 +14,7 @@ namespace {
 /// One of the two scenes, and what its steps took.
 class TimedScene {
  public:
-  TimedScene(const DriftingBodies& world, unsigned threads) : scene_(settings_of(world, threads)) {
+  TimedScene(const DriftingBodies& world, unsigned threads) : scene_(world.settings_with(threads)) {
     world.add_to(scene_);
   }
 
@@ -46,12 +46,6 @@ class TimedScene {
   [[nodiscard]] const StepStatistics& statistics() const { return statistics_; }
 
  private:
-  static SceneSettings settings_of(const DriftingBodies& world, unsigned threads) {
-    SceneSettings settings = world.settings();
-    settings.threads = threads;
-    return settings;
-  }
-
   Scene scene_;
   scenes::ReportHash hash_;
   StepStatistics statistics_;

@@ -32,15 +32,14 @@ using Report = std::shared_ptr<const FrameReport>;
 /// docs/cluster.md says how it works.
 ///
 /// @par The same answers
-/// With Accuracy::exact() and Accuracy::paper(), the rows of all ranks together are those that one
-/// graze::Scene has, bit for bit, to which the same objects are added in the order of their numbers. With
+/// All ranks together have the rows of one graze::Scene, to which the same objects are added in the order of
+/// their numbers. With Accuracy::exact() and Accuracy::paper() they are the same bit for bit. With
 /// Accuracy::within() bounds may differ, and the true distance lies between either two.
 ///
 /// @par Which rank calls
 /// Calls about an object count at the rank that owns it, and are passed over at all other ranks. So a program
-/// may make each call at the owner alone, or at every rank alike. ignore() and watch() are made at every rank
-/// that owns one of the objects, and set_rule() at every rank. step() and gather() are made by all ranks
-/// together.
+/// may make each call at the owner alone, or at every rank alike. Every rank that owns one of two objects
+/// calls ignore() and watch() about them. Every rank calls set_rule(), step() and gather().
 ///
 /// @par Threads
 /// Calls but step(), gather() and the destructor may come from any thread, and not while a step runs. A call
@@ -110,7 +109,14 @@ class GRAZE_API Scene {
   /// @{
 
   /// Places a rigid or fixed object.
-  void set_pose(ObjectId object, const Eigen::Isometry3d& pose);
+  void set_pose(ObjectId object, const Eigen::Isometry3d& pose) {
+    // Inline, because what Eigen aligns depends on the compiler flags of the caller.
+    std::array<double, 12> rows;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column)
+        rows[static_cast<std::size_t>(4 * row + column)] = pose.matrix()(row, column);
+    set_pose_rows(object, rows);
+  }
   /// Places a rigid or fixed object by the upper three rows of its matrix.
   void set_pose_rows(ObjectId object, const std::array<double, 12>& rows);
   /// Places a rigid or fixed object by a jump.

@@ -17,7 +17,7 @@ struct ClusterSettings {
   std::optional<double> max_imbalance = std::nullopt;
 };
 
-/// What a rank has done in one step for others, and what it has waited.
+/// The cost of one step at one rank: what it has sent to others, and how long it has waited.
 struct ClusterStatistics {
   std::uint64_t objects = 0;          ///< that this rank has owned in this step
   std::uint64_t ghosts = 0;           ///< copies of objects of other ranks
